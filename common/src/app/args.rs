@@ -1,0 +1,104 @@
+//! The command line, the same for every sample.
+
+use std::path::PathBuf;
+
+use ash::vk;
+use clap::Parser;
+
+use crate::usage::Usage;
+
+/// What a sample was asked to do.
+#[derive(Clone, Debug, Parser)]
+#[command(disable_version_flag = true)]
+pub struct Args {
+    /// Render without a window, write what is asked for, and exit
+    #[arg(long)]
+    pub headless: bool,
+
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size)]
+    pub size: vk::Extent2D,
+
+    /// Frames to render headless; the last one is the picture
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: u32,
+
+    /// Write the last frame: .png (8-bit sRGB) or .exr (linear, unclamped)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+
+    /// Write device, times, stages and messages as JSON; - is standard output
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+
+    /// Set a control, as its name and a value; repeatable
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub sets: Vec<(String, String)>,
+
+    /// Print the controls: name, kind, possible values, value
+    #[arg(long)]
+    pub list_controls: bool,
+
+    /// Use this device: a number of --list-devices or a part of its name
+    #[arg(long, value_name = "N|NAME")]
+    pub device: Option<String>,
+
+    /// Print the devices and what each lacks
+    #[arg(long)]
+    pub list_devices: bool,
+
+    /// Run under validation and synchronization validation; a message fails the run
+    #[arg(long)]
+    pub validate: bool,
+
+    /// Open this model instead of the chapter's own
+    #[arg(long, value_name = "FILE.obj")]
+    pub scene: Option<PathBuf>,
+
+    /// Build acceleration structures in the model's order instead of a spatial one
+    #[arg(long)]
+    pub unordered: bool,
+}
+
+impl Args {
+    /// Parses the process's arguments.
+    ///
+    /// Prints the help and ends the process if that is asked for.
+    ///
+    /// # Errors
+    /// One line that says what is wrong and where to look.
+    pub fn parse_for(name: &'static str) -> Result<Self, Usage> {
+        use clap::{CommandFactory, FromArgMatches};
+        let command = Self::command().name(name);
+        let matches = command.try_get_matches().and_then(|m| Self::from_arg_matches(&m));
+        matches.map_err(|error| {
+            if !error.use_stderr() {
+                error.exit();
+            }
+            // clap spreads an error over a paragraph; its first block says it all.
+            let text = error.to_string();
+            let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+            let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
+            Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
+        })
+    }
+}
+
+fn size(text: &str) -> Result<vk::Extent2D, String> {
+    let sides = text.split_once('x').map(|(w, h)| (w.parse::<u32>(), h.parse::<u32>()));
+    match sides {
+        Some((Ok(width), Ok(height))) if width > 0 && height > 0 => {
+            Ok(vk::Extent2D { width, height })
+        }
+        _ => Err("a size is two whole numbers of at least 1, such as 640x400".to_owned()),
+    }
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("a setting is a name and a value, such as \"light elevation=30\"".to_owned()),
+    }
+}

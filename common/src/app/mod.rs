@@ -1,0 +1,148 @@
+//! A program around a sample: arguments, controls, a headless run or a window, picture and report.
+
+mod args;
+pub mod controls;
+mod headless;
+mod picture;
+mod report;
+
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ash::vk;
+
+pub use args::Args;
+pub use controls::Controls;
+pub use headless::headless;
+pub use picture::{Format, Picture};
+pub use report::{Milliseconds, Report};
+
+/// Compiles a shader below `shaders/` to SPIR-V; for 01, which may use nothing of `gpu`.
+pub use crate::gpu::shader::compile as compile_shader;
+
+use crate::gpu::{self, Gpu, Image, Requirements};
+use crate::scene::Scene;
+use crate::usage::Usage;
+
+/// One chapter's program. The order of the items is the order of every chapter's `main.rs`.
+pub trait Sample: Sized {
+    /// Features and extensions to ask for: the baseline, unless a chapter needs more.
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing()
+    }
+
+    /// Makes everything that lasts: scene, pipeline, shader binding table.
+    ///
+    /// # Errors
+    /// If the device or a file is not up to it.
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self>;
+
+    /// Declares the controls.
+    fn controls(&mut self, controls: &mut Controls);
+
+    /// Records one frame into `frame.cmd`, writing `frame.image`.
+    ///
+    /// # Errors
+    /// If something has to be rebuilt and cannot be.
+    fn render(&mut self, frame: &Frame) -> Result<()>;
+
+    /// What the chapter itself has to tell after the last frame; part of `--report`.
+    ///
+    /// # Errors
+    /// If it cannot be read back.
+    fn report(&self) -> Result<serde_json::Value> {
+        Ok(serde_json::Value::Null)
+    }
+}
+
+/// What a sample is made with.
+pub struct Setup {
+    /// Order primitives and instances in space before builds; off under `--unordered`.
+    pub ordering: bool,
+    scene: Option<PathBuf>,
+    scene_taken: Cell<bool>,
+}
+
+impl Setup {
+    /// The setup that arguments ask for.
+    pub fn new(args: &Args) -> Self {
+        Self { ordering: !args.unordered, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+    }
+
+    /// The scene that `--scene` names, else the chapter's own.
+    ///
+    /// # Errors
+    /// If a file is missing or wrong.
+    pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
+        self.scene_taken.set(true);
+        match &self.scene {
+            Some(path) => Scene::open(path),
+            None => own(),
+        }
+    }
+
+    /// Fails if a scene was given to a sample that takes none.
+    fn check(&self) -> Result<(), Usage> {
+        if self.scene.is_some() && !self.scene_taken.get() {
+            return Err(Usage("this chapter brings its own scene and takes no --scene".to_owned()));
+        }
+        Ok(())
+    }
+}
+
+/// What a frame is rendered with.
+pub struct Frame<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// Where commands are recorded.
+    pub cmd: vk::CommandBuffer,
+    /// Where the picture goes: linear RGBA, four 32-bit floats, layout `GENERAL`.
+    pub image: &'a Image,
+    /// Frames since anything changed: 0 is the first after a start, a resize or a moved control.
+    pub index: u32,
+}
+
+impl Frame<'_> {
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.image.extent.width) / f64::from(self.image.extent.height)
+    }
+}
+
+/// Runs a sample as a program: reads the arguments, renders, and turns errors into one line.
+///
+/// Exit codes: 0 done, 1 failed, 2 wrong arguments.
+pub fn run<S: Sample>(name: &'static str) -> ExitCode {
+    finish(Args::parse_for(name).map_err(Into::into).and_then(|args| start::<S>(name, &args)))
+}
+
+/// The exit code of a program that ended with `result`; an error is printed as one line.
+pub fn finish(result: Result<()>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    let line = format!("{error:#}").replace('\n', " ");
+    eprintln!("error: {line}");
+    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}
+
+fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
+    if args.list_devices {
+        return list_devices(&S::requirements());
+    }
+    if args.headless || args.list_controls {
+        return headless::<S>(name, args);
+    }
+    Err(Usage("no window yet: add --headless".to_owned()).into())
+}
+
+/// Prints every device with its driver, and what it lacks.
+///
+/// # Errors
+/// If there is no Vulkan.
+pub fn list_devices(requirements: &Requirements) -> Result<()> {
+    for line in gpu::device_lines(requirements)? {
+        println!("{line}");
+    }
+    Ok(())
+}

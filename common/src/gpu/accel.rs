@@ -1,0 +1,394 @@
+//! Acceleration structures: bottom levels of triangles or boxes, top levels of instances.
+//!
+//! A build needs three sizes from the driver (structure, build scratch, update scratch), a buffer for
+//! the structure and one for the scratch. Compaction copies a structure into a buffer of the size that
+//! it turned out to need; an update moves primitives without changing which there are.
+
+use std::time::Instant;
+
+use anyhow::{Context, Result, ensure};
+use ash::vk;
+
+use super::{Buffer, Gpu, barrier};
+
+/// What a bottom level is built from.
+#[derive(Clone, Copy)]
+pub enum Geometry {
+    /// Indexed triangles: three `u32` each, over positions of three `f32`.
+    Triangles {
+        /// Address of the first position.
+        vertices: vk::DeviceAddress,
+        /// Bytes from one position to the next.
+        vertex_stride: u64,
+        /// How many positions there are.
+        vertex_count: u32,
+        /// Address of the first index.
+        indices: vk::DeviceAddress,
+        /// How many triangles there are.
+        count: u32,
+        /// Never call an any-hit shader for it.
+        opaque: bool,
+    },
+    /// Axis-aligned boxes for an intersection shader: six `f32` each, the low corner first.
+    Aabbs {
+        /// Address of the first box.
+        boxes: vk::DeviceAddress,
+        /// How many boxes there are.
+        count: u32,
+        /// Never call an any-hit shader for it.
+        opaque: bool,
+    },
+}
+
+/// What a build may cost and allow later.
+#[derive(Clone, Copy, Default)]
+pub struct BuildOptions {
+    /// Allow [`AccelerationStructure::update`].
+    pub updatable: bool,
+    /// Copy the result into a buffer of just the size it needs.
+    pub compact: bool,
+}
+
+/// A `VkAccelerationStructureKHR` of either level with its buffer, freed on drop.
+pub struct AccelerationStructure {
+    /// The Vulkan handle.
+    pub handle: vk::AccelerationStructureKHR,
+    /// What an instance names a bottom level by.
+    pub address: vk::DeviceAddress,
+    /// Bytes of its buffer.
+    pub size: u64,
+    name: String,
+    updatable: bool,
+    update_scratch: u64,
+    _buffer: Buffer,
+    gpu: Gpu,
+}
+
+impl AccelerationStructure {
+    /// Builds a bottom level from geometries, whose order is their `gl_GeometryIndexEXT`.
+    ///
+    /// # Errors
+    /// If there are more primitives than the device allows, or memory is short.
+    pub fn bottom(
+        gpu: &Gpu,
+        name: &str,
+        input: &[Geometry],
+        options: BuildOptions,
+    ) -> Result<Self> {
+        let geometries: Vec<_> = input.iter().map(geometry).collect();
+        let counts: Vec<u32> = input
+            .iter()
+            .map(|&(Geometry::Triangles { count, .. } | Geometry::Aabbs { count, .. })| count)
+            .collect();
+        let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let limit = gpu.limits.max_primitive_count;
+        ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
+        let level = vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL;
+        let built = Self::build(gpu, name, level, &geometries, &counts, options)?;
+        if options.compact { built.compacted(level) } else { Ok(built) }
+    }
+
+    /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
+    ///
+    /// The bottom levels that the instances name must stay alive as long as it is traced.
+    ///
+    /// # Errors
+    /// As [`AccelerationStructure::bottom`].
+    pub fn top(
+        gpu: &Gpu,
+        name: &str,
+        instances: &Buffer,
+        count: u32,
+        options: BuildOptions,
+    ) -> Result<Self> {
+        let limit = gpu.limits.max_instance_count;
+        ensure!(
+            u64::from(count) <= limit,
+            "'{name}' has {count} instances; {} takes {limit}",
+            gpu.name
+        );
+        let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
+        Self::build(gpu, name, level, &[instance_geometry(instances.address)], &[count], options)
+    }
+
+    /// Moves the primitives of a bottom level that was built `updatable`, recording into `cmd`.
+    ///
+    /// `input` must have the shape of the build: only positions and boxes may differ. `scratch` must
+    /// live until the commands are done.
+    ///
+    /// # Errors
+    /// If the structure is not updatable.
+    pub fn update_bottom(
+        &self,
+        cmd: vk::CommandBuffer,
+        input: &[Geometry],
+        scratch: &Buffer,
+    ) -> Result<()> {
+        let geometries: Vec<_> = input.iter().map(geometry).collect();
+        let counts: Vec<u32> = input
+            .iter()
+            .map(|&(Geometry::Triangles { count, .. } | Geometry::Aabbs { count, .. })| count)
+            .collect();
+        let level = vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL;
+        self.update(cmd, level, &geometries, &counts, scratch)
+    }
+
+    /// Moves the instances of a top level that was built `updatable`, recording into `cmd`.
+    ///
+    /// # Errors
+    /// As [`AccelerationStructure::update_bottom`].
+    pub fn update_top(
+        &self,
+        cmd: vk::CommandBuffer,
+        instances: &Buffer,
+        count: u32,
+        scratch: &Buffer,
+    ) -> Result<()> {
+        let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
+        self.update(cmd, level, &[instance_geometry(instances.address)], &[count], scratch)
+    }
+
+    /// A scratch buffer for updates.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn update_scratch(&self) -> Result<Buffer> {
+        scratch_buffer(&self.gpu, self.update_scratch)
+    }
+
+    fn update(
+        &self,
+        cmd: vk::CommandBuffer,
+        level: vk::AccelerationStructureTypeKHR,
+        geometries: &[vk::AccelerationStructureGeometryKHR],
+        counts: &[u32],
+        scratch: &Buffer,
+    ) -> Result<()> {
+        ensure!(self.updatable, "'{}' was not built to be updated", self.name);
+        let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
+            .ty(level)
+            .flags(flags(BuildOptions { updatable: true, compact: false }))
+            .mode(vk::BuildAccelerationStructureModeKHR::UPDATE)
+            .geometries(geometries)
+            .src_acceleration_structure(self.handle)
+            .dst_acceleration_structure(self.handle)
+            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
+        record_build(&self.gpu, cmd, info, counts);
+        Ok(())
+    }
+
+    fn build(
+        gpu: &Gpu,
+        name: &str,
+        level: vk::AccelerationStructureTypeKHR,
+        geometries: &[vk::AccelerationStructureGeometryKHR],
+        counts: &[u32],
+        options: BuildOptions,
+    ) -> Result<Self> {
+        let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
+            .ty(level)
+            .flags(flags(options))
+            .mode(vk::BuildAccelerationStructureModeKHR::BUILD)
+            .geometries(geometries);
+        let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
+        // SAFETY: info and counts describe the same geometries.
+        unsafe {
+            gpu.acceleration_structure.get_acceleration_structure_build_sizes(
+                vk::AccelerationStructureBuildTypeKHR::DEVICE,
+                &info,
+                counts,
+                &mut sizes,
+            );
+        }
+        let mut built = Self::empty(gpu, name, level, sizes.acceleration_structure_size)?;
+        built.updatable = options.updatable;
+        built.update_scratch = sizes.update_scratch_size;
+        let scratch = scratch_buffer(gpu, sizes.build_scratch_size)?;
+        let info = info
+            .dst_acceleration_structure(built.handle)
+            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
+        let start = Instant::now();
+        gpu.submit(|cmd| {
+            record_build(gpu, cmd, info, counts);
+            Ok(())
+        })
+        .with_context(|| format!("cannot build '{name}'"))?;
+        gpu.count(|statistics| {
+            statistics.build_time += start.elapsed();
+            statistics.acceleration_structure_bytes += built.size;
+        });
+        Ok(built)
+    }
+
+    fn empty(
+        gpu: &Gpu,
+        name: &str,
+        level: vk::AccelerationStructureTypeKHR,
+        size: u64,
+    ) -> Result<Self> {
+        let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
+            | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+        // An acceleration structure's offset in memory must be a multiple of 256 bytes.
+        let buffer = Buffer::aligned(gpu, name, size, usage, 256)?;
+        let info = vk::AccelerationStructureCreateInfoKHR::default()
+            .ty(level)
+            .buffer(buffer.handle)
+            .size(size);
+        // SAFETY: the buffer is large enough and lives beside the structure.
+        let handle =
+            unsafe { gpu.acceleration_structure.create_acceleration_structure(&info, None)? };
+        let info =
+            vk::AccelerationStructureDeviceAddressInfoKHR::default().acceleration_structure(handle);
+        // SAFETY: the structure is alive.
+        let address =
+            unsafe { gpu.acceleration_structure.get_acceleration_structure_device_address(&info) };
+        gpu.name_object(handle, name);
+        Ok(Self {
+            handle,
+            address,
+            size,
+            name: name.to_owned(),
+            updatable: false,
+            update_scratch: 0,
+            _buffer: buffer,
+            gpu: gpu.clone(),
+        })
+    }
+
+    fn compacted(self, level: vk::AccelerationStructureTypeKHR) -> Result<Self> {
+        let gpu = &self.gpu;
+        let size = self.compacted_size()?;
+        let mut small = Self::empty(gpu, &self.name, level, size)?;
+        small.updatable = self.updatable;
+        small.update_scratch = self.update_scratch;
+        let info = vk::CopyAccelerationStructureInfoKHR::default()
+            .src(self.handle)
+            .dst(small.handle)
+            .mode(vk::CopyAccelerationStructureModeKHR::COMPACT);
+        gpu.submit(|cmd| {
+            // SAFETY: both structures outlive the submission; the source allows compaction.
+            unsafe { gpu.acceleration_structure.cmd_copy_acceleration_structure(cmd, &info) };
+            barrier::between_builds(gpu, cmd);
+            barrier::build_to_trace(gpu, cmd);
+            Ok(())
+        })?;
+        Ok(small)
+    }
+
+    fn compacted_size(&self) -> Result<u64> {
+        let gpu = &self.gpu;
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR)
+            .query_count(1);
+        // SAFETY: the pool is destroyed below, after the submission is done.
+        unsafe {
+            let pool = gpu.device.create_query_pool(&info, None)?;
+            let mut size = [0u64];
+            let result = gpu
+                .submit(|cmd| {
+                    gpu.device.cmd_reset_query_pool(cmd, pool, 0, 1);
+                    gpu.acceleration_structure.cmd_write_acceleration_structures_properties(
+                        cmd,
+                        &[self.handle],
+                        vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR,
+                        pool,
+                        0,
+                    );
+                    Ok(())
+                })
+                .and_then(|()| {
+                    let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+                    Ok(gpu.device.get_query_pool_results(pool, 0, &mut size, flags)?)
+                });
+            gpu.device.destroy_query_pool(pool, None);
+            result?;
+            Ok(size[0])
+        }
+    }
+}
+
+impl Drop for AccelerationStructure {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for, so no trace or build uses it any more.
+        unsafe {
+            self.gpu.acceleration_structure.destroy_acceleration_structure(self.handle, None);
+        }
+    }
+}
+
+fn flags(options: BuildOptions) -> vk::BuildAccelerationStructureFlagsKHR {
+    use vk::BuildAccelerationStructureFlagsKHR as Flags;
+    let mut flags = Flags::PREFER_FAST_TRACE;
+    if options.updatable {
+        flags |= Flags::ALLOW_UPDATE;
+    }
+    if options.compact {
+        flags |= Flags::ALLOW_COMPACTION;
+    }
+    flags
+}
+
+fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment)
+}
+
+fn record_build(
+    gpu: &Gpu,
+    cmd: vk::CommandBuffer,
+    info: vk::AccelerationStructureBuildGeometryInfoKHR,
+    counts: &[u32],
+) {
+    let ranges: Vec<_> = counts
+        .iter()
+        .map(|&count| vk::AccelerationStructureBuildRangeInfoKHR::default().primitive_count(count))
+        .collect();
+    barrier::between_builds(gpu, cmd);
+    // SAFETY: every address in info belongs to a buffer that outlives the submission.
+    unsafe {
+        gpu.acceleration_structure.cmd_build_acceleration_structures(cmd, &[info], &[&ranges]);
+    }
+    barrier::between_builds(gpu, cmd);
+    barrier::build_to_trace(gpu, cmd);
+}
+
+fn geometry(input: &Geometry) -> vk::AccelerationStructureGeometryKHR<'static> {
+    let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
+    let (kind, data, opaque) = match *input {
+        Geometry::Triangles { vertices, vertex_stride, vertex_count, indices, opaque, .. } => (
+            vk::GeometryTypeKHR::TRIANGLES,
+            vk::AccelerationStructureGeometryDataKHR {
+                triangles: vk::AccelerationStructureGeometryTrianglesDataKHR::default()
+                    .vertex_format(vk::Format::R32G32B32_SFLOAT)
+                    .vertex_data(address(vertices))
+                    .vertex_stride(vertex_stride)
+                    .max_vertex(vertex_count.saturating_sub(1))
+                    .index_type(vk::IndexType::UINT32)
+                    .index_data(address(indices)),
+            },
+            opaque,
+        ),
+        Geometry::Aabbs { boxes, opaque, .. } => (
+            vk::GeometryTypeKHR::AABBS,
+            vk::AccelerationStructureGeometryDataKHR {
+                aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
+                    .data(address(boxes))
+                    .stride(size_of::<vk::AabbPositionsKHR>() as u64),
+            },
+            opaque,
+        ),
+    };
+    let flags = if opaque { vk::GeometryFlagsKHR::OPAQUE } else { vk::GeometryFlagsKHR::empty() };
+    vk::AccelerationStructureGeometryKHR::default().geometry_type(kind).geometry(data).flags(flags)
+}
+
+fn instance_geometry(
+    instances: vk::DeviceAddress,
+) -> vk::AccelerationStructureGeometryKHR<'static> {
+    let data = vk::DeviceOrHostAddressConstKHR { device_address: instances };
+    vk::AccelerationStructureGeometryKHR::default()
+        .geometry_type(vk::GeometryTypeKHR::INSTANCES)
+        .geometry(vk::AccelerationStructureGeometryDataKHR {
+            instances: vk::AccelerationStructureGeometryInstancesDataKHR::default().data(data),
+        })
+}

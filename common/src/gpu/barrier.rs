@@ -1,0 +1,68 @@
+//! Memory barriers, named for what they are for.
+//!
+//! The validation layers do not see every hazard around traces and builds, so each barrier says here
+//! which writes it makes visible to which reads (Vulkan specification, "Synchronization").
+
+use ash::vk::{self, AccessFlags2 as Access, PipelineStageFlags2 as Stage};
+
+use super::Gpu;
+
+fn memory(gpu: &Gpu, cmd: vk::CommandBuffer, from: (Stage, Access), to: (Stage, Access)) {
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(from.0)
+        .src_access_mask(from.1)
+        .dst_stage_mask(to.0)
+        .dst_access_mask(to.1)];
+    let dependency = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: cmd is being recorded on this device, with synchronization2 enabled.
+    unsafe { gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
+}
+
+const BUILD: Stage = Stage::ACCELERATION_STRUCTURE_BUILD_KHR;
+const TRACE: Stage = Stage::RAY_TRACING_SHADER_KHR;
+
+/// Uploaded bytes become visible to builds (vertices, instances) and to every shader.
+pub fn after_upload(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let readers = Stage::ALL_COMMANDS;
+    memory(gpu, cmd, (Stage::COPY, Access::TRANSFER_WRITE), (readers, Access::MEMORY_READ));
+}
+
+/// A built acceleration structure, and the scratch that it used, may be read and written by the next
+/// build: a bottom level by its top level, a scratch buffer by its next user.
+pub fn between_builds(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let both = Access::ACCELERATION_STRUCTURE_READ_KHR | Access::ACCELERATION_STRUCTURE_WRITE_KHR;
+    memory(gpu, cmd, (BUILD, both), (BUILD, both));
+}
+
+/// A built acceleration structure becomes visible to rays.
+pub fn build_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    memory(
+        gpu,
+        cmd,
+        (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR),
+        (TRACE | Stage::COMPUTE_SHADER, Access::ACCELERATION_STRUCTURE_READ_KHR),
+    );
+}
+
+/// What one trace wrote (an accumulation buffer, a list of hits) becomes visible to the next.
+pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;
+    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, both));
+}
+
+/// A buffer cleared or filled by a transfer becomes visible to the trace that adds to it.
+pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;
+    memory(gpu, cmd, (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE), (TRACE, both));
+}
+
+/// Whatever shaders wrote becomes visible to a copy.
+pub fn before_readback(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let writers = Stage::ALL_COMMANDS;
+    memory(gpu, cmd, (writers, Access::MEMORY_WRITE), (Stage::COPY, Access::TRANSFER_READ));
+}
+
+/// A copy into mapped memory becomes visible to the host.
+pub fn after_readback(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    memory(gpu, cmd, (Stage::COPY, Access::TRANSFER_WRITE), (Stage::HOST, Access::HOST_READ));
+}

@@ -1,0 +1,205 @@
+//! A buffer and its memory: uploaded once, addressed from shaders, read back for tests.
+
+use anyhow::{Context, Result};
+use ash::vk;
+use bytemuck::Pod;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::{Gpu, barrier};
+
+/// A `VkBuffer` bound to memory of its own, freed on drop.
+pub struct Buffer {
+    /// The Vulkan handle.
+    pub handle: vk::Buffer,
+    /// Its size in bytes.
+    pub size: u64,
+    /// Its device address; 0 unless made with `SHADER_DEVICE_ADDRESS`.
+    pub address: vk::DeviceAddress,
+    allocation: Option<Allocation>,
+    gpu: Gpu,
+}
+
+impl Buffer {
+    /// An uninitialised buffer of at least one byte in device memory.
+    ///
+    /// # Errors
+    /// If the device has no memory left for it.
+    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Self> {
+        Self::in_memory(gpu, name, size, usage, MemoryLocation::GpuOnly, 1)
+    }
+
+    /// As [`Buffer::new`], its address a multiple of `alignment` bytes (a power of two).
+    ///
+    /// # Errors
+    /// As [`Buffer::new`].
+    pub fn aligned(
+        gpu: &Gpu,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        alignment: u64,
+    ) -> Result<Self> {
+        Self::in_memory(gpu, name, size, usage, MemoryLocation::GpuOnly, alignment)
+    }
+
+    /// A buffer in device memory that holds `data`.
+    ///
+    /// # Errors
+    /// As [`Buffer::new`], or if the copy fails.
+    pub fn with_data<T: Pod>(
+        gpu: &Gpu,
+        name: &str,
+        data: &[T],
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let buffer =
+            Self::new(gpu, name, bytes.len() as u64, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
+        buffer.write(0, data)?;
+        Ok(buffer)
+    }
+
+    /// A buffer that the host has mapped, to write into (`CpuToGpu`) or read from (`GpuToCpu`).
+    ///
+    /// # Errors
+    /// As [`Buffer::new`].
+    pub fn mapped(
+        gpu: &Gpu,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryLocation,
+    ) -> Result<Self> {
+        Self::in_memory(gpu, name, size, usage, location, 1)
+    }
+
+    fn in_memory(
+        gpu: &Gpu,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryLocation,
+        alignment: u64,
+    ) -> Result<Self> {
+        // Vulkan has no empty buffers; an empty mesh or table still wants an address.
+        let size = size.max(1);
+        let info = vk::BufferCreateInfo::default().size(size).usage(usage);
+        // SAFETY: the device is alive; the buffer is destroyed on every path below.
+        let handle = unsafe { gpu.device.create_buffer(&info, None) }
+            .with_context(|| format!("cannot make the buffer '{name}' of {size} bytes"))?;
+        let mut buffer = Self { handle, size, address: 0, allocation: None, gpu: gpu.clone() };
+        // SAFETY: as above.
+        let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        requirements.alignment = requirements.alignment.max(alignment);
+        let allocation = gpu
+            .allocator
+            .lock()
+            .map_err(|_| anyhow::anyhow!("an allocating thread panicked"))?
+            .allocate(&AllocationCreateDesc {
+                name,
+                requirements,
+                location,
+                linear: true,
+                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+            })
+            .with_context(|| format!("no memory for the buffer '{name}' of {size} bytes"))?;
+        // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
+        unsafe {
+            gpu.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset())?;
+        }
+        buffer.allocation = Some(allocation);
+        if usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS) {
+            let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
+            // SAFETY: the buffer is bound and was made for addressing.
+            buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
+        }
+        gpu.name_object(handle, name);
+        Ok(buffer)
+    }
+
+    /// Copies `data` to the buffer, `offset` bytes from its start, and waits for it.
+    ///
+    /// # Errors
+    /// If the data does not fit, or the copy fails.
+    pub fn write<T: Pod>(&self, offset: u64, data: &[T]) -> Result<()> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        if bytes.is_empty() {
+            return Ok(());
+        }
+        anyhow::ensure!(
+            offset + bytes.len() as u64 <= self.size,
+            "{} bytes at {offset} do not fit a buffer of {} bytes",
+            bytes.len(),
+            self.size
+        );
+        let mut staging = Self::mapped(
+            &self.gpu,
+            "staging",
+            bytes.len() as u64,
+            vk::BufferUsageFlags::TRANSFER_SRC,
+            MemoryLocation::CpuToGpu,
+        )?;
+        staging.mapped_bytes()[..bytes.len()].copy_from_slice(bytes);
+        self.gpu.submit(|cmd| {
+            let region = vk::BufferCopy::default().dst_offset(offset).size(bytes.len() as u64);
+            // SAFETY: both buffers outlive the submission, which is waited for.
+            unsafe {
+                self.gpu.device.cmd_copy_buffer(cmd, staging.handle, self.handle, &[region]);
+            }
+            barrier::after_upload(&self.gpu, cmd);
+            Ok(())
+        })
+    }
+
+    /// The content as a vector of `T`, copied back through a mapped buffer.
+    ///
+    /// The buffer must have been made with `TRANSFER_SRC`; bytes beyond a whole `T` are left out.
+    ///
+    /// # Errors
+    /// If the copy fails.
+    pub fn read<T: Pod>(&self) -> Result<Vec<T>> {
+        let mut staging = Self::mapped(
+            &self.gpu,
+            "readback",
+            self.size,
+            vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryLocation::GpuToCpu,
+        )?;
+        self.gpu.submit(|cmd| {
+            let region = vk::BufferCopy::default().size(self.size);
+            barrier::before_readback(&self.gpu, cmd);
+            // SAFETY: both buffers outlive the submission, which is waited for.
+            unsafe {
+                self.gpu.device.cmd_copy_buffer(cmd, self.handle, staging.handle, &[region]);
+            }
+            barrier::after_readback(&self.gpu, cmd);
+            Ok(())
+        })?;
+        let whole = self.size as usize / size_of::<T>() * size_of::<T>();
+        Ok(bytemuck::pod_collect_to_vec(&staging.mapped_bytes()[..whole]))
+    }
+
+    /// The mapped bytes of a buffer made with [`Buffer::mapped`].
+    ///
+    /// # Panics
+    /// If the buffer lives in device memory only.
+    pub fn mapped_bytes(&mut self) -> &mut [u8] {
+        let allocation = self.allocation.as_mut().expect("a live buffer has its memory");
+        let bytes = allocation.mapped_slice_mut().expect("the buffer was made with Buffer::mapped");
+        &mut bytes[..self.size as usize]
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for, so the device no longer uses the buffer.
+        unsafe { self.gpu.device.destroy_buffer(self.handle, None) };
+        if let (Some(allocation), Ok(mut allocator)) =
+            (self.allocation.take(), self.gpu.allocator.lock())
+        {
+            // Freeing fails only for memory of another allocator.
+            let _ = allocator.free(allocation);
+        }
+    }
+}

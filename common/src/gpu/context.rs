@@ -1,0 +1,363 @@
+//! The one `Gpu`: instance, device, queue, allocator and the ray tracing entry points.
+//!
+//! Everything that lives on the device holds a clone, so the device is destroyed last, whatever the
+//! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
+//! replace or drop anything between frames and needs no rule for lifetimes.
+
+use std::ffi::{CStr, CString, c_char};
+use std::mem::ManuallyDrop;
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use anyhow::{Context as _, Result, anyhow};
+use ash::{Device, Entry, Instance, ext, khr, vk};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+
+use super::device::{self, Candidate};
+use super::limits::Limits;
+use super::requirements::Requirements;
+use super::validation::{self, Messages};
+
+/// How a [`Gpu`] shall be made.
+#[derive(Clone, Default)]
+pub struct GpuOptions<'a> {
+    /// Features and extensions, no more than the sample needs.
+    pub requirements: Requirements,
+    /// A device's number or a part of its name; `None` takes the best.
+    pub device: Option<&'a str>,
+    /// Turn on validation and synchronization validation.
+    pub validate: bool,
+    /// Instance extensions of the window system.
+    pub surface_extensions: Vec<*const c_char>,
+}
+
+/// A shared handle to the device and all that belongs to it.
+#[derive(Clone)]
+pub struct Gpu(Arc<GpuContext>);
+
+/// What a [`Gpu`] gives access to. Raw handles are public: a chapter may call Vulkan itself.
+pub struct GpuContext {
+    /// The device's commands.
+    pub device: Device,
+    /// `VK_KHR_acceleration_structure`.
+    pub acceleration_structure: khr::acceleration_structure::Device,
+    /// `VK_KHR_ray_tracing_pipeline`.
+    pub ray_tracing_pipeline: khr::ray_tracing_pipeline::Device,
+    /// `VK_KHR_push_descriptor`.
+    pub push_descriptor: khr::push_descriptor::Device,
+    /// The instance's commands.
+    pub instance: Instance,
+    /// The loader.
+    pub entry: Entry,
+    /// The chosen device.
+    pub physical_device: vk::PhysicalDevice,
+    /// The one queue in use: compute, and graphics where the device has it.
+    pub queue: vk::Queue,
+    /// The queue's family.
+    pub queue_family: u32,
+    /// The device's name.
+    pub name: String,
+    /// Its driver, in its maker's words.
+    pub driver: String,
+    /// The limits that ray tracing code must heed.
+    pub limits: Limits,
+    /// Device memory, shared with the panel's painter.
+    pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
+    statistics: Mutex<Statistics>,
+    command_pool: Mutex<vk::CommandPool>,
+    debug: Option<Debug>,
+}
+
+/// What has been built on the device so far, for the report.
+#[derive(Clone, Debug, Default)]
+pub struct Statistics {
+    /// Host time of acceleration structure builds.
+    pub build_time: Duration,
+    /// Bytes of all acceleration structures built.
+    pub acceleration_structure_bytes: u64,
+    /// Host time of compiling shaders and making pipelines.
+    pub pipeline_time: Duration,
+    /// Shader stages compiled, by path below `shaders/`.
+    pub stages: Vec<String>,
+    /// Shader groups in all pipelines.
+    pub groups: usize,
+}
+
+struct Debug {
+    names: ext::debug_utils::Device,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Box<Messages>)>,
+}
+
+impl Deref for Gpu {
+    type Target = GpuContext;
+
+    fn deref(&self) -> &GpuContext {
+        &self.0
+    }
+}
+
+/// Loads the Vulkan loader: the system's, or the library that `VULKAN_LOADER` names.
+///
+/// # Errors
+/// If there is none, with what to install.
+pub fn load() -> Result<Entry> {
+    let path = std::env::var_os("VULKAN_LOADER");
+    // SAFETY: the Vulkan loader's initialisation has no preconditions.
+    let entry = unsafe {
+        match &path {
+            Some(path) => Entry::load_from(path),
+            None => Entry::load(),
+        }
+    };
+    entry.map_err(|error| {
+        anyhow!("no Vulkan loader ({error}): run ./setup, or install your system's libvulkan")
+    })
+}
+
+/// One line a device: what it is, and what it lacks for `wanted`.
+///
+/// # Errors
+/// If there is no Vulkan.
+pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
+    let entry = load()?;
+    let (instance, _) = create_instance(&entry, None, &[])?;
+    let candidates = device::candidates(&instance, wanted);
+    // SAFETY: nothing has been made from this instance.
+    unsafe { instance.destroy_instance(None) };
+    Ok(candidates?.iter().map(Candidate::line).collect())
+}
+
+impl Gpu {
+    /// Creates an instance, chooses a device and opens it with just what is asked for.
+    ///
+    /// # Errors
+    /// If there is no loader, no suitable device, or no validation layer where one is asked for.
+    pub fn new(options: &GpuOptions) -> Result<Self> {
+        let entry = load()?;
+        let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
+        let (instance, has_debug_utils) =
+            create_instance(&entry, messages.as_ref(), &options.surface_extensions)?;
+        let candidates = device::candidates(&instance, &options.requirements)?;
+        let chosen = match device::choose(candidates, options.device) {
+            Ok(chosen) => chosen,
+            Err(error) => {
+                // SAFETY: nothing else has been made from this instance.
+                unsafe { instance.destroy_instance(None) };
+                return Err(error);
+            }
+        };
+        Self::open(entry, instance, &chosen, &options.requirements, messages, has_debug_utils)
+            .with_context(|| format!("cannot open {}", chosen.name))
+    }
+
+    fn open(
+        entry: Entry,
+        instance: Instance,
+        chosen: &Candidate,
+        requirements: &Requirements,
+        messages: Option<Box<Messages>>,
+        has_debug_utils: bool,
+    ) -> Result<Self> {
+        let physical_device = chosen.handle;
+        let queue_family = chosen.queue_family.context("no compute queue")?;
+        let priorities = [1.0];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(queue_family)
+            .queue_priorities(&priorities)];
+        let extensions = requirements.extensions();
+        let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
+        let device = requirements.features().with_chain(
+            |name| extensions.contains(&name),
+            |features| {
+                let info = vk::DeviceCreateInfo::default()
+                    .queue_create_infos(&queues)
+                    .enabled_extension_names(&names)
+                    .push_next(features);
+                // SAFETY: the device offers these features and extensions: `choose` has checked.
+                unsafe { instance.create_device(physical_device, &info, None) }
+            },
+        )?;
+        // SAFETY: the device was created with one queue of this family.
+        let queue = unsafe { device.get_device_queue(queue_family, 0) };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.clone(),
+            device: device.clone(),
+            physical_device,
+            debug_settings: Default::default(),
+            buffer_device_address: true,
+            allocation_sizes: Default::default(),
+        })?;
+        let pool = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(queue_family);
+        // SAFETY: the queue family belongs to this device.
+        let command_pool = unsafe { device.create_command_pool(&pool, None)? };
+        let debug = if has_debug_utils {
+            let messenger = match messages {
+                Some(messages) => {
+                    let utils = ext::debug_utils::Instance::new(&entry, &instance);
+                    let info = messages.messenger_info();
+                    // SAFETY: the user data is the box kept beside the messenger.
+                    let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
+                    Some((utils, handle, messages))
+                }
+                None => None,
+            };
+            Some(Debug { names: ext::debug_utils::Device::new(&instance, &device), messenger })
+        } else {
+            None
+        };
+        Ok(Self(Arc::new(GpuContext {
+            acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
+            ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
+            push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
+            limits: Limits::of(&instance, physical_device),
+            name: chosen.name.clone(),
+            driver: chosen.driver.clone(),
+            allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
+            statistics: Mutex::default(),
+            command_pool: Mutex::new(command_pool),
+            device,
+            instance,
+            entry,
+            physical_device,
+            queue,
+            queue_family,
+            debug,
+        })))
+    }
+
+    /// Gives an object a name that validation messages and debuggers show.
+    pub fn name_object<T: vk::Handle>(&self, handle: T, name: &str) {
+        let Some(debug) = &self.debug else { return };
+        let name = CString::new(name).unwrap_or_default();
+        let info =
+            vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+        // SAFETY: the handle is alive and belongs to this device. A name that cannot be set is no
+        // reason to stop.
+        let _ = unsafe { debug.names.set_debug_utils_object_name(&info) };
+    }
+
+    /// What validation has said so far; empty where it is off.
+    pub fn validation_messages(&self) -> Vec<String> {
+        let messenger = self.debug.as_ref().and_then(|debug| debug.messenger.as_ref());
+        messenger.map_or_else(Vec::new, |(_, _, messages)| messages.all())
+    }
+
+    /// Records commands with `record`, submits them, and waits until the device has done them.
+    ///
+    /// # Errors
+    /// If recording or the device fails.
+    pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
+        let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
+        let info =
+            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        // SAFETY: the pool is ours, and every handle below is alive until the wait has ended.
+        unsafe {
+            let cmd = self.device.allocate_command_buffers(&info)?[0];
+            let begin = vk::CommandBufferBeginInfo::default()
+                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            self.device.begin_command_buffer(cmd, &begin)?;
+            let result = record(cmd);
+            self.device.end_command_buffer(cmd)?;
+            let done = if result.is_ok() { self.run(cmd) } else { Ok(()) };
+            self.device.free_command_buffers(pool, &[cmd]);
+            done?;
+            result
+        }
+    }
+
+    fn run(&self, cmd: vk::CommandBuffer) -> Result<()> {
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+        // SAFETY: cmd is recorded; the fence is destroyed after the wait.
+        unsafe {
+            let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
+            let done = self
+                .device
+                .queue_submit2(self.queue, &submit, fence)
+                .and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
+            self.device.destroy_fence(fence, None);
+            done.context("the device failed while it worked")
+        }
+    }
+
+    /// What has been built so far.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Adds to what has been built.
+    pub(super) fn count(&self, add: impl FnOnce(&mut Statistics)) {
+        add(&mut self.statistics.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// Bytes of device memory in use, buffers and images together.
+    pub fn allocated_bytes(&self) -> u64 {
+        self.allocator.lock().map_or(0, |a| a.generate_report().total_allocated_bytes)
+    }
+}
+
+fn create_instance(
+    entry: &Entry,
+    messages: Option<&Box<Messages>>,
+    surface_extensions: &[*const c_char],
+) -> Result<(Instance, bool)> {
+    // SAFETY: the loader is alive.
+    let offered = unsafe { entry.enumerate_instance_extension_properties(None)? };
+    let has_debug_utils =
+        offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
+    let mut extensions = surface_extensions.to_vec();
+    if has_debug_utils || messages.is_some() {
+        extensions.push(ext::debug_utils::NAME.as_ptr());
+    }
+    let mut layers: Vec<*const c_char> = Vec::new();
+    let application = vk::ApplicationInfo::default()
+        .application_name(c"ray tracing")
+        .api_version(vk::API_VERSION_1_3);
+    let mut features =
+        vk::ValidationFeaturesEXT::default().enabled_validation_features(&validation::ENABLED);
+    let mut messenger;
+    if messages.is_some() {
+        layers.push(validation::LAYER.as_ptr());
+        extensions.extend(validation::EXTENSIONS.map(CStr::as_ptr));
+    }
+    let mut info = vk::InstanceCreateInfo::default()
+        .application_info(&application)
+        .enabled_layer_names(&layers)
+        .enabled_extension_names(&extensions);
+    if let Some(messages) = messages {
+        messenger = messages.messenger_info();
+        info = info.push_next(&mut features).push_next(&mut messenger);
+    }
+    // SAFETY: every name and structure of the chain lives until the call returns.
+    let instance = unsafe { entry.create_instance(&info, None) };
+    match instance {
+        Ok(instance) => Ok((instance, has_debug_utils || messages.is_some())),
+        Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => Err(anyhow!(
+            "no Vulkan driver: run ./setup to install a software driver with ray tracing, or install \
+             your GPU's driver"
+        )),
+        Err(error) => Err(error).context("cannot create a Vulkan instance"),
+    }
+}
+
+impl Drop for GpuContext {
+    fn drop(&mut self) {
+        // SAFETY: the last clone is gone, so nothing made from the device is left; the order is
+        // children before parents. `allocator` is not used again.
+        unsafe {
+            let _ = self.device.device_wait_idle();
+            ManuallyDrop::drop(&mut self.allocator);
+            if let Ok(pool) = self.command_pool.lock() {
+                self.device.destroy_command_pool(*pool, None);
+            }
+            self.device.destroy_device(None);
+            if let Some((utils, messenger, _)) = self.debug.take().and_then(|d| d.messenger) {
+                utils.destroy_debug_utils_messenger(messenger, None);
+            }
+            self.instance.destroy_instance(None);
+        }
+    }
+}

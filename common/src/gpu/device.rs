@@ -1,0 +1,222 @@
+//! The choice of a physical device: real GPUs first, and for each one refused, what it lacks.
+
+use std::ffi::CStr;
+
+use anyhow::{Result, bail};
+use ash::{Instance, vk};
+
+use super::requirements::{Features, Requirements};
+use crate::usage::Usage;
+
+/// A physical device, described well enough to choose it or to say why not.
+pub struct Candidate {
+    /// The Vulkan handle.
+    pub handle: vk::PhysicalDevice,
+    /// Its position in Vulkan's enumeration, which `--device N` names.
+    pub index: usize,
+    /// Its name, as the driver gives it.
+    pub name: String,
+    /// The driver's name and version in its maker's words.
+    pub driver: String,
+    /// Discrete, integrated, virtual or CPU.
+    pub kind: vk::PhysicalDeviceType,
+    /// A queue family with compute (and so with ray tracing), graphics where there is one.
+    pub queue_family: Option<u32>,
+    /// What this device lacks for the sample at hand; empty if it will do.
+    pub missing: Vec<String>,
+}
+
+impl Candidate {
+    /// One line: number, name, kind, driver, and whether it will do.
+    pub fn line(&self) -> String {
+        let verdict = match self.missing.as_slice() {
+            [] => "suitable".to_owned(),
+            missing => format!("lacks {}", missing.join(", ")),
+        };
+        format!("{}: {} ({}; {}): {verdict}", self.index, self.name, kind(self.kind), self.driver)
+    }
+}
+
+fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
+    match device_type {
+        vk::PhysicalDeviceType::DISCRETE_GPU => "discrete GPU",
+        vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated GPU",
+        vk::PhysicalDeviceType::VIRTUAL_GPU => "virtual GPU",
+        vk::PhysicalDeviceType::CPU => "software",
+        _ => "other",
+    }
+}
+
+/// Every device of the instance, judged against what the sample asks for.
+///
+/// # Errors
+/// If Vulkan cannot enumerate devices.
+pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Candidate>> {
+    // SAFETY: the instance is alive.
+    let handles = unsafe { instance.enumerate_physical_devices()? };
+    handles
+        .into_iter()
+        .enumerate()
+        .map(|(index, handle)| judge(instance, index, handle, wanted))
+        .collect()
+}
+
+fn judge(
+    instance: &Instance,
+    index: usize,
+    handle: vk::PhysicalDevice,
+    wanted: &Requirements,
+) -> Result<Candidate> {
+    // SAFETY: handle belongs to the live instance, here and below.
+    let properties = unsafe { instance.get_physical_device_properties(handle) };
+    let text = |name: Result<&CStr, _>| {
+        name.map_or_else(|_| String::new(), |n| n.to_string_lossy().into())
+    };
+    let mut candidate = Candidate {
+        handle,
+        index,
+        name: text(properties.device_name_as_c_str()),
+        driver: String::new(),
+        kind: properties.device_type,
+        queue_family: None,
+        missing: Vec::new(),
+    };
+    let version = properties.api_version;
+    if version < vk::API_VERSION_1_3 {
+        let (major, minor) = (vk::api_version_major(version), vk::api_version_minor(version));
+        candidate.driver = format!("Vulkan {major}.{minor}");
+        candidate.missing.push("Vulkan 1.3".to_owned());
+        return Ok(candidate);
+    }
+
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut more = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+    // SAFETY: as above; driver properties are core since Vulkan 1.2.
+    unsafe { instance.get_physical_device_properties2(handle, &mut more) };
+    let (name, info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
+    candidate.driver = format!("{name} {info}");
+
+    // SAFETY: as above.
+    let extensions = unsafe { instance.enumerate_device_extension_properties(handle)? };
+    let has = |name: &CStr| extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(name));
+    let mut offered = Features::default();
+    offered.with_chain(has, |features| {
+        // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
+        unsafe { instance.get_physical_device_features2(handle, features) }
+    });
+    candidate.missing = wanted.missing(has, &offered);
+
+    // SAFETY: as above.
+    let families = unsafe { instance.get_physical_device_queue_family_properties(handle) };
+    let family =
+        |flags| families.iter().position(|f| f.queue_flags.contains(flags)).map(|i| i as u32);
+    // The window's panel needs graphics; a headless run does with compute, as data-centre GPUs have it.
+    let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
+    candidate.queue_family = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
+    if candidate.queue_family.is_none() {
+        candidate.missing.push("a compute queue".to_owned());
+    }
+    Ok(candidate)
+}
+
+/// Picks the device that `asked` names by number or part of its name, else the best suitable one.
+///
+/// # Errors
+/// If none fits: one line that lists every device and what it lacks, and what to install.
+pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
+    let list = |all: &[Candidate]| all.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
+    const INSTALL: &str =
+        "run ./setup to install a software driver with ray tracing, or update your GPU's driver";
+    if candidates.is_empty() {
+        bail!("no Vulkan device: {INSTALL}");
+    }
+    if let Some(asked) = asked {
+        let matches = |candidate: &Candidate| match asked.parse::<usize>() {
+            Ok(number) => candidate.index == number,
+            Err(_) => candidate.name.to_lowercase().contains(&asked.to_lowercase()),
+        };
+        let Some(position) = candidates.iter().position(matches) else {
+            return Err(
+                Usage(format!("no device '{asked}'; there is {}", list(&candidates))).into()
+            );
+        };
+        if !candidates[position].missing.is_empty() {
+            bail!("device '{asked}' cannot run this: {}", list(&candidates[position..=position]));
+        }
+        return Ok(candidates.into_iter().nth(position).expect("the position was just found"));
+    }
+    let rank = |candidate: &Candidate| match candidate.kind {
+        vk::PhysicalDeviceType::DISCRETE_GPU => 0,
+        vk::PhysicalDeviceType::INTEGRATED_GPU => 1,
+        vk::PhysicalDeviceType::VIRTUAL_GPU => 2,
+        vk::PhysicalDeviceType::CPU => 4,
+        _ => 3,
+    };
+    let explained = list(&candidates);
+    let suitable = candidates.into_iter().filter(|candidate| candidate.missing.is_empty());
+    match suitable.min_by_key(rank) {
+        Some(best) => Ok(best),
+        None => bail!("no device can run this: {explained}; {INSTALL}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn candidate(
+        index: usize,
+        name: &str,
+        kind: vk::PhysicalDeviceType,
+        missing: &[&str],
+    ) -> Candidate {
+        Candidate {
+            handle: vk::PhysicalDevice::null(),
+            index,
+            name: name.to_owned(),
+            driver: "driver 1.0".to_owned(),
+            kind,
+            queue_family: Some(0),
+            missing: missing.iter().map(|&m| m.to_owned()).collect(),
+        }
+    }
+
+    fn three() -> Vec<Candidate> {
+        vec![
+            candidate(0, "llvmpipe", vk::PhysicalDeviceType::CPU, &[]),
+            candidate(
+                1,
+                "Old Card",
+                vk::PhysicalDeviceType::DISCRETE_GPU,
+                &["VK_KHR_ray_tracing_pipeline"],
+            ),
+            candidate(2, "Radeon", vk::PhysicalDeviceType::INTEGRATED_GPU, &[]),
+        ]
+    }
+
+    #[test]
+    fn a_real_gpu_goes_before_the_software_driver() {
+        assert_eq!(choose(three(), None).unwrap().name, "Radeon");
+    }
+
+    #[test]
+    fn a_device_can_be_asked_for_by_number_and_by_name() {
+        assert_eq!(choose(three(), Some("0")).unwrap().name, "llvmpipe");
+        assert_eq!(choose(three(), Some("radeon")).unwrap().index, 2);
+    }
+
+    #[test]
+    fn a_refusal_names_each_device_and_what_it_lacks() {
+        let error = choose(three(), Some("1")).err().unwrap().to_string();
+        assert!(
+            error.contains("Old Card") && error.contains("VK_KHR_ray_tracing_pipeline"),
+            "{error}"
+        );
+        let error = choose(three(), Some("GeForce")).err().unwrap().to_string();
+        assert!(error.contains("llvmpipe") && error.contains("Radeon"), "{error}");
+        let only_old = three().into_iter().filter(|c| c.index == 1).collect();
+        let error = choose(only_old, None).err().unwrap().to_string();
+        assert!(error.contains("Old Card") && error.contains("./setup"), "{error}");
+        assert!(choose(Vec::new(), None).err().unwrap().to_string().contains("no Vulkan device"));
+    }
+}

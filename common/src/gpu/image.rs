@@ -1,0 +1,234 @@
+//! A two-dimensional image: the picture that rays write, or a texture that they read.
+
+use anyhow::{Context, Result, ensure};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::{Buffer, Gpu, barrier};
+
+/// A `VkImage` with one mip level, its memory and a view, freed on drop.
+pub struct Image {
+    /// The Vulkan handle.
+    pub handle: vk::Image,
+    /// A view of the whole image.
+    pub view: vk::ImageView,
+    /// Width and height in pixels.
+    pub extent: vk::Extent2D,
+    /// The format.
+    pub format: vk::Format,
+    allocation: Option<Allocation>,
+    gpu: Gpu,
+}
+
+impl Image {
+    /// An image that shaders write: four linear 32-bit floats a pixel, cleared to zero, `GENERAL`.
+    ///
+    /// # Errors
+    /// If a side is 0 or above the device's limit, or memory is short.
+    pub fn storage(gpu: &Gpu, name: &str, extent: vk::Extent2D) -> Result<Self> {
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::TRANSFER_SRC
+            | vk::ImageUsageFlags::TRANSFER_DST;
+        let image = Self::new(gpu, name, extent, vk::Format::R32G32B32A32_SFLOAT, usage)?;
+        gpu.submit(|cmd| {
+            image.transition(cmd, vk::ImageLayout::UNDEFINED, vk::ImageLayout::GENERAL);
+            let range = whole();
+            let black = vk::ClearColorValue::default();
+            // SAFETY: the image is in GENERAL and outlives the submission.
+            unsafe {
+                gpu.device.cmd_clear_color_image(
+                    cmd,
+                    image.handle,
+                    vk::ImageLayout::GENERAL,
+                    &black,
+                    &[range],
+                );
+            }
+            barrier::fill_to_trace(gpu, cmd);
+            Ok(())
+        })?;
+        Ok(image)
+    }
+
+    /// A texture of 8-bit RGBA texels, rows from the top; `srgb` where they hold sRGB colour.
+    ///
+    /// # Errors
+    /// If `texels` is not four bytes a pixel, a side is out of range, or memory is short.
+    pub fn texture(
+        gpu: &Gpu,
+        name: &str,
+        extent: vk::Extent2D,
+        texels: &[u8],
+        srgb: bool,
+    ) -> Result<Self> {
+        let needed = 4 * extent.width as usize * extent.height as usize;
+        ensure!(
+            texels.len() == needed,
+            "texture '{name}' has {} bytes, not {needed}",
+            texels.len()
+        );
+        let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let image = Self::new(gpu, name, extent, format, usage)?;
+        let staging = Buffer::with_data(gpu, name, texels, vk::BufferUsageFlags::TRANSFER_SRC)?;
+        gpu.submit(|cmd| {
+            use vk::ImageLayout as Layout;
+            image.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
+            let region = image.copy_region();
+            // SAFETY: the staging buffer and the image outlive the submission.
+            unsafe {
+                gpu.device.cmd_copy_buffer_to_image(
+                    cmd,
+                    staging.handle,
+                    image.handle,
+                    Layout::TRANSFER_DST_OPTIMAL,
+                    &[region],
+                );
+            }
+            image.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::SHADER_READ_ONLY_OPTIMAL);
+            Ok(())
+        })?;
+        Ok(image)
+    }
+
+    fn new(
+        gpu: &Gpu,
+        name: &str,
+        extent: vk::Extent2D,
+        format: vk::Format,
+        usage: vk::ImageUsageFlags,
+    ) -> Result<Self> {
+        let (width, height) = (extent.width, extent.height);
+        let limit = gpu.limits.max_image_dimension;
+        ensure!(
+            (1..=limit).contains(&width) && (1..=limit).contains(&height),
+            "{width}x{height} is not a size that {} can do: each side must be 1 to {limit}",
+            gpu.name
+        );
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(usage);
+        let too_large = || format!("no memory for the image '{name}' of {width}x{height}");
+        // SAFETY: the device is alive; `image` destroys the handles on every path.
+        let handle = unsafe { gpu.device.create_image(&info, None) }.with_context(too_large)?;
+        let view = vk::ImageView::null();
+        let mut image = Self { handle, view, extent, format, allocation: None, gpu: gpu.clone() };
+        // SAFETY: as above.
+        let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
+        let allocation = gpu
+            .allocator
+            .lock()
+            .map_err(|_| anyhow::anyhow!("an allocating thread panicked"))?
+            .allocate(&AllocationCreateDesc {
+                name,
+                requirements,
+                location: MemoryLocation::GpuOnly,
+                linear: false,
+                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+            })
+            .with_context(too_large)?;
+        let info = vk::ImageViewCreateInfo::default()
+            .image(handle)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(format)
+            .subresource_range(whole());
+        // SAFETY: the allocation was made for this image and is freed after it.
+        unsafe {
+            gpu.device.bind_image_memory(handle, allocation.memory(), allocation.offset())?;
+            image.allocation = Some(allocation);
+            image.view = gpu.device.create_image_view(&info, None)?;
+        }
+        gpu.name_object(handle, name);
+        gpu.name_object(image.view, name);
+        Ok(image)
+    }
+
+    /// Changes the layout; everything before is done, and visible to everything after.
+    pub fn transition(&self, cmd: vk::CommandBuffer, from: vk::ImageLayout, to: vk::ImageLayout) {
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .image(self.handle)
+            .subresource_range(whole())
+            .old_layout(from)
+            .new_layout(to)
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+        let dependency = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: cmd is being recorded on this device.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
+    }
+
+    /// The pixels of a storage image, four floats each, rows from the top.
+    ///
+    /// # Errors
+    /// If the copy fails.
+    pub fn read(&self) -> Result<Vec<[f32; 4]>> {
+        let bytes = 16 * u64::from(self.extent.width) * u64::from(self.extent.height);
+        let mut staging = Buffer::mapped(
+            &self.gpu,
+            "picture",
+            bytes,
+            vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryLocation::GpuToCpu,
+        )?;
+        self.gpu.submit(|cmd| {
+            use vk::ImageLayout as Layout;
+            self.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
+            // SAFETY: the image is in the layout named; both outlive the submission.
+            unsafe {
+                self.gpu.device.cmd_copy_image_to_buffer(
+                    cmd,
+                    self.handle,
+                    Layout::TRANSFER_SRC_OPTIMAL,
+                    staging.handle,
+                    &[self.copy_region()],
+                );
+            }
+            self.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
+            barrier::after_readback(&self.gpu, cmd);
+            Ok(())
+        })?;
+        Ok(bytemuck::pod_collect_to_vec(staging.mapped_bytes()))
+    }
+
+    fn copy_region(&self) -> vk::BufferImageCopy {
+        vk::BufferImageCopy::default()
+            .image_subresource(
+                vk::ImageSubresourceLayers::default()
+                    .aspect_mask(vk::ImageAspectFlags::COLOR)
+                    .layer_count(1),
+            )
+            .image_extent(self.extent.into())
+    }
+}
+
+/// The one mip level and layer that every image here has.
+pub fn whole() -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange::default()
+        .aspect_mask(vk::ImageAspectFlags::COLOR)
+        .level_count(1)
+        .layer_count(1)
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for, so the device no longer uses the image.
+        unsafe {
+            self.gpu.device.destroy_image_view(self.view, None);
+            self.gpu.device.destroy_image(self.handle, None);
+        }
+        if let (Some(allocation), Ok(mut allocator)) =
+            (self.allocation.take(), self.gpu.allocator.lock())
+        {
+            // Freeing fails only for memory of another allocator.
+            let _ = allocator.free(allocation);
+        }
+    }
+}

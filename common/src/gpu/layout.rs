@@ -1,0 +1,189 @@
+//! The layout of structures that Rust writes and shaders read, compared before anything runs.
+//!
+//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields.
+//! When a pipeline is made, each is held against the structure of the same name in the SPIR-V: a field
+//! that was moved, or is missing on one side, is an error that names it, not a strange picture.
+
+use anyhow::{Context, Result, bail};
+use rspirv::dr::{Module, Operand};
+use rspirv::spirv::{Decoration, Op};
+
+/// A device address inside a structure for shaders, who see a `buffer_reference` there.
+///
+/// Its alignment is that of `u32`, so that a structure needs no padding at its end; the shader wants a
+/// multiple of 8, which the comparison of offsets enforces.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Address([u32; 2]);
+
+impl From<ash::vk::DeviceAddress> for Address {
+    fn from(address: ash::vk::DeviceAddress) -> Self {
+        Self([address as u32, (address >> 32) as u32])
+    }
+}
+
+/// One field: name, offset in bytes.
+pub type Field = (&'static str, usize);
+
+/// A structure shared with shaders. Implemented by [`shader_struct!`](crate::shader_struct).
+pub trait ShaderStruct: bytemuck::Pod {
+    /// Its name and fields.
+    const LAYOUT: StructLayout;
+}
+
+/// The name and the fields of a Rust structure.
+#[derive(Clone, Copy, Debug)]
+pub struct StructLayout {
+    /// The name, the same in GLSL.
+    pub name: &'static str,
+    /// The fields in order.
+    pub fields: &'static [Field],
+    /// Bytes of the whole structure.
+    pub size: usize,
+}
+
+/// Declares a `#[repr(C)]`, `Pod` structure that a shader has too, under the same names.
+///
+/// ```
+/// common::shader_struct! {
+///     /// What every ray of a frame needs.
+///     pub struct Push { pub origin: glam::Vec3, pub samples: u32 }
+/// }
+/// ```
+#[macro_export]
+macro_rules! shader_struct {
+    ($(#[$attribute:meta])* $access:vis struct $name:ident {
+        $($(#[$field_attribute:meta])* $field_access:vis $field:ident : $type:ty),+ $(,)?
+    }) => {
+        $(#[$attribute])*
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, $crate::bytemuck::Pod, $crate::bytemuck::Zeroable)]
+        #[bytemuck(crate = "::common::bytemuck")]
+        $access struct $name { $($(#[$field_attribute])* $field_access $field: $type),+ }
+
+        impl $crate::gpu::ShaderStruct for $name {
+            const LAYOUT: $crate::gpu::StructLayout = $crate::gpu::StructLayout {
+                name: stringify!($name),
+                fields: &[$((stringify!($field), ::std::mem::offset_of!($name, $field))),+],
+                size: ::std::mem::size_of::<$name>(),
+            };
+        }
+    };
+}
+
+/// What a shader module says of its structures.
+pub struct Reflection {
+    module: Module,
+}
+
+impl Reflection {
+    /// Reads a module.
+    ///
+    /// # Errors
+    /// If the words are no SPIR-V.
+    pub fn of(spirv: &[u32]) -> Result<Self> {
+        let module = rspirv::dr::load_words(spirv).ok().context("not a SPIR-V module")?;
+        Ok(Self { module })
+    }
+
+    /// Every structure that has offsets: its name and, by member, name and offset in bytes.
+    pub fn structs(&self) -> Vec<(String, Vec<(String, usize)>)> {
+        let structs =
+            self.module.types_global_values.iter().filter(|i| i.class.opcode == Op::TypeStruct);
+        let mut found = Vec::new();
+        for (id, count) in structs.filter_map(|i| Some((i.result_id?, i.operands.len()))) {
+            let name = self.debug_name(id, None);
+            let members: Option<Vec<_>> = (0..count as u32)
+                .map(|member| Some((self.debug_name(id, Some(member)), self.offset(id, member)?)))
+                .collect();
+            found.extend(members.map(|members| (name, members)));
+        }
+        found
+    }
+
+    /// Holds every structure that bears the name of one in `known` against it.
+    ///
+    /// # Errors
+    /// On the first field that differs, naming structure, field and both offsets.
+    pub fn check(&self, path: &str, known: &[StructLayout]) -> Result<()> {
+        for (name, members) in self.structs() {
+            let Some(layout) = known.iter().find(|layout| layout.name == name) else { continue };
+            for (member, offset) in &members {
+                match layout.fields.iter().find(|(field, _)| field == member) {
+                    Some((_, expected)) if expected == offset => {}
+                    Some((_, expected)) => bail!(
+                        "{path}: {name}.{member} is {offset} bytes from the start in the shader, \
+                         {expected} in Rust; the fields and their order must be the same"
+                    ),
+                    None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
+                }
+            }
+            if members.len() < layout.fields.len() {
+                let missing = layout
+                    .fields
+                    .iter()
+                    .map(|(field, _)| *field)
+                    .filter(|field| !members.iter().any(|(member, _)| member == field));
+                let missing: Vec<_> = missing.collect();
+                bail!("{path}: {name} lacks {}, which Rust has", missing.join(", "));
+            }
+        }
+        Ok(())
+    }
+
+    /// Every descriptor: set, binding, variable name; sorted.
+    pub fn descriptors(&self) -> Vec<(u32, u32, String)> {
+        let mut found: Vec<_> = self
+            .module
+            .types_global_values
+            .iter()
+            .filter(|instruction| instruction.class.opcode == Op::Variable)
+            .filter_map(|instruction| {
+                let id = instruction.result_id?;
+                let set = self.decoration(id, Decoration::DescriptorSet)?;
+                Some((set, self.decoration(id, Decoration::Binding)?, self.debug_name(id, None)))
+            })
+            .collect();
+        found.sort();
+        found
+    }
+
+    fn debug_name(&self, id: u32, member: Option<u32>) -> String {
+        let names = self.module.debug_names.iter();
+        let found = names.filter_map(|i| match (member, i.class.opcode, i.operands.as_slice()) {
+            (None, Op::Name, [Operand::IdRef(of), Operand::LiteralString(name)]) => {
+                (*of == id).then_some(name)
+            }
+            (
+                Some(member),
+                Op::MemberName,
+                [Operand::IdRef(of), Operand::LiteralBit32(n), Operand::LiteralString(name)],
+            ) => (*of == id && *n == member).then_some(name),
+            _ => None,
+        });
+        found.map(String::as_str).next().unwrap_or_default().to_owned()
+    }
+
+    fn offset(&self, id: u32, member: u32) -> Option<usize> {
+        self.module.annotations.iter().find_map(|i| match i.operands.as_slice() {
+            [
+                Operand::IdRef(of),
+                Operand::LiteralBit32(n),
+                Operand::Decoration(Decoration::Offset),
+                Operand::LiteralBit32(offset),
+            ] if *of == id && *n == member => Some(*offset as usize),
+            _ => None,
+        })
+    }
+
+    fn decoration(&self, id: u32, wanted: Decoration) -> Option<u32> {
+        self.module.annotations.iter().find_map(|i| match i.operands.as_slice() {
+            [Operand::IdRef(of), Operand::Decoration(decoration), Operand::LiteralBit32(value)]
+                if *of == id && *decoration == wanted =>
+            {
+                Some(*value)
+            }
+            _ => None,
+        })
+    }
+}

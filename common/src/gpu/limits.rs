@@ -1,0 +1,63 @@
+//! The limits that ray tracing code must heed, read once.
+
+use ash::{Instance, vk};
+
+/// Properties of the device that decide sizes, alignments and depths.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Limits {
+    /// Bytes of an opaque shader group handle (32 on every known device).
+    pub shader_group_handle_size: u64,
+    /// What the stride of a shader binding table's region is a multiple of.
+    pub shader_group_handle_alignment: u64,
+    /// What each region's address is a multiple of.
+    pub shader_group_base_alignment: u64,
+    /// The largest stride of a region.
+    pub max_shader_group_stride: u64,
+    /// How deep `traceRayEXT` may nest; the pipeline declares how deep it does.
+    pub max_ray_recursion_depth: u32,
+    /// The most rays of one `vkCmdTraceRaysKHR`.
+    pub max_ray_dispatch_invocation_count: u32,
+    /// What the scratch address of an acceleration structure build is a multiple of.
+    pub min_scratch_offset_alignment: u64,
+    /// The most instances of a top level.
+    pub max_instance_count: u64,
+    /// The most primitives of a bottom level.
+    pub max_primitive_count: u64,
+    /// The largest side of a two-dimensional image.
+    pub max_image_dimension: u32,
+    /// The most bytes of push constants.
+    pub max_push_constants_size: u32,
+    /// Nanoseconds a tick of a timestamp; 0 where the queue has none.
+    pub timestamp_period: f32,
+}
+
+impl Limits {
+    /// Reads the limits of a device that has the ray tracing extensions.
+    pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice) -> Self {
+        let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
+        let mut acceleration = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default()
+            .push_next(&mut pipeline)
+            .push_next(&mut acceleration);
+        // SAFETY: the device belongs to the live instance and has both extensions.
+        unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
+        let core = properties.properties.limits;
+        let timestamps = core.timestamp_compute_and_graphics == vk::TRUE;
+        Self {
+            shader_group_handle_size: pipeline.shader_group_handle_size.into(),
+            shader_group_handle_alignment: pipeline.shader_group_handle_alignment.into(),
+            shader_group_base_alignment: pipeline.shader_group_base_alignment.into(),
+            max_shader_group_stride: pipeline.max_shader_group_stride.into(),
+            max_ray_recursion_depth: pipeline.max_ray_recursion_depth,
+            max_ray_dispatch_invocation_count: pipeline.max_ray_dispatch_invocation_count,
+            min_scratch_offset_alignment: acceleration
+                .min_acceleration_structure_scratch_offset_alignment
+                .into(),
+            max_instance_count: acceleration.max_instance_count,
+            max_primitive_count: acceleration.max_primitive_count,
+            max_image_dimension: core.max_image_dimension2_d,
+            max_push_constants_size: core.max_push_constants_size,
+            timestamp_period: if timestamps { core.timestamp_period } else { 0.0 },
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
+
+mod accel;
+pub mod barrier;
+mod buffer;
+mod context;
+mod device;
+mod image;
+mod layout;
+mod limits;
+pub mod order;
+mod pipeline;
+mod requirements;
+pub mod sbt;
+pub mod shader;
+mod texture;
+mod timing;
+mod validation;
+
+pub use accel::{AccelerationStructure, BuildOptions, Geometry};
+pub use buffer::Buffer;
+pub use context::{Gpu, GpuContext, GpuOptions, Statistics, device_lines, load};
+pub use image::{Image, whole};
+pub use layout::{Address, Reflection, ShaderStruct, StructLayout};
+pub use limits::Limits;
+pub use pipeline::{Binding, Descriptor, HitGroup, PipelineBuilder, RayTracingPipeline};
+pub use requirements::{Features, Requirement, Requirements};
+pub use sbt::{Record, ShaderBindingTable};
+pub use texture::TextureTable;
+pub use timing::Timer;

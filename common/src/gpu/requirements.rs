@@ -1,0 +1,195 @@
+//! What a sample asks of a device: Vulkan features and the extensions that carry them.
+//!
+//! Every chapter needs the baseline; a chapter that needs more adds a line in `requirements()`. The
+//! device is created with exactly what was asked, so validation catches a feature used by accident.
+
+use std::ffi::CStr;
+
+use ash::{khr, vk};
+
+/// One feature bit, the extension that carries it, and how to read and set it.
+#[derive(Clone, Copy)]
+pub struct Requirement {
+    /// The feature's name in the specification, as an error shows it.
+    pub name: &'static str,
+    /// The extension that must be enabled with it; `None` where Vulkan 1.3 has it in core.
+    pub extension: Option<&'static CStr>,
+    bit: fn(&mut Features) -> &mut vk::Bool32,
+}
+
+/// The feature structures that a chapter may ask for, filled by the device or by a sample's wishes.
+#[derive(Clone, Copy, Default)]
+pub struct Features {
+    core: vk::PhysicalDeviceFeatures,
+    vulkan12: vk::PhysicalDeviceVulkan12Features<'static>,
+    vulkan13: vk::PhysicalDeviceVulkan13Features<'static>,
+    acceleration_structure: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
+    ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
+}
+
+impl Features {
+    /// Calls `f` with the chain of structures whose extensions `has` confirms.
+    ///
+    /// A structure of an extension that the device lacks must stay out of the chain.
+    pub fn with_chain<R>(
+        &mut self,
+        has: impl Fn(&CStr) -> bool,
+        f: impl FnOnce(&mut vk::PhysicalDeviceFeatures2) -> R,
+    ) -> R {
+        let Self { core, vulkan12, vulkan13, acceleration_structure, ray_tracing_pipeline } = self;
+        // Copies carry the chain, so that no structure keeps a pointer to its neighbour afterwards.
+        let mut links = (*vulkan12, *vulkan13, *acceleration_structure, *ray_tracing_pipeline);
+        let mut root = vk::PhysicalDeviceFeatures2::default()
+            .features(*core)
+            .push_next(&mut links.0)
+            .push_next(&mut links.1);
+        if has(khr::acceleration_structure::NAME) {
+            root = root.push_next(&mut links.2);
+        }
+        if has(khr::ray_tracing_pipeline::NAME) {
+            root = root.push_next(&mut links.3);
+        }
+        let result = f(&mut root);
+        *core = root.features;
+        let unlinked = std::ptr::null_mut();
+        *vulkan12 = vk::PhysicalDeviceVulkan12Features { p_next: unlinked, ..links.0 };
+        *vulkan13 = vk::PhysicalDeviceVulkan13Features { p_next: unlinked, ..links.1 };
+        *acceleration_structure =
+            vk::PhysicalDeviceAccelerationStructureFeaturesKHR { p_next: unlinked, ..links.2 };
+        *ray_tracing_pipeline =
+            vk::PhysicalDeviceRayTracingPipelineFeaturesKHR { p_next: unlinked, ..links.3 };
+        result
+    }
+}
+
+macro_rules! requirement {
+    ($extension:expr, $name:literal, $($field:ident).+) => {
+        Requirement { name: $name, extension: $extension, bit: |features| &mut features.$($field).+ }
+    };
+}
+
+/// A list of requirements, begun with [`Requirements::ray_tracing`] and extended by the chapter.
+#[derive(Clone, Default)]
+pub struct Requirements {
+    list: Vec<Requirement>,
+    extensions: Vec<&'static CStr>,
+}
+
+impl Requirements {
+    /// The baseline of every chapter: a ray tracing pipeline, acceleration structures, scalar block
+    /// layout, buffer addresses, `synchronization2` and push descriptors.
+    pub fn ray_tracing() -> Self {
+        let acceleration = Some(khr::acceleration_structure::NAME);
+        let pipeline = Some(khr::ray_tracing_pipeline::NAME);
+        Self {
+            list: vec![
+                requirement!(
+                    acceleration,
+                    "accelerationStructure",
+                    acceleration_structure.acceleration_structure
+                ),
+                requirement!(
+                    pipeline,
+                    "rayTracingPipeline",
+                    ray_tracing_pipeline.ray_tracing_pipeline
+                ),
+                requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
+                requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
+                requirement!(None, "synchronization2", vulkan13.synchronization2),
+            ],
+            // Acceleration structures depend on deferred host operations, even where none is used.
+            extensions: vec![khr::deferred_host_operations::NAME, khr::push_descriptor::NAME],
+        }
+    }
+
+    /// The bindless texture table: one array of sampled images, indexed differently by each ray.
+    pub fn textures(mut self) -> Self {
+        self.list.extend([
+            requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
+            requirement!(
+                None,
+                "shaderSampledImageArrayNonUniformIndexing",
+                vulkan12.shader_sampled_image_array_non_uniform_indexing
+            ),
+        ]);
+        self
+    }
+
+    /// What drawing to a window adds: the swapchain and dynamic rendering for the panel.
+    pub fn window(mut self) -> Self {
+        self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
+        self.extensions.push(khr::swapchain::NAME);
+        self
+    }
+
+    /// Every extension to enable, each once.
+    pub fn extensions(&self) -> Vec<&'static CStr> {
+        let mut all = self.extensions.clone();
+        all.extend(self.list.iter().filter_map(|requirement| requirement.extension));
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// The features to enable: those asked for and no other.
+    pub fn features(&self) -> Features {
+        let mut features = Features::default();
+        for requirement in &self.list {
+            *(requirement.bit)(&mut features) = vk::TRUE;
+        }
+        features
+    }
+
+    /// What a device with these extensions and features lacks, by name; empty if it is suitable.
+    pub fn missing(
+        &self,
+        has_extension: impl Fn(&CStr) -> bool,
+        offered: &Features,
+    ) -> Vec<String> {
+        let mut offered = *offered;
+        let extensions = self.extensions();
+        let lacking = extensions.iter().filter(|name| !has_extension(name));
+        let mut missing: Vec<String> =
+            lacking.map(|name| name.to_string_lossy().into_owned()).collect();
+        for requirement in &self.list {
+            let carried = requirement.extension.is_none_or(&has_extension);
+            if carried && *(requirement.bit)(&mut offered) == vk::FALSE {
+                missing.push(format!("feature {}", requirement.name));
+            }
+        }
+        missing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_without_ray_tracing_is_told_what_it_lacks() {
+        let missing = Requirements::ray_tracing().missing(|_| false, &Features::default());
+        assert!(missing.contains(&"VK_KHR_ray_tracing_pipeline".to_owned()), "{missing:?}");
+        assert!(missing.contains(&"feature scalarBlockLayout".to_owned()), "{missing:?}");
+        assert!(
+            !missing.contains(&"feature rayTracingPipeline".to_owned()),
+            "named by its extension"
+        );
+    }
+
+    #[test]
+    fn an_offered_extension_without_its_feature_is_not_enough() {
+        let wanted = Requirements::ray_tracing();
+        let mut offered = wanted.features();
+        offered.ray_tracing_pipeline.ray_tracing_pipeline = vk::FALSE;
+        assert_eq!(wanted.missing(|_| true, &offered), ["feature rayTracingPipeline"]);
+    }
+
+    #[test]
+    fn nothing_but_what_was_asked_is_enabled() {
+        let mut features = Requirements::ray_tracing().features();
+        assert_eq!(features.vulkan12.runtime_descriptor_array, vk::FALSE);
+        assert_eq!(features.vulkan13.dynamic_rendering, vk::FALSE);
+        features = Requirements::ray_tracing().textures().features();
+        assert_eq!(features.vulkan12.runtime_descriptor_array, vk::TRUE);
+    }
+}

@@ -1,0 +1,284 @@
+//! The shader binding table: which shaders a ray finds, and the data that each record carries.
+//!
+//! Four regions (raygen, miss, hit, callable), each a run of records of one stride. A record is a
+//! group's opaque handle and the bytes after it, which the shader reads as `shaderRecordEXT`. The
+//! device's limits decide where a region may begin and how long a record must be; getting that wrong
+//! works on some vendors' devices and loses the device on others, so the arithmetic stands alone here,
+//! tested on the limits of several.
+
+use anyhow::{Context, Result, ensure};
+use ash::vk;
+
+use super::{Buffer, Gpu, Limits, RayTracingPipeline};
+
+/// Where a region lies in the table's buffer, in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Region {
+    /// From the start of the buffer.
+    pub offset: u64,
+    /// From one record to the next.
+    pub stride: u64,
+    /// Of all its records; 0 for a region without any.
+    pub size: u64,
+}
+
+/// The regions of a table, in the order of `vkCmdTraceRaysKHR`: raygen, miss, hit, callable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SbtLayout {
+    /// The four regions.
+    pub regions: [Region; 4],
+    /// Bytes of the whole buffer.
+    pub size: u64,
+}
+
+/// Lays out regions of `records[r]` records, each with at most `data[r]` bytes after its handle.
+///
+/// A stride is a multiple of `shaderGroupHandleAlignment`; a region begins at a multiple of
+/// `shaderGroupBaseAlignment`; the raygen region holds one record and its size equals its stride
+/// (`VUID-vkCmdTraceRaysKHR-size-04023`).
+///
+/// # Errors
+/// If a record is longer than `maxShaderGroupStride`.
+pub fn layout(limits: &Limits, records: [usize; 4], data: [usize; 4]) -> Result<SbtLayout> {
+    let mut result = SbtLayout::default();
+    for (region, slot) in result.regions.iter_mut().enumerate() {
+        let bytes = limits.shader_group_handle_size + data[region] as u64;
+        let stride = bytes.next_multiple_of(limits.shader_group_handle_alignment);
+        ensure!(
+            stride <= limits.max_shader_group_stride,
+            "a shader record of {bytes} bytes is longer than the device's {}",
+            limits.max_shader_group_stride
+        );
+        if records[region] > 0 {
+            let offset = result.size.next_multiple_of(limits.shader_group_base_alignment);
+            let size = stride * records[region] as u64;
+            *slot = Region { offset, stride, size };
+            result.size = offset + size;
+        }
+    }
+    Ok(result)
+}
+
+/// The index of the hit record that a ray uses, by the formula of the specification.
+///
+/// `instanceShaderBindingTableRecordOffset + geometryIndex × sbtRecordStride + sbtRecordOffset`
+/// (Vulkan specification, "Hit Shader Binding Table").
+pub fn hit_record(
+    instance_offset: u32,
+    geometry: u32,
+    trace_stride: u32,
+    trace_offset: u32,
+) -> u32 {
+    instance_offset + geometry * trace_stride + trace_offset
+}
+
+/// One record: a group of the pipeline, and the bytes after its handle.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// The group's position among the groups of its kind, in the pipeline's order.
+    pub group: usize,
+    /// What the shader reads as `shaderRecordEXT`.
+    pub data: Vec<u8>,
+}
+
+/// A table in device memory.
+pub struct ShaderBindingTable {
+    /// Where its regions lie.
+    pub layout: SbtLayout,
+    /// The regions' addresses, as `vkCmdTraceRaysKHR` takes them: raygen, miss, hit, callable.
+    pub regions: [vk::StridedDeviceAddressRegionKHR; 4],
+    buffer: Buffer,
+    gpu: Gpu,
+}
+
+impl ShaderBindingTable {
+    /// A table with one record for each group of the pipeline, in order, without data.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn new(gpu: &Gpu, pipeline: &RayTracingPipeline) -> Result<Self> {
+        let hit = (0..pipeline.groups[2]).map(|group| Record { group, data: Vec::new() });
+        Self::with_hit_records(gpu, pipeline, &hit.collect::<Vec<_>>())
+    }
+
+    /// A table whose hit region holds `hit` records, several of a group if need be.
+    ///
+    /// # Errors
+    /// If a record names a group that the pipeline does not have, is too long, or memory is short.
+    pub fn with_hit_records(
+        gpu: &Gpu,
+        pipeline: &RayTracingPipeline,
+        hit: &[Record],
+    ) -> Result<Self> {
+        let [raygen, miss, _, callable] = pipeline.groups;
+        let plain = |count| (0..count).map(|group| Record { group, data: Vec::new() }).collect();
+        let records: [Vec<Record>; 4] = [plain(raygen), plain(miss), hit.to_vec(), plain(callable)];
+        let longest = |r: &Vec<Record>| r.iter().map(|record| record.data.len()).max().unwrap_or(0);
+        let layout =
+            layout(&gpu.limits, records.each_ref().map(Vec::len), records.each_ref().map(longest))?;
+
+        let handle_size = gpu.limits.shader_group_handle_size as usize;
+        let total: usize = pipeline.groups.iter().sum();
+        // SAFETY: the pipeline is alive and has this many groups.
+        let handles = unsafe {
+            gpu.ray_tracing_pipeline.get_ray_tracing_shader_group_handles(
+                pipeline.handle,
+                0,
+                total as u32,
+                total * handle_size,
+            )?
+        };
+        let mut bytes = vec![0u8; layout.size as usize];
+        let mut first_group = 0;
+        for (region, records) in records.iter().enumerate() {
+            let Region { offset, stride, .. } = layout.regions[region];
+            for (index, record) in records.iter().enumerate() {
+                let count = pipeline.groups[region];
+                ensure!(
+                    record.group < count,
+                    "a shader record names group {}; the pipeline has {count} of its kind",
+                    record.group
+                );
+                let handle = &handles[(first_group + record.group) * handle_size..][..handle_size];
+                let start = offset as usize + index * stride as usize;
+                bytes[start..][..handle_size].copy_from_slice(handle);
+                bytes[start + handle_size..][..record.data.len()].copy_from_slice(&record.data);
+            }
+            first_group += pipeline.groups[region];
+        }
+        let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
+            | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let name = format!("{} shader binding table", pipeline.name);
+        let alignment = gpu.limits.shader_group_base_alignment;
+        let buffer = Buffer::aligned(gpu, &name, layout.size, usage, alignment)?;
+        buffer.write(0, &bytes).context("cannot fill the shader binding table")?;
+        let regions = layout.regions.map(|region| {
+            let address = if region.size > 0 { buffer.address + region.offset } else { 0 };
+            vk::StridedDeviceAddressRegionKHR {
+                device_address: address,
+                stride: region.stride,
+                size: region.size,
+            }
+        });
+        Ok(Self { layout, regions, buffer, gpu: gpu.clone() })
+    }
+
+    /// Replaces the data of one hit record; its group stays.
+    ///
+    /// # Errors
+    /// If there is no such record, or the data is longer than the record.
+    pub fn write_hit_data(&self, record: usize, data: &[u8]) -> Result<()> {
+        let Region { offset, stride, size } = self.layout.regions[2];
+        let handle = self.gpu.limits.shader_group_handle_size;
+        let start = record as u64 * stride;
+        ensure!(
+            start < size,
+            "the table has {} hit records, none with number {record}",
+            size / stride.max(1)
+        );
+        ensure!(
+            data.len() as u64 <= stride - handle,
+            "{} bytes do not fit a record's {}",
+            data.len(),
+            stride - handle
+        );
+        self.buffer.write(offset + start + handle, data)
+    }
+
+    /// Records one ray per pixel of `extent`, from the raygen group.
+    pub fn trace(&self, cmd: vk::CommandBuffer, extent: vk::Extent2D) {
+        let [raygen, miss, hit, callable] = &self.regions;
+        let (width, height) = (extent.width, extent.height);
+        // SAFETY: the pipeline and its descriptors are bound, and the table outlives the submission.
+        unsafe {
+            self.gpu
+                .ray_tracing_pipeline
+                .cmd_trace_rays(cmd, raygen, miss, hit, callable, width, height, 1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Handle size, handle alignment, base alignment, largest stride, as drivers report them.
+    const VENDORS: [(&str, [u64; 4]); 4] = [
+        ("NVIDIA", [32, 32, 64, 4096]),
+        ("AMD (RADV)", [32, 32, 32, 4096]),
+        ("Intel (ANV)", [32, 32, 64, 4096]),
+        ("an extreme of the specification", [32, 64, 4096, 4096]),
+    ];
+
+    fn limits([size, alignment, base, stride]: [u64; 4]) -> Limits {
+        Limits {
+            shader_group_handle_size: size,
+            shader_group_handle_alignment: alignment,
+            shader_group_base_alignment: base,
+            max_shader_group_stride: stride,
+            ..Limits::default()
+        }
+    }
+
+    #[test]
+    fn every_vendor_gets_aligned_regions_that_do_not_overlap() {
+        for (vendor, numbers) in VENDORS {
+            let limits = limits(numbers);
+            for records in [[1, 1, 1, 0], [1, 2, 7, 3], [1, 0, 1, 0], [1, 5, 100, 9]] {
+                for data in [[0; 4], [0, 0, 4, 0], [0, 12, 33, 1]] {
+                    let layout = layout(&limits, records, data).unwrap();
+                    let mut end = 0;
+                    for (r, region) in layout.regions.iter().enumerate() {
+                        if records[r] == 0 {
+                            assert_eq!(*region, Region::default(), "{vendor}");
+                            continue;
+                        }
+                        assert_eq!(
+                            region.offset % limits.shader_group_base_alignment,
+                            0,
+                            "{vendor}"
+                        );
+                        assert_eq!(
+                            region.stride % limits.shader_group_handle_alignment,
+                            0,
+                            "{vendor}"
+                        );
+                        assert!(region.stride >= limits.shader_group_handle_size + data[r] as u64);
+                        assert_eq!(region.size, region.stride * records[r] as u64, "{vendor}");
+                        assert!(region.offset >= end, "{vendor}: regions overlap");
+                        end = region.offset + region.size;
+                    }
+                    assert_eq!(layout.size, end, "{vendor}");
+                    assert_eq!(
+                        layout.regions[0].size, layout.regions[0].stride,
+                        "{vendor}: raygen"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_table_on_nvidia_limits_by_hand() {
+        let layout = layout(&limits(VENDORS[0].1), [1, 2, 2, 0], [0, 0, 16, 0]).unwrap();
+        assert_eq!(layout.regions[0], Region { offset: 0, stride: 32, size: 32 });
+        assert_eq!(layout.regions[1], Region { offset: 64, stride: 32, size: 64 });
+        assert_eq!(layout.regions[2], Region { offset: 128, stride: 64, size: 128 });
+        assert_eq!(layout.size, 256);
+    }
+
+    #[test]
+    fn a_record_longer_than_the_device_allows_is_refused() {
+        let limits = limits(VENDORS[0].1);
+        assert!(layout(&limits, [1, 1, 1, 0], [0, 0, 4064, 0]).is_ok());
+        let error = layout(&limits, [1, 1, 1, 0], [0, 0, 4065, 0]).unwrap_err().to_string();
+        assert!(error.contains("4097 bytes"), "{error}");
+    }
+
+    #[test]
+    fn the_hit_record_formula_is_the_specification_s() {
+        assert_eq!(hit_record(4, 0, 1, 0), 4);
+        assert_eq!(hit_record(4, 2, 2, 1), 9);
+    }
+}

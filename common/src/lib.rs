@@ -1,0 +1,23 @@
+//! The framework that the samples share. What lives where:
+//!
+//! - [`app`]: a program: arguments, controls, window, headless run, picture, report
+//! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
+//! - [`scene`]: camera, light, mesh, material, OBJ files, the chess world, its upload
+//! - [`reference`]: the same intersections on the CPU, in f64 and exact: what the GPU is held to
+//! - [`files`], [`usage`]: files written whole; the error that means "wrong arguments"
+//!
+//! Arrows point one way: samples → app → gpu; `scene` uses `gpu` only to upload, `reference` neither.
+//! A helper enters only once a chapter has shown it raw.
+
+// The macro `shader_struct!` names this crate by its outside name, here as in the samples.
+extern crate self as common;
+
+pub mod app;
+pub mod files;
+pub mod gpu;
+pub mod reference;
+pub mod scene;
+pub mod usage;
+
+pub use app::{Controls, Frame, Sample, Setup, run};
+pub use bytemuck;

@@ -1,0 +1,151 @@
+//! The hard cases with their answers to 50 digits, held against the exact and the f64 functions.
+
+use glam::DVec3;
+use serde_json::Value;
+
+use super::aabb::Aabb;
+use super::plane::{Plane, PointPlane};
+use super::sphere::Sphere;
+use super::surd::Surd;
+use super::ulp::ulp_error;
+use super::{Ray, Surface, triangle};
+
+const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/hard_cases.json");
+
+/// An input: exactly an f32, written as a decimal of f64.
+fn number(value: &Value) -> f64 {
+    f64::from(value.as_f64().unwrap_or_else(|| panic!("{value} is no number")) as f32)
+}
+
+fn vector(value: &Value) -> DVec3 {
+    DVec3::new(number(&value[0]), number(&value[1]), number(&value[2]))
+}
+
+/// An answer: a decimal string, here rounded to the nearest f64.
+fn answer(value: &Value) -> f64 {
+    value.as_str().and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{value}"))
+}
+
+fn ray(value: &Value) -> Ray {
+    Ray {
+        origin: vector(&value["origin"]),
+        direction: vector(&value["dir"]),
+        tmin: number(&value["tmin"]),
+        tmax: number(&value["tmax"]),
+    }
+}
+
+/// What the two ways say: (exact, f64), and the faces of a box.
+struct Found {
+    exact: Option<Surface>,
+    plain: Option<Surface>,
+    faces: Vec<DVec3>,
+}
+
+fn trace(case: &Value) -> Option<Found> {
+    let primitive = case["primitive"].as_str().expect("every case names its primitive");
+    if ["capsule", "instance", "heightfield", "secondary_origin", "accumulation"]
+        .contains(&primitive)
+    {
+        return None;
+    }
+    let (ray, shape) = (ray(&case["ray"]), &case["shape"]);
+    let found = |exact: Option<super::ExactSurface>, plain| {
+        Some(Found { exact: exact.map(|hit| hit.to_f64()), plain, faces: Vec::new() })
+    };
+    match primitive {
+        "sphere" => {
+            let sphere =
+                Sphere { center: vector(&shape["center"]), radius: number(&shape["radius"]) };
+            found(sphere.intersect_exact(&ray), sphere.intersect(&ray))
+        }
+        "box" => {
+            let aabb = Aabb { low: vector(&shape["lo"]), high: vector(&shape["hi"]) };
+            let exact = aabb.intersect_exact(&ray);
+            let faces = exact.as_ref().map(|hit| hit.faces.clone()).unwrap_or_default();
+            let exact =
+                exact.map(|hit| Surface { t: Surd::from(hit.t).to_f64(), normal: hit.faces[0] });
+            Some(Found { exact, plain: aabb.intersect(&ray), faces })
+        }
+        "plane" => {
+            let plane = Plane { normal: vector(&shape["normal"]), distance: number(&shape["d"]) };
+            found(plane.intersect_exact(&ray), plane.intersect(&ray))
+        }
+        "plane_point" => {
+            let plane =
+                PointPlane { point: vector(&shape["point"]), normal: vector(&shape["normal"]) };
+            found(plane.intersect_exact(&ray), plane.intersect(&ray))
+        }
+        "triangle" => {
+            let (mut exact, mut plain) = (Vec::new(), Vec::new());
+            for vertices in shape["triangles"].as_array().unwrap() {
+                let triangle = [0, 1, 2].map(|i| vector(&vertices[i]));
+                exact.extend(triangle::intersect_exact(&ray, &triangle).map(|hit| hit.surface));
+                plain.extend(triangle::intersect(&ray, &triangle).map(|hit| {
+                    let [a, b, c] = triangle;
+                    let side = if hit.counterclockwise { 1.0 } else { -1.0 };
+                    Surface { t: hit.t, normal: (b - a).cross(c - a).normalize() * side }
+                }));
+            }
+            let nearest = plain.into_iter().min_by(|p, q| p.t.total_cmp(&q.t));
+            let exact = exact.into_iter().min_by(|p, q| p.t.to_f64().total_cmp(&q.t.to_f64()));
+            found(exact, nearest)
+        }
+        other => panic!("{other} is no primitive of this schema"),
+    }
+}
+
+fn check(case: &Value, found: &Found) {
+    let (id, expect) = (&case["id"], &case["expect"]);
+    match expect["hit"].as_str().unwrap() {
+        "yes" => {}
+        "no" => {
+            assert!(found.exact.is_none() && found.plain.is_none(), "{id}: a hit");
+            return;
+        }
+        // Whether denormals are flushed: the reference never does, and outside is outside.
+        "either" => {
+            assert!(found.exact.is_none(), "{id}: outside by a denormal, yet a hit");
+            return;
+        }
+        other => panic!("{id}: {other} is no hit"),
+    }
+    let exact = found.exact.unwrap_or_else(|| panic!("{id}: the exact function misses"));
+    let plain = found.plain.unwrap_or_else(|| panic!("{id}: the f64 function misses"));
+    // Correctly rounded, so the very bits of the 50 digits rounded to f64.
+    let t = answer(&expect["t"]);
+    assert_eq!(exact.t, t, "{id}: t");
+    assert!(ulp_error(plain.t as f32, t) <= 0.501, "{id}: {} for {t}", plain.t);
+    if let Some(normal) = expect.get("normal") {
+        let normal = DVec3::from_array([0, 1, 2].map(|i| answer(&normal[i])));
+        assert_eq!(exact.normal, normal, "{id}: normal");
+        assert!((plain.normal - normal).length() <= 1e-7, "{id}: {} for {normal}", plain.normal);
+    }
+    if let Some(faces) = expect.get("faces") {
+        let named = |name: &str| {
+            let sign = if name.starts_with('+') { 1.0 } else { -1.0 };
+            DVec3::AXES["xyz".find(&name[1..]).unwrap()] * sign
+        };
+        let faces: Vec<_> = faces.as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        assert_eq!(faces.len(), found.faces.len(), "{id}: {:?}", found.faces);
+        for face in faces {
+            assert!(found.faces.contains(&named(face)), "{id}: {:?}", found.faces);
+        }
+        assert!(found.faces.contains(&plain.normal), "{id}: {}", plain.normal);
+    }
+}
+
+#[test]
+fn every_hard_case_of_the_primitives_here() {
+    let text = std::fs::read_to_string(CASES).unwrap_or_else(|error| panic!("{CASES}: {error}"));
+    let file: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["schema"], "rt-hard-cases/2");
+    let mut run = 0;
+    for case in file["cases"].as_array().unwrap() {
+        if let Some(found) = trace(case) {
+            check(case, &found);
+            run += 1;
+        }
+    }
+    assert!(run >= 81, "only {run} cases");
+}

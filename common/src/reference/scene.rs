@@ -1,0 +1,319 @@
+//! Many triangles under many instances: closest hit, all hits, and near misses.
+
+use glam::DVec3;
+
+use super::Ray;
+use super::bound::Bounds;
+use super::bvh::Bvh;
+use super::crossing::Shear;
+use super::hit::{Candidate, Hit};
+use super::transform::{Transform, U};
+use super::triangle::Triangle;
+
+/// One instance of a mesh, as a top-level acceleration structure holds it.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Object to world.
+    pub transform: Transform,
+    /// Vertices in object space as the GPU has them; the index is the primitive's number.
+    pub triangles: Vec<[[f32; 3]; 3]>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    instance: u32,
+    primitive: u32,
+    triangle: Triangle,
+}
+
+/// The triangles of all instances in world space, under one hierarchy.
+///
+/// Vertices are transformed in f64 from the f32 of matrix and mesh, which rounds 2^29 times more
+/// finely than the GPU: what it leaves is part of the bounds.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    transforms: Vec<Transform>,
+    /// Index of the first item of each instance, and the number of items at the end.
+    starts: Vec<usize>,
+    items: Vec<Item>,
+    bvh: Bvh,
+}
+
+impl Scene {
+    /// Builds the scene; the order of the instances is that of `gl_InstanceID`.
+    pub fn new(instances: impl IntoIterator<Item = Instance>) -> Self {
+        let mut scene = Self {
+            transforms: Vec::new(),
+            starts: vec![0],
+            items: Vec::new(),
+            bvh: Bvh::default(),
+        };
+        for Instance { transform, triangles } in instances {
+            let instance = scene.transforms.len() as u32;
+            for (vertices, primitive) in triangles.into_iter().zip(0..) {
+                let triangle =
+                    vertices.map(|v| transform.point(DVec3::from_array(v.map(f64::from))));
+                scene.items.push(Item { instance, primitive, triangle });
+            }
+            scene.starts.push(scene.items.len());
+            scene.transforms.push(transform);
+        }
+        let boxes: Vec<_> = (scene.items.iter())
+            .map(|Item { triangle: [a, b, c], .. }| (a.min(*b).min(*c), a.max(*b).max(*c)))
+            .collect();
+        scene.bvh = Bvh::new(&boxes);
+        scene
+    }
+
+    /// Number of triangles, over all instances.
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Whether there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// A triangle in world space; `None` if there is no such instance or primitive.
+    pub fn triangle(&self, instance: u32, primitive: u32) -> Option<&Triangle> {
+        self.item(instance, primitive).map(|item| &item.triangle)
+    }
+
+    fn item(&self, instance: u32, primitive: u32) -> Option<&Item> {
+        let &[start, end] = self.starts.get(instance as usize..)?.first_chunk()?;
+        self.items[start..end].get(primitive as usize)
+    }
+
+    /// The nearest hit that `accept` takes; among several at one t, the first in instance and
+    /// primitive order.
+    ///
+    /// `accept` stands for culling and any-hit shaders; `|_| true` takes all.
+    pub fn closest_hit(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let shear = Shear::new(ray);
+        let mut closest: Option<Hit> = None;
+        self.bvh.traverse(ray, self.pad(ray), |index| {
+            let item = &self.items[index as usize];
+            if shear.is_inside(&item.triangle) {
+                let hit = self.hit(&shear, item);
+                let key = |hit: &Hit| (hit.t, hit.instance, hit.primitive);
+                let nearer = closest.as_ref().is_none_or(|closest| key(&hit) < key(closest));
+                if nearer && ray.contains(hit.t) && accept(&hit) {
+                    closest = Some(hit);
+                }
+            }
+            closest.map_or(ray.tmax, |hit| hit.t)
+        });
+        closest
+    }
+
+    /// All hits along the ray, by t, then by instance and primitive.
+    pub fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+        self.collect(ray, |shear, item| {
+            let inside = shear.is_inside(&item.triangle);
+            inside.then(|| self.hit(shear, item)).filter(|hit| ray.contains(hit.t))
+        })
+    }
+
+    /// All triangles that an f32 renderer may take for hits, by t, then by instance and primitive.
+    ///
+    /// Where there is one that is no hit, or that need not be one, the renderer has a choice.
+    pub fn near_candidates(&self, ray: &Ray) -> Vec<Candidate> {
+        let hits = self.collect(ray, |shear, item| Some(self.hit(shear, item)));
+        let candidates = hits.into_iter().map(|hit| self.candidate(ray, hit));
+        candidates.filter(|candidate| candidate.may_hit(ray)).collect()
+    }
+
+    /// One triangle as a candidate, wherever the ray passes; `None` if there is no such triangle.
+    pub fn candidate_at(&self, ray: &Ray, instance: u32, primitive: u32) -> Option<Candidate> {
+        let item = self.item(instance, primitive)?;
+        Some(self.candidate(ray, self.hit(&Shear::new(ray), item)))
+    }
+
+    /// A hit of this scene with its bounds.
+    ///
+    /// # Panics
+    /// If the hit is that of another scene and has no like here.
+    pub fn candidate(&self, ray: &Ray, hit: Hit) -> Candidate {
+        let item = self.item(hit.instance, hit.primitive).expect("a hit of this scene");
+        let transform = &self.transforms[hit.instance as usize];
+        let bounds = Bounds::new(ray, &item.triangle, transform, hit.t);
+        Candidate { hit, graze: bounds.graze(&hit.crossing), t_bound: bounds.t }
+    }
+
+    fn collect(&self, ray: &Ray, test: impl Fn(&Shear, &Item) -> Option<Hit>) -> Vec<Hit> {
+        let shear = Shear::new(ray);
+        let mut hits = Vec::new();
+        self.bvh.traverse(ray, self.pad(ray), |index| {
+            hits.extend(test(&shear, &self.items[index as usize]));
+            ray.tmax
+        });
+        hits.sort_by(|p, q| {
+            let order = (p.instance, p.primitive).cmp(&(q.instance, q.primitive));
+            p.t.total_cmp(&q.t).then(order)
+        });
+        hits
+    }
+
+    fn hit(&self, shear: &Shear, item: &Item) -> Hit {
+        let crossing = shear.cross(&item.triangle);
+        let mirrored = self.transforms[item.instance as usize].determinant < 0.0;
+        Hit {
+            instance: item.instance,
+            primitive: item.primitive,
+            t: crossing.t,
+            barycentrics: crossing.barycentrics(),
+            counterclockwise: crossing.counterclockwise != mirrored,
+            crossing,
+        }
+    }
+
+    /// How much boxes grow, so that no triangle is left out whose moved copy the ray touches.
+    ///
+    /// The module [`bound`](super::bound) lets a ray stray by u·H·(..) and vertices move by 13u·R',
+    /// in the world `13u·‖L‖‖L^-1‖·R`; twice that leaves room for the rounded products.
+    fn pad(&self, ray: &Ray) -> f64 {
+        let Some((low, high)) = self.bvh.extent() else { return 0.0 };
+        let reach = (low - ray.origin).abs().max((high - ray.origin).abs());
+        let pads = self.transforms.iter().map(|transform| {
+            let [x, y, z] = transform.inverse.to_cols_array_2d().map(DVec3::from_array);
+            let shrink = (x.length_squared() + y.length_squared() + z.length_squared()).sqrt();
+            let vertices = 13.0 * U * transform.stretch * shrink * reach.length();
+            transform.stray(ray.origin, reach).length() + vertices
+        });
+        2.0 * pads.fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::families::{Random, sheet, towards};
+    use super::super::triangle;
+    use super::*;
+    use std::time::Instant;
+
+    fn scene() -> Scene {
+        let rows = [
+            [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, -1.0], [0.0, 0.0, 1.0, 0.0]],
+            [[-1.5, 0.2, 0.0, 0.3], [0.1, 1.0, 0.3, 0.5], [0.0, -0.4, 2.0, 0.0]],
+        ];
+        Scene::new(rows.map(|rows| Instance {
+            transform: Transform::from_rows(rows).unwrap(),
+            triangles: sheet(8, 0.3),
+        }))
+    }
+
+    #[test]
+    fn finds_what_testing_every_triangle_finds() {
+        let scene = scene();
+        let mut random = Random(30);
+        let mut several = 0;
+        for _ in 0..2000 {
+            let ray = towards(random.in_cube() * 3.0, random.in_cube());
+            let hits = scene.all_hits(&ray);
+            let mut expected: Vec<_> = (scene.items.iter())
+                .filter_map(|item| Some((triangle::intersect(&ray, &item.triangle)?.t, item)))
+                .map(|(t, item)| (t, item.instance, item.primitive))
+                .collect();
+            expected.sort_by(|p, q| p.partial_cmp(q).unwrap());
+            let found: Vec<_> = hits.iter().map(|h| (h.t, h.instance, h.primitive)).collect();
+            assert_eq!(found, expected);
+            assert_eq!(scene.closest_hit(&ray, |_| true), hits.first().copied());
+            let second = |hit: &Hit| hit.instance == 1;
+            let expected = hits.iter().find(|hit| second(hit)).copied();
+            assert_eq!(scene.closest_hit(&ray, second), expected);
+            several += usize::from(hits.len() > 1);
+            for hit in hits {
+                let [a, b, c] = scene.triangle(hit.instance, hit.primitive).unwrap();
+                let [v, w] = hit.barycentrics.to_array();
+                let point = a * (1.0 - v - w) + b * v + c * w;
+                assert!((point - ray.at(hit.t)).length() < 1e-12);
+            }
+        }
+        assert!(several > 500, "{several}");
+    }
+
+    #[test]
+    fn candidates_are_the_hits_and_what_is_within_the_bound() {
+        let scene = scene();
+        let mut random = Random(31);
+        let mut near_misses = 0;
+        for _ in 0..2000 {
+            let item = &scene.items[random.below(scene.items.len())];
+            let target = item.triangle[0].lerp(item.triangle[1], random.between(0.0, 1.0));
+            let ray = towards(target + random.unit() * 3.0, target);
+            let candidates = scene.near_candidates(&ray);
+            for hit in scene.all_hits(&ray) {
+                assert!(candidates.iter().any(|candidate| candidate.hit == hit));
+            }
+            for item in &scene.items {
+                let (instance, primitive) = (item.instance, item.primitive);
+                let candidate = scene.candidate_at(&ray, instance, primitive).unwrap();
+                assert_eq!(candidates.contains(&candidate), candidate.may_hit(&ray));
+            }
+            near_misses += candidates.iter().filter(|near| !near.hit.crossing.inside).count();
+            assert!(candidates.iter().any(|near| near.graze.may_miss()));
+        }
+        assert!(near_misses > 500, "{near_misses}");
+    }
+
+    #[test]
+    fn candidates_may_lie_beside_their_boxes() {
+        let triangles = vec![[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]];
+        let scene = Scene::new([Instance { transform: Transform::identity(), triangles }]);
+        let count = |y: f64| {
+            let ray = towards(DVec3::new(0.5, y, 4.0), DVec3::new(0.5, y, 0.0));
+            assert!(scene.all_hits(&ray).is_empty());
+            scene.near_candidates(&ray).len()
+        };
+        assert_eq!((count(-1e-6), count(-1e-5)), (1, 0));
+    }
+
+    #[test]
+    fn facing_is_that_of_the_object() {
+        let triangles = vec![[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]];
+        for mirror in [1.0, -1.0] {
+            let rows = [[mirror, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+            let transform = Transform::from_rows(rows).unwrap();
+            let scene = Scene::new([Instance { transform, triangles: triangles.clone() }]);
+            let target = DVec3::new(0.25 * f64::from(mirror), 0.25, 0.0);
+            let facing = |z: f64| {
+                let ray = towards(target + DVec3::Z * z, target);
+                scene.closest_hit(&ray, |_| true).unwrap().counterclockwise
+            };
+            assert!(facing(5.0) && !facing(-5.0), "{mirror}");
+        }
+    }
+
+    #[test]
+    fn empty_scenes_and_unknown_triangles() {
+        let ray = towards(DVec3::Z, DVec3::ZERO);
+        let empty = Scene::new([]);
+        assert!(empty.is_empty() && empty.closest_hit(&ray, |_| true).is_none());
+        assert!(empty.near_candidates(&ray).is_empty());
+        let scene = scene();
+        assert_eq!(scene.len(), 256);
+        assert!(scene.triangle(1, 127).is_some() && scene.triangle(1, 128).is_none());
+        assert!(scene.triangle(2, 0).is_none() && scene.triangle(u32::MAX, 0).is_none());
+    }
+
+    /// 100,000 rays into 100,000 triangles; the time is printed, not asserted.
+    #[test]
+    fn a_large_scene_is_a_matter_of_seconds() {
+        let start = Instant::now();
+        let transform = Transform::identity();
+        let scene = Scene::new([Instance { transform, triangles: sheet(224, 0.2) }]);
+        let built = start.elapsed();
+        let mut random = Random(32);
+        let mut hits = 0;
+        for _ in 0..100_000 {
+            let target = random.in_cube() * DVec3::new(0.99, 0.0, 0.99);
+            let origin = DVec3::new(0.0, 2.0, 3.0);
+            hits += usize::from(scene.closest_hit(&towards(origin, target), |_| true).is_some());
+        }
+        println!("{} triangles built in {built:?}, all in {:?}", scene.len(), start.elapsed());
+        assert_eq!(scene.len(), 100_352);
+        // The border of the sheet is crumpled too, so that some rays pass below it.
+        assert!(hits > 95_000, "{hits}");
+    }
+}

@@ -1,0 +1,93 @@
+//! A pinhole camera: where rays begin and which way they go.
+
+use glam::{DVec3, Vec3};
+
+/// A camera in world space, in f64: the basis that shaders get is rounded once, at the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where rays begin.
+    pub eye: DVec3,
+    /// What is in the middle of the picture.
+    pub target: DVec3,
+    /// Which way is up; need not be perpendicular to the view.
+    pub up: DVec3,
+    /// Angle between the top and the bottom of the picture, in degrees.
+    pub fov_y: f64,
+}
+
+common::shader_struct! {
+    /// What a shader needs to make the ray of a pixel:
+    /// `direction = forward + x·right + y·up`, with x and y from -1 to 1 across the picture.
+    pub struct CameraBasis {
+        /// The eye.
+        pub origin: Vec3,
+        /// Half the picture's width, at distance 1.
+        pub right: Vec3,
+        /// Half the picture's height, at distance 1.
+        pub up: Vec3,
+        /// The middle of the picture, at distance 1.
+        pub forward: Vec3,
+    }
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self::new(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 45.0)
+    }
+}
+
+impl Camera {
+    /// A camera that looks from `eye` at `target`, y up, with a vertical field of view in degrees.
+    pub fn new(eye: DVec3, target: DVec3, fov_y: f64) -> Self {
+        Self { eye, target, up: DVec3::Y, fov_y }
+    }
+
+    /// The unit vectors right, up and forward.
+    ///
+    /// Where the view is along `up` or has no length, any perpendicular basis is taken, so that no
+    /// setting gives a NaN.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
+        let right = forward
+            .cross(self.up)
+            .try_normalize()
+            .unwrap_or_else(|| forward.any_orthonormal_vector());
+        [right, right.cross(forward), forward]
+    }
+
+    /// The basis of a picture whose width is `aspect` times its height.
+    pub fn basis(&self, aspect: f64) -> CameraBasis {
+        let [right, up, forward] = self.axes();
+        let half_height = (self.fov_y.to_radians() / 2.0).tan();
+        CameraBasis {
+            origin: self.eye.as_vec3(),
+            right: (right * half_height * aspect).as_vec3(),
+            up: (up * half_height).as_vec3(),
+            forward: forward.as_vec3(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_basis_spans_the_field_of_view() {
+        let basis = Camera::new(DVec3::new(0.0, 0.0, 2.0), DVec3::ZERO, 90.0).basis(2.0);
+        assert_eq!(basis.forward, Vec3::NEG_Z);
+        assert!((basis.up - Vec3::Y).length() < 1e-6, "{basis:?}");
+        assert!((basis.right - 2.0 * Vec3::X).length() < 1e-6, "{basis:?}");
+    }
+
+    #[test]
+    fn looking_straight_up_or_nowhere_still_gives_a_basis() {
+        for target in [DVec3::Y, DVec3::NEG_Y, DVec3::ZERO] {
+            let [right, up, forward] = Camera::new(DVec3::ZERO, target, 45.0).axes();
+            for axis in [right, up, forward] {
+                assert!((axis.length() - 1.0).abs() < 1e-12, "{target}: {axis}");
+            }
+            assert!(right.dot(up).abs() + up.dot(forward).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The world of the book: a chess set, placed from a position in Forsyth-Edwards notation.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use glam::{Affine3A, DVec3, Mat3A, Vec3, Vec3A};
+
+use super::{Camera, Instance, Model, Scene, obj};
+
+/// Morphy's game at the Paris opera, 1858, before White's tenth move.
+const POSITION: &str = "rn2kb1r/p3qppp/2p2n2/1p2p1B1/2B1P3/1QN5/PPP2PPP/R3K2R";
+
+/// The folder of the project's own models.
+pub fn assets() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../samples/assets"))
+}
+
+impl Scene {
+    /// The chess set in mid-game: pieces, board and frame, and the fretwork screen behind them.
+    ///
+    /// The board lies in the plane y = 0, a unit a square, its middle at the origin; White is at +z.
+    ///
+    /// # Errors
+    /// If the project's own model is missing or wrong.
+    pub fn chess() -> Result<Self> {
+        let model = obj::load(&assets().join("chess.obj"))?;
+        let mut instances = Vec::new();
+        // The screen stands on the rim behind Black.
+        let rim = Vec3::new(0.0, 0.02, -4.28);
+        for (name, at) in [
+            ("board_light", Vec3::ZERO),
+            ("board_dark", Vec3::ZERO),
+            ("board_frame", Vec3::ZERO),
+            ("screen", rim),
+            ("screen_frame", rim),
+        ] {
+            let mesh = mesh(&model, name)?;
+            let transform = Affine3A::from_translation(at);
+            instances.push(Instance { mesh, transform, material: model.meshes[mesh].material });
+        }
+        place_pieces(&model, POSITION, &mut instances)?;
+        let camera = Camera::new(DVec3::new(-5.6, 4.8, 9.2), DVec3::new(0.35, 0.3, -0.2), 37.0);
+        Ok(Self { model, instances, camera })
+    }
+}
+
+/// Adds the pieces of a position: capitals are white, ranks from the eighth down.
+fn place_pieces(model: &Model, position: &str, instances: &mut Vec<Instance>) -> Result<()> {
+    let [white, black] = ["white", "black"].map(|name| {
+        let found = model.materials.iter().position(|material| material.name == name);
+        found.with_context(|| format!("the chess set has no material '{name}'"))
+    });
+    let (white, black) = (white?, black?);
+    for (row, rank) in position.split('/').enumerate() {
+        let mut file = 0;
+        for letter in rank.chars() {
+            if let Some(empty) = letter.to_digit(10) {
+                file += empty;
+                continue;
+            }
+            let mesh = mesh(model, piece(letter)?)?;
+            let is_white = letter.is_ascii_uppercase();
+            // Pieces are modelled facing +x. They look at the other side, and a little past it.
+            let yaw: f32 = if is_white { 140.0 } else { -40.0 };
+            let turn = Mat3A::from_rotation_y(yaw.to_radians());
+            let at = Vec3A::new(file as f32 - 3.5, 0.0, row as f32 - 3.5);
+            instances.push(Instance {
+                mesh,
+                transform: Affine3A { matrix3: turn, translation: at },
+                material: if is_white { white } else { black },
+            });
+            file += 1;
+        }
+    }
+    Ok(())
+}
+
+fn piece(letter: char) -> Result<&'static str> {
+    Ok(match letter.to_ascii_lowercase() {
+        'p' => "pawn",
+        'r' => "rook",
+        'n' => "knight",
+        'b' => "bishop",
+        'q' => "queen",
+        'k' => "king",
+        _ => bail!("'{letter}' is no chess piece"),
+    })
+}
+
+fn mesh(model: &Model, name: &str) -> Result<usize> {
+    let found = model.meshes.iter().position(|mesh| mesh.name == name);
+    found.with_context(|| format!("the chess set has no mesh '{name}'"))
+}

@@ -1,0 +1,91 @@
+//! A mesh: vertices, triangles that index them, one material.
+
+use glam::{Vec2, Vec3};
+
+common::shader_struct! {
+    /// One vertex, 32 bytes, read by shaders under the same name.
+    #[derive(PartialEq)]
+    pub struct Vertex {
+        /// Position in the mesh's space, in the model's own unit of length.
+        pub position: Vec3,
+        /// Shading normal, of unit length.
+        pub normal: Vec3,
+        /// Texture coordinates as Vulkan has them: (0, 0) is the top left corner of the image.
+        pub uv: Vec2,
+    }
+}
+
+/// Triangles of one material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// The object's name in the model file.
+    pub name: String,
+    /// The vertices.
+    pub vertices: Vec<Vertex>,
+    /// Three positions in `vertices` each; counter-clockwise as seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The material, by position in the model.
+    pub material: usize,
+}
+
+impl Mesh {
+    /// Lowest and highest corner of the box around all vertices, used by a triangle or not.
+    ///
+    /// Without vertices the box is inside out: +∞ and -∞.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        around(self.vertices.iter().map(|vertex| vertex.position))
+    }
+
+    /// The box around each triangle, low and high corner, in the order of `triangles`.
+    ///
+    /// # Panics
+    /// If a triangle indexes beyond `vertices`.
+    pub fn triangle_bounds(&self) -> Vec<(Vec3, Vec3)> {
+        let position = |index: u32| self.vertices[index as usize].position;
+        self.triangles.iter().map(|corners| around(corners.iter().map(|&i| position(i)))).collect()
+    }
+}
+
+fn around(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
+    points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| {
+        (low.min(point), high.max(point))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(positions: &[Vec3], triangles: &[[u32; 3]]) -> Mesh {
+        let vertex = |&position| Vertex { position, normal: Vec3::Y, uv: Vec2::ZERO };
+        Mesh {
+            name: "test".into(),
+            vertices: positions.iter().map(vertex).collect(),
+            triangles: triangles.to_vec(),
+            material: 0,
+        }
+    }
+
+    #[test]
+    fn a_vertex_is_32_bytes_without_gaps() {
+        assert_eq!(size_of::<Vertex>(), 32);
+        let offsets = [("position", 0), ("normal", 12), ("uv", 24)];
+        assert_eq!(<Vertex as crate::gpu::ShaderStruct>::LAYOUT.fields, offsets);
+    }
+
+    #[test]
+    fn bounds_enclose_every_vertex() {
+        let points = [Vec3::new(1.0, -2.0, 3.0), Vec3::new(-4.0, 5.0, 0.5), Vec3::ZERO];
+        let bounds = (Vec3::new(-4.0, -2.0, 0.0), Vec3::new(1.0, 5.0, 3.0));
+        assert_eq!(mesh(&points, &[]).bounds(), bounds);
+        assert_eq!(mesh(&[], &[]).bounds(), (Vec3::INFINITY, Vec3::NEG_INFINITY));
+    }
+
+    #[test]
+    fn each_triangle_has_its_box_in_order() {
+        let points = [Vec3::ZERO, Vec3::new(4.0, 0.0, 0.0), Vec3::new(0.0, 2.0, -6.0), Vec3::ONE];
+        let boxes = mesh(&points, &[[0, 1, 2], [3, 3, 0]]).triangle_bounds();
+        assert_eq!(boxes[0], (Vec3::new(0.0, 0.0, -6.0), Vec3::new(4.0, 2.0, 0.0)));
+        assert_eq!(boxes[1], (Vec3::ZERO, Vec3::ONE));
+    }
+}

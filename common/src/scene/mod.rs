@@ -1,0 +1,24 @@
+//! What is rendered: camera, lights, meshes and materials from OBJ files, the chess world, its upload.
+
+mod camera;
+mod chess;
+mod light;
+mod material;
+mod mesh;
+pub mod obj;
+mod obj_check;
+mod texture;
+mod upload;
+mod world;
+
+pub use camera::{Camera, CameraBasis};
+pub use chess::assets;
+pub use light::{DirectionalLight, Sun};
+pub use material::Material;
+pub use mesh::{Mesh, Vertex};
+pub use obj::Model;
+pub use texture::Texture;
+pub use upload::{
+    InstanceRecord, MaterialRecord, SceneAddresses, SceneOnGpu, build_top, input_usage, transform,
+};
+pub use world::{Instance, Scene};

@@ -1,0 +1,281 @@
+//! A texture: an image as the device takes it, and the PNG files that textures come from.
+
+use std::collections::HashMap;
+use std::io::{BufReader, Read, Seek};
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, anyhow, ensure};
+use image::codecs::png::PngDecoder;
+use image::{DynamicImage, ImageDecoder};
+
+use super::obj_check::{Limits, Named, open};
+
+/// An image of 8 bits a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The file's path relative to the OBJ file's folder.
+    pub name: String,
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Four bytes a texel, rows from the top. Alpha is the file's; without an alpha channel it is the
+    /// luminance where a material takes its opacity from the file, and 255 elsewhere.
+    pub rgba: Vec<u8>,
+    /// Whether RGB is sRGB encoded: so for colours, not for a file that only holds opacity. Alpha is
+    /// linear always.
+    pub srgb: bool,
+}
+
+/// What a material reads from a texture.
+pub(super) enum Role {
+    /// RGB.
+    Color,
+    /// Alpha.
+    Opacity,
+}
+
+/// The texture files that materials name.
+///
+/// One file is one texture even if it gives both colour and opacity: shaders read RGB for the one
+/// and alpha for the other, which sRGB encoding leaves alone.
+#[derive(Default)]
+pub(super) struct TextureFiles {
+    files: Vec<TextureFile>,
+    indices: HashMap<PathBuf, usize>,
+}
+
+struct TextureFile {
+    named: Named,
+    /// The first statement that names it.
+    place: String,
+    color: bool,
+    opacity: bool,
+}
+
+impl TextureFiles {
+    /// Takes note of a file and gives the position that its texture will have.
+    pub fn add(&mut self, named: Named, role: Role, place: String) -> usize {
+        let files = &mut self.files;
+        let index = *self.indices.entry(named.path.clone()).or_insert_with(|| {
+            files.push(TextureFile { named, place, color: false, opacity: false });
+            files.len() - 1
+        });
+        match role {
+            Role::Color => files[index].color = true,
+            Role::Opacity => files[index].opacity = true,
+        }
+        index
+    }
+
+    /// Decodes all of them, in order.
+    ///
+    /// # Errors
+    /// If one cannot be decoded or they are too large, with the line that names it.
+    pub fn load(self, limits: &Limits) -> Result<Vec<Texture>> {
+        let mut left = limits.texture_bytes;
+        self.files
+            .into_iter()
+            .map(|file| {
+                let place = file.place.clone();
+                let texture = file.decode(&mut left, limits);
+                texture.map_err(|error| anyhow!("{place}: the texture {error}"))
+            })
+            .collect()
+    }
+}
+
+impl TextureFile {
+    /// Decodes the file, taking its size off the bytes that are left.
+    fn decode(self, left: &mut u64, limits: &Limits) -> Result<Texture> {
+        let shown = &self.named.shown;
+        let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
+        let mut signature = [0; 8];
+        let is_png = file.read_exact(&mut signature).is_ok() && &signature == b"\x89PNG\r\n\x1a\n";
+        ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
+        file.rewind().with_context(|| format!("{shown}: cannot be read"))?;
+
+        let broken =
+            |error| anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {error}");
+        let mut image_limits = image::Limits::default();
+        image_limits.max_alloc = Some(limits.texture_bytes);
+        let decoder = PngDecoder::with_limits(file, image_limits).map_err(broken)?;
+        let (width, height) = decoder.dimensions();
+        let side = limits.texture_side;
+        ensure!(
+            width.max(height) <= side,
+            "{shown}: is {width} x {height} texels, at most {side} x {side} are read"
+        );
+        // Decoding takes what the file has a channel, 16 bits perhaps; the texture takes 8.
+        let bytes = decoder.total_bytes().max(u64::from(width) * u64::from(height) * 4);
+        *left = left.checked_sub(bytes).with_context(|| {
+            let most = limits.texture_bytes;
+            format!("{shown}: is too large: all textures together may take {most} bytes")
+        })?;
+        let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+
+        let luminance = (self.opacity && !image.color().has_alpha()).then(|| image.to_luma8());
+        let mut rgba = image.into_rgba8().into_raw();
+        for (texel, luminance) in
+            rgba.chunks_exact_mut(4).zip(luminance.iter().flat_map(|luma| luma.as_raw()))
+        {
+            texel[3] = *luminance;
+        }
+        Ok(Texture { name: self.named.name, width, height, rgba, srgb: self.color })
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::super::material::Material;
+    use super::super::obj::tests::{TRIANGLE, load_files};
+    use super::*;
+    use image::{GrayImage, ImageFormat, RgbImage, RgbaImage};
+    use std::io::Cursor;
+
+    fn encoded(image: impl Into<DynamicImage>) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        image.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    }
+
+    /// A PNG file of rows of `width` texels.
+    pub fn png(texels: &[[u8; 4]], width: u32) -> Vec<u8> {
+        let height = texels.len() as u32 / width;
+        encoded(RgbaImage::from_raw(width, height, texels.concat()).unwrap())
+    }
+
+    fn opaque_png(texels: &[[u8; 3]]) -> Vec<u8> {
+        encoded(RgbImage::from_raw(texels.len() as u32, 1, texels.concat()).unwrap())
+    }
+
+    fn load_within(
+        mtl: &str,
+        files: &[(&str, &[u8])],
+        limits: &Limits,
+    ) -> Result<(Vec<Material>, Vec<Texture>), String> {
+        let obj = format!("mtllib m.mtl\n{TRIANGLE}");
+        let mut all: Vec<(&str, &[u8])> =
+            vec![("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
+        all.extend_from_slice(files);
+        load_files(&all, limits).map(|model| (model.materials, model.textures))
+    }
+
+    fn load(mtl: &str, files: &[(&str, &[u8])]) -> Result<(Vec<Material>, Vec<Texture>), String> {
+        load_within(mtl, files, &Limits::DEFAULT)
+    }
+
+    #[track_caller]
+    fn refused(line: &str, file: &[u8], message: &str) {
+        let error = load(&format!("newmtl a\n{line}\n"), &[("t.png", file)]).unwrap_err();
+        assert_eq!(error, format!("m.mtl:2: {message}"));
+    }
+
+    #[test]
+    fn rows_come_from_the_top_and_alpha_is_kept() {
+        let texels = [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12], [13, 14, 15, 16]];
+        let (materials, textures) =
+            load("newmtl a\nmap_Kd my tex\\t 1.png\n", &[("my tex/t 1.png", &png(&texels, 2))])
+                .unwrap();
+        let rgba = texels.concat();
+        let name = "my tex/t 1.png".to_owned();
+        assert_eq!(textures, [Texture { name, width: 2, height: 2, rgba, srgb: true }]);
+        assert_eq!(materials[0].base_texture, Some(0));
+        assert_eq!(materials[0].base_color, glam::Vec3::ONE);
+    }
+
+    #[test]
+    fn alpha_is_luminance_only_where_opacity_has_no_alpha() {
+        let opaque = opaque_png(&[[255, 255, 255], [0, 255, 0], [80, 80, 80]]);
+        let alpha =
+            |texture: &Texture| texture.rgba.iter().skip(3).step_by(4).copied().collect::<Vec<_>>();
+        let files: [(&str, &[u8]); 1] = [("t.png", &opaque)];
+
+        let (_, color) = load("newmtl a\nmap_Kd t.png\n", &files).unwrap();
+        assert_eq!((alpha(&color[0]), color[0].srgb), (vec![255; 3], true));
+        let (materials, opacity) = load("newmtl a\nmap_d t.png\n", &files).unwrap();
+        assert_eq!((alpha(&opacity[0]), opacity[0].srgb), (vec![255, 182, 80], false));
+        assert!(materials[0].has_cutout() && materials[0].base_texture.is_none());
+        let (materials, both) = load("newmtl a\nmap_d t.png\nmap_Kd ./t.png\n", &files).unwrap();
+        assert_eq!((both.len(), alpha(&both[0]), both[0].srgb), (1, vec![255, 182, 80], true));
+        assert_eq!((materials[0].base_texture, materials[0].opacity_texture), (Some(0), Some(0)));
+
+        let clear = png(&[[255, 255, 255, 7]], 1);
+        let (_, own) = load("newmtl a\nmap_d t.png\n", &[("t.png", &clear)]).unwrap();
+        assert_eq!(own[0].rgba, [255, 255, 255, 7]);
+        let grey = encoded(GrayImage::from_raw(1, 1, vec![99]).unwrap());
+        let (_, grey) = load("newmtl a\nmap_d t.png\n", &[("t.png", &grey)]).unwrap();
+        assert_eq!(grey[0].rgba, [99; 4]);
+    }
+
+    #[test]
+    fn files_that_are_wrong() {
+        let good = png(&[[1, 2, 3, 4]; 4096], 64);
+        refused("map_Kd gone.png", &good, "map_Kd names \"gone.png\", which is not there");
+        refused("map_d", &good, "map_d is not followed by a name");
+        let no_png = "the texture t.png: is not a PNG file; convert it to one";
+        refused("map_Kd t.png", b"\xff\xd8\xff\xe0 a JPEG file", no_png);
+        refused("map_Kd t.png", b"", no_png);
+        let option = "has the option \"-bm\"; only a file name is supported";
+        refused("map_Kd -bm 1.0 t.png", &good, &format!("map_Kd {option}"));
+        refused(
+            "map_d -s 1 1 1 t.png",
+            &good,
+            "map_d has the option \"-s\"; only a file name is supported",
+        );
+
+        for cut in [9, 40, good.len() / 2, good.len() - 20] {
+            let error = load("newmtl a\nmap_d t.png\n", &[("t.png", &good[..cut])]).unwrap_err();
+            let start = "m.mtl:2: the texture t.png: cannot be decoded, it is damaged or cut off: ";
+            assert!(error.starts_with(start), "{cut}: {error}");
+        }
+    }
+
+    #[test]
+    fn paths_that_leave_the_folder() {
+        let outside = |name: &str| {
+            format!("map_Kd names {name:?}, outside the OBJ file's folder; copy it into the folder")
+        };
+        for name in ["../t.png", "a/../../t.png", "..\\t.png", "/etc/passwd", "D:/t.png"] {
+            refused(&format!("map_Kd {name}"), b"", &outside(name));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_that_leave_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let write =
+            |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+        std::fs::create_dir(folder.path().join("in")).unwrap();
+        write("secret.png", &png(&[[0; 4]], 1));
+        write("in/model.obj", format!("mtllib m.mtl\n{TRIANGLE}").as_bytes());
+        write("in/m.mtl", b"newmtl a\nmap_Kd link.png\n");
+        let (link, obj) = (folder.path().join("in/link.png"), folder.path().join("in/model.obj"));
+        std::os::unix::fs::symlink("../secret.png", &link).unwrap();
+        let error = super::super::obj::load(&obj).unwrap_err().to_string();
+        let message = "in/m.mtl:2: map_Kd names \"link.png\", outside the OBJ file's folder";
+        assert!(error.contains(message), "{error}");
+
+        write("in/inside.png", &png(&[[0; 4]], 1));
+        std::fs::remove_file(&link).unwrap();
+        std::os::unix::fs::symlink("inside.png", &link).unwrap();
+        assert_eq!(super::super::obj::load(&obj).unwrap().textures[0].name, "inside.png");
+    }
+
+    #[test]
+    fn textures_that_are_too_large() {
+        let wide = encoded(GrayImage::new(16385, 1));
+        let side = "the texture t.png: is 16385 x 1 texels, at most 16384 x 16384 are read";
+        refused("map_Kd t.png", &wide, side);
+
+        let limits = Limits { texture_bytes: 1000, ..Limits::DEFAULT };
+        let small = png(&[[0; 4]; 144], 12);
+        let files: [(&str, &[u8]); 2] = [("a.png", &small), ("b.png", &small)];
+        let error =
+            load_within("newmtl a\nmap_Kd a.png\nmap_d b.png\n", &files, &limits).unwrap_err();
+        let most = "all textures together may take 1000 bytes";
+        assert_eq!(error, format!("m.mtl:3: the texture b.png: is too large: {most}"));
+        assert!(load_within("newmtl a\nmap_Kd a.png\n", &files, &limits).is_ok());
+    }
+}

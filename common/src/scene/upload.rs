@@ -1,0 +1,242 @@
+//! A scene on the device: buffers that shaders reach by address, acceleration structures, textures.
+
+use anyhow::Result;
+use ash::vk;
+use glam::Vec3;
+
+use super::{Material, Mesh, Scene, Vertex};
+use crate::gpu::{
+    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
+};
+
+common::shader_struct! {
+    /// Where a shader finds the mesh and the material of an instance.
+    pub struct InstanceRecord {
+        /// Address of the mesh's [`Vertex`] array.
+        pub vertices: Address,
+        /// Address of its triangles, three `u32` each, in the model's order.
+        pub triangles: Address,
+        /// Address of the permutation: primitive `i` of the build is triangle `original[i]`.
+        pub original: Address,
+        /// Which [`MaterialRecord`].
+        pub material: u32,
+        /// Which mesh of the model.
+        pub mesh: u32,
+    }
+}
+
+common::shader_struct! {
+    /// A [`Material`] as shaders read it.
+    pub struct MaterialRecord {
+        /// Diffuse reflectance, linear RGB.
+        pub base_color: Vec3,
+        /// 1 is opaque, 0 is not there.
+        pub opacity: f32,
+        /// Specular reflectance, linear RGB.
+        pub specular: Vec3,
+        /// Exponent of the highlight.
+        pub shininess: f32,
+        /// Emitted radiance, linear RGB.
+        pub emission: Vec3,
+        /// Which texture multiplies the base colour; -1 for none.
+        pub base_texture: i32,
+        /// Which texture's alpha multiplies the opacity; -1 for none.
+        pub opacity_texture: i32,
+        /// The illumination model of the MTL file.
+        pub illumination: u32,
+    }
+}
+
+common::shader_struct! {
+    /// Addresses of a scene's arrays, for push constants.
+    pub struct SceneAddresses {
+        /// Of the [`InstanceRecord`] array, indexed by `gl_InstanceCustomIndexEXT`.
+        pub instances: Address,
+        /// Of the [`MaterialRecord`] array.
+        pub materials: Address,
+    }
+}
+
+/// A scene in device memory, ready to be traced.
+pub struct SceneOnGpu {
+    /// The top level, all instances.
+    pub tlas: AccelerationStructure,
+    /// One bottom level a mesh, in the model's order.
+    pub blas: Vec<AccelerationStructure>,
+    /// Every texture of the model.
+    pub textures: TextureTable,
+    /// Where shaders find the rest.
+    pub addresses: SceneAddresses,
+    _buffers: Vec<Buffer>,
+}
+
+/// Buffers that shaders read by address and builds read their input from.
+pub fn input_usage() -> vk::BufferUsageFlags {
+    vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+        | vk::BufferUsageFlags::STORAGE_BUFFER
+        | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
+}
+
+impl SceneOnGpu {
+    /// Uploads a scene and builds its acceleration structures; `ordering` sorts in space first.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn new(gpu: &Gpu, scene: &Scene, ordering: bool) -> Result<Self> {
+        let model = &scene.model;
+        let mut buffers = Vec::new();
+        let mut blas = Vec::new();
+        let mut meshes = Vec::new();
+        for (index, mesh) in model.meshes.iter().enumerate() {
+            // An any-hit shader is worth calling only where it can say no.
+            let mut placed = scene.instances.iter().filter(|instance| instance.mesh == index);
+            let opaque = placed.all(|instance| !model.materials[instance.material].has_cutout());
+            let on_gpu = MeshOnGpu::new(gpu, mesh, opaque, ordering)?;
+            meshes.push(on_gpu.addresses);
+            blas.push(on_gpu.blas);
+            buffers.extend(on_gpu.buffers);
+        }
+        let records: Vec<InstanceRecord> = scene
+            .instances
+            .iter()
+            .map(|instance| InstanceRecord {
+                material: instance.material as u32,
+                mesh: instance.mesh as u32,
+                ..meshes[instance.mesh]
+            })
+            .collect();
+        let materials: Vec<MaterialRecord> = model.materials.iter().map(record).collect();
+        let instances = Buffer::with_data(gpu, "instance records", &records, input_usage())?;
+        let materials = Buffer::with_data(gpu, "materials", &materials, input_usage())?;
+        let addresses = SceneAddresses {
+            instances: instances.address.into(),
+            materials: materials.address.into(),
+        };
+        let textures = model.textures.iter().map(|texture| {
+            let extent = vk::Extent2D { width: texture.width, height: texture.height };
+            Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
+        });
+        let textures = TextureTable::new(gpu, textures.collect::<Result<_>>()?)?;
+
+        let order = instance_order(scene, ordering);
+        let placed = order.iter().map(|&index| {
+            let instance = &scene.instances[index as usize];
+            vk::AccelerationStructureInstanceKHR {
+                transform: transform(&instance.transform),
+                // The custom index stays the scene's, whatever the order of the build.
+                instance_custom_index_and_mask: vk::Packed24_8::new(index, 0xff),
+                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(0, 0),
+                acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+                    device_handle: blas[instance.mesh].address,
+                },
+            }
+        });
+        let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
+        buffers.extend([instances, materials]);
+        Ok(Self { tlas, blas, textures, addresses, _buffers: buffers })
+    }
+}
+
+/// Builds a top level from instances that are in the order of the build.
+///
+/// # Errors
+/// If memory is short.
+pub fn build_top(
+    gpu: &Gpu,
+    instances: &[vk::AccelerationStructureInstanceKHR],
+) -> Result<AccelerationStructure> {
+    let bytes: Vec<u8> = instances.iter().flat_map(instance_bytes).collect();
+    let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+    // The specification wants instances at a multiple of 16 bytes.
+    let buffer = Buffer::aligned(gpu, "instances", bytes.len() as u64, usage, 16)?;
+    buffer.write(0, &bytes)?;
+    let count = instances.len() as u32;
+    AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())
+}
+
+/// An instance as the device reads it: 64 bytes.
+fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
+    let mut bytes = [0; 64];
+    bytes[..48].copy_from_slice(bytemuck::bytes_of(&instance.transform.matrix));
+    let packed = |p: vk::Packed24_8| (p.low_24() | u32::from(p.high_8()) << 24).to_ne_bytes();
+    bytes[48..52].copy_from_slice(&packed(instance.instance_custom_index_and_mask));
+    let offset_and_flags = instance.instance_shader_binding_table_record_offset_and_flags;
+    bytes[52..56].copy_from_slice(&packed(offset_and_flags));
+    // SAFETY: every instance here names its bottom level by device address, never by host handle.
+    let address = unsafe { instance.acceleration_structure_reference.device_handle };
+    bytes[56..].copy_from_slice(&address.to_ne_bytes());
+    bytes
+}
+
+/// A transform in Vulkan's form: three rows of four.
+pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
+    let rows = transform.matrix3.transpose();
+    let (x, y, z, t) = (rows.x_axis, rows.y_axis, rows.z_axis, transform.translation);
+    vk::TransformMatrixKHR { matrix: [x.x, x.y, x.z, t.x, y.x, y.y, y.z, t.y, z.x, z.y, z.z, t.z] }
+}
+
+fn instance_order(scene: &Scene, ordering: bool) -> Vec<u32> {
+    if !ordering {
+        return (0..scene.instances.len() as u32).collect();
+    }
+    let bounds = scene.instances.iter().map(|instance| scene.instance_bounds(instance));
+    order::kd_median(&bounds.collect::<Vec<_>>())
+}
+
+struct MeshOnGpu {
+    blas: AccelerationStructure,
+    addresses: InstanceRecord,
+    buffers: Vec<Buffer>,
+}
+
+impl MeshOnGpu {
+    fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, ordering: bool) -> Result<Self> {
+        let name = &mesh.name;
+        let permutation = if ordering {
+            order::kd_median(&mesh.triangle_bounds())
+        } else {
+            (0..mesh.triangles.len() as u32).collect()
+        };
+        let ordered: Vec<[u32; 3]> =
+            permutation.iter().map(|&i| mesh.triangles[i as usize]).collect();
+        let vertices = Buffer::with_data(gpu, name, &mesh.vertices, input_usage())?;
+        let triangles = Buffer::with_data(gpu, name, &mesh.triangles, input_usage())?;
+        let original = Buffer::with_data(gpu, name, &permutation, input_usage())?;
+        // Only the build reads the ordered copy; it is freed at the end of this function.
+        let build_input = Buffer::with_data(gpu, name, &ordered, input_usage())?;
+        let geometry = Geometry::Triangles {
+            vertices: vertices.address,
+            vertex_stride: size_of::<Vertex>() as u64,
+            vertex_count: mesh.vertices.len() as u32,
+            indices: build_input.address,
+            count: mesh.triangles.len() as u32,
+            opaque,
+        };
+        let options = BuildOptions { compact: true, ..BuildOptions::default() };
+        Ok(Self {
+            blas: AccelerationStructure::bottom(gpu, name, &[geometry], options)?,
+            addresses: InstanceRecord {
+                vertices: vertices.address.into(),
+                triangles: triangles.address.into(),
+                original: original.address.into(),
+                material: 0,
+                mesh: 0,
+            },
+            buffers: vec![vertices, triangles, original],
+        })
+    }
+}
+
+fn record(material: &Material) -> MaterialRecord {
+    let number = |texture: Option<usize>| texture.map_or(-1, |index| index as i32);
+    MaterialRecord {
+        base_color: material.base_color,
+        opacity: material.opacity,
+        specular: material.specular,
+        shininess: material.shininess,
+        emission: material.emission,
+        base_texture: number(material.base_texture),
+        opacity_texture: number(material.opacity_texture),
+        illumination: material.illumination,
+    }
+}

@@ -1,0 +1,79 @@
+//! A scene: a model's meshes, placed in the world, and a camera that looks at them.
+
+use std::path::Path;
+
+use anyhow::Result;
+use glam::{Affine3A, DVec3, Vec3};
+
+use super::{Camera, Model, obj};
+
+/// Meshes, materials and textures with their placements.
+pub struct Scene {
+    /// What there is to place.
+    pub model: Model,
+    /// What is placed where. Several instances of a mesh share its memory.
+    pub instances: Vec<Instance>,
+    /// A view that shows it.
+    pub camera: Camera,
+}
+
+/// One placement of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance {
+    /// The mesh, by position in the model.
+    pub mesh: usize,
+    /// From the mesh's space to the world.
+    pub transform: Affine3A,
+    /// The material, by position in the model.
+    pub material: usize,
+}
+
+impl Scene {
+    /// Opens an OBJ file: each mesh once, where the file puts it, seen whole.
+    ///
+    /// # Errors
+    /// If the file is missing or wrong, with file and line.
+    pub fn open(path: &Path) -> Result<Self> {
+        let model = obj::load(path)?;
+        let instances = (0..model.meshes.len())
+            .map(|mesh| Instance {
+                mesh,
+                transform: Affine3A::IDENTITY,
+                material: model.meshes[mesh].material,
+            })
+            .collect();
+        let mut scene = Self { model, instances, camera: Camera::default() };
+        scene.camera = scene.camera_on_all();
+        Ok(scene)
+    }
+
+    /// Corners of the box around everything, in world space.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let boxes = self.instances.iter().map(|instance| self.instance_bounds(instance));
+        boxes.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), (l, h)| {
+            (low.min(l), high.max(h))
+        })
+    }
+
+    /// Corners of the box around one instance, in world space.
+    pub fn instance_bounds(&self, instance: &Instance) -> (Vec3, Vec3) {
+        let (low, high) = self.model.meshes[instance.mesh].bounds();
+        let middle = instance.transform.transform_point3a(((low + high) * 0.5).into());
+        let half = (high - low) * 0.5;
+        let matrix = instance.transform.matrix3;
+        let reach = matrix.x_axis.abs() * half.x
+            + matrix.y_axis.abs() * half.y
+            + matrix.z_axis.abs() * half.z;
+        ((middle - reach).into(), (middle + reach).into())
+    }
+
+    fn camera_on_all(&self) -> Camera {
+        let (low, high) = self.bounds();
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+        let fov_y: f64 = 40.0;
+        let distance = radius.max(1e-30) / (fov_y.to_radians() / 2.0).sin();
+        let from = DVec3::new(0.5, 0.45, 1.0).normalize();
+        Camera::new(middle + from * distance, middle, fov_y)
+    }
+}

@@ -1,0 +1,86 @@
+//! 02 · Basic: the first scene, traced through the framework.
+//!
+//! New since 01_foundation: a model from an OBJ file, one bottom level a mesh and many instances,
+//! a camera, a closest hit shader that reads vertices and materials by address, and controls.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable,
+};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup};
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipeline: RayTracingPipeline,
+    sbt: ShaderBindingTable,
+    camera: Camera,
+    sun: Sun,
+    show: u32,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DirectionalLight,
+        show: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(Scene::chess)?;
+        let camera = scene.camera;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.ordering)?;
+        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+            .raygen("camera.rgen")
+            .miss("sky.rmiss")
+            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+            .recursion(1)
+            .binding(Binding::AccelerationStructure)
+            .binding(Binding::StorageImage)
+            .textures(&scene.textures)
+            .push_constants::<Push>()
+            .build(gpu)?;
+        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        Ok(Self { scene, pipeline, sbt, camera, sun: Sun::default(), show: 0 })
+    }
+
+    fn controls(&mut self, c: &mut Controls) {
+        let views = ["picture", "normal", "triangle", "hit", "ray direction"];
+        c.choice("show", &mut self.show, &views);
+        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
+        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.camera(&mut self.camera);
+    }
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: self.sun.light(),
+            show: self.show,
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
+        self.sbt.trace(frame.cmd, frame.image.extent);
+        Ok(())
+    }
+}

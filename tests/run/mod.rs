@@ -1,0 +1,98 @@
+//! Runs samples as their users do, one process a run, and compares pictures.
+#![allow(dead_code)] // Each test binary uses a part of it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use common::app::Picture;
+use serde_json::Value;
+
+/// What a run of a sample gave.
+pub struct Run {
+    /// The last frame, the very floats that the shader wrote.
+    pub picture: Picture,
+    /// The report.
+    pub report: Value,
+}
+
+/// A command that runs the binary `name` in the project's root.
+pub fn command(name: &str) -> Command {
+    let folder =
+        Path::new(env!("CARGO_BIN_EXE_02_basic")).parent().expect("a binary lies in a folder");
+    let mut command =
+        Command::new(folder.join(name).with_extension(std::env::consts::EXE_EXTENSION));
+    command.current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
+}
+
+/// Renders headless under validation; a failure or a message is a failed test.
+pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("out.exr");
+    let output = command(name)
+        .args(["--headless", "--validate", "--report", "-", "--size", size, "--out"])
+        .arg(&out)
+        .args(arguments)
+        .output()
+        .expect("the sample starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{name} {arguments:?}: {errors}");
+    assert!(errors.is_empty(), "{name} {arguments:?} is not silent: {errors}");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    assert_eq!(report["validation_messages"], serde_json::json!([]));
+    Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
+}
+
+/// Runs with arguments that are wrong and returns the exit code and the one line on standard error.
+pub fn refused(name: &str, arguments: &[&str]) -> (i32, String) {
+    refusal(command(name).args(arguments).output().expect("the sample starts"))
+}
+
+/// The exit code and the one line on standard error of a run that must have failed.
+pub fn refusal(output: Output) -> (i32, String) {
+    let errors = String::from_utf8_lossy(&output.stderr).trim_end().to_owned();
+    let code = output.status.code().unwrap_or_else(|| panic!("killed, not refused: {errors}"));
+    assert_ne!(code, 0, "accepted");
+    assert_eq!(errors.lines().count(), 1, "more than one line: {errors}");
+    assert!(errors.starts_with("error: "), "{errors}");
+    (code, errors)
+}
+
+/// Holds a picture against `tests/golden/{name}.png` by FLIP (Andersson et al. 2020).
+///
+/// `tolerance` is the largest mean FLIP error; say beside it which device set it. `UPDATE=1` writes the
+/// golden; a missing one fails. What differed is kept under `target/golden`.
+pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
+    let file = root().join(format!("tests/golden/{name}.png"));
+    if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
+        picture.save(&file).expect("the golden can be written");
+        return;
+    }
+    let expected = image::open(&file)
+        .unwrap_or_else(|error| {
+            panic!("no golden {}: {error}; UPDATE=1 cargo test writes it", file.display())
+        })
+        .to_rgb8();
+    assert_eq!(expected.dimensions(), (picture.width, picture.height), "{name}: the size differs");
+    let (width, height) = expected.dimensions();
+    let reference = nv_flip::FlipImageRgb8::with_data(width, height, &expected);
+    let actual = nv_flip::FlipImageRgb8::with_data(width, height, &picture.srgb());
+    let error = nv_flip::flip(reference, actual, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
+    let mean = nv_flip::FlipPool::from_image(&error).mean();
+    if mean > tolerance {
+        let kept = root().join(format!("target/golden/{name}.png"));
+        std::fs::create_dir_all(kept.parent().expect("it lies in a folder")).expect("a folder");
+        picture.save(&kept).expect("the picture can be kept");
+        panic!("{name}: mean FLIP {mean} above {tolerance}; see {}", kept.display());
+    }
+}
+
+/// The project's root.
+pub fn root() -> PathBuf {
+    env!("CARGO_MANIFEST_DIR").into()
+}
+
+/// Bits of a picture, for comparisons that allow no difference.
+pub fn bits(picture: &Picture) -> Vec<[u32; 4]> {
+    picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
+}
