@@ -11,7 +11,7 @@
 //! # What is assumed
 //! The ray goes to object space by an f32 inverse as in [`Transform`]; there the triangle's f32
 //! vertices are tested by *Woop's* watertight algorithm (Woop, Benthin and Wald, JCGT 2:1, 2013: what
-//! Mesa's software and much hardware do) or by *Möller and Trumbore's* (Journal of Graphics Tools 2:1,
+//! Mesa's lavapipe runs; hardware does not say what it does) or by *Möller and Trumbore's* (Journal of Graphics Tools 2:1,
 //! 1997), in f32 with Vulkan's precision: sums and products rounded correctly, divisions within 2.5
 //! ULP ≤ 5u. Better arithmetic and `fma` stay within the bound. Names: o, d the ray; A = a - o and so
 //! on the vertices relative to it, R the distance of the farthest; e an edge; a prime where a vector
@@ -48,7 +48,8 @@
 //! Woop: a move of the vertices by δ moves the plane by δ and t by `δ‖n‖/|n·d|`; lengthwise a vertex
 //! moves 8u·‖A'‖, so δ is 16u·R'. The products' errors weigh the differences of the vertices' depths,
 //! at most √3 times the longest edge over ‖d'‖. Möller and Trumbore: `t = e2·q / det`, so
-//! `10u·‖e1'‖‖e2'‖(‖A'‖ + t‖d'‖) / |det'|`. Both: sums, quotient and result 12u of t and of those differences.
+//! `10u·‖e1'‖‖e2'‖(‖A'‖ + t‖d'‖) / |det'|`. Both: sums, quotient and
+//! result 12u of t and of those differences.
 //!
 //! Roundings seldom all add up: in the tests below, errors reach a seventh of the bounds where an
 //! instance is only shifted and a twentieth where it is turned and sheared.
