@@ -45,7 +45,7 @@ impl Sample for Demo {
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
-        let scene = SceneOnGpu::new(gpu, &scene, setup.ordering)?;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
             .raygen("camera.rgen")
             .miss("sky.rmiss")

@@ -1,6 +1,8 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 #![allow(dead_code)] // Each test binary uses a part of it.
 
+pub mod exact;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -23,7 +23,7 @@ pub use report::{Milliseconds, Report};
 pub use crate::gpu::shader::compile as compile_shader;
 
 use crate::gpu::{self, Gpu, Image, Requirements};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneOptions};
 use crate::usage::Usage;
 
 /// One chapter's program. The order of the items is the order of every chapter's `main.rs`.
@@ -59,8 +59,8 @@ pub trait Sample: Sized {
 
 /// What a sample is made with.
 pub struct Setup {
-    /// Order primitives and instances in space before builds; off under `--unordered`.
-    pub ordering: bool,
+    /// How acceleration structures are built: in spatial order, unless `--unordered` says otherwise.
+    pub options: SceneOptions,
     scene: Option<PathBuf>,
     scene_taken: Cell<bool>,
 }
@@ -68,7 +68,8 @@ pub struct Setup {
 impl Setup {
     /// The setup that arguments ask for.
     pub fn new(args: &Args) -> Self {
-        Self { ordering: !args.unordered, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+        let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
+        Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
     }
 
     /// The scene that `--scene` names, else the chapter's own.

@@ -28,6 +28,8 @@ pub enum Geometry {
         count: u32,
         /// Never call an any-hit shader for it.
         opaque: bool,
+        /// Call it at most once a triangle and ray, even where the device holds a triangle twice.
+        no_duplicate_any_hit: bool,
     },
     /// Axis-aligned boxes for an intersection shader: six `f32` each, the low corner first.
     Aabbs {
@@ -354,8 +356,16 @@ fn record_build(
 
 fn geometry(input: &Geometry) -> vk::AccelerationStructureGeometryKHR<'static> {
     let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
-    let (kind, data, opaque) = match *input {
-        Geometry::Triangles { vertices, vertex_stride, vertex_count, indices, opaque, .. } => (
+    let (kind, data, opaque, once) = match *input {
+        Geometry::Triangles {
+            vertices,
+            vertex_stride,
+            vertex_count,
+            indices,
+            opaque,
+            no_duplicate_any_hit,
+            ..
+        } => (
             vk::GeometryTypeKHR::TRIANGLES,
             vk::AccelerationStructureGeometryDataKHR {
                 triangles: vk::AccelerationStructureGeometryTrianglesDataKHR::default()
@@ -367,6 +377,7 @@ fn geometry(input: &Geometry) -> vk::AccelerationStructureGeometryKHR<'static> {
                     .index_data(address(indices)),
             },
             opaque,
+            no_duplicate_any_hit,
         ),
         Geometry::Aabbs { boxes, opaque, .. } => (
             vk::GeometryTypeKHR::AABBS,
@@ -376,9 +387,16 @@ fn geometry(input: &Geometry) -> vk::AccelerationStructureGeometryKHR<'static> {
                     .stride(size_of::<vk::AabbPositionsKHR>() as u64),
             },
             opaque,
+            false,
         ),
     };
-    let flags = if opaque { vk::GeometryFlagsKHR::OPAQUE } else { vk::GeometryFlagsKHR::empty() };
+    let mut flags = vk::GeometryFlagsKHR::empty();
+    if opaque {
+        flags |= vk::GeometryFlagsKHR::OPAQUE;
+    }
+    if once {
+        flags |= vk::GeometryFlagsKHR::NO_DUPLICATE_ANY_HIT_INVOCATION;
+    }
     vk::AccelerationStructureGeometryKHR::default().geometry_type(kind).geometry(data).flags(flags)
 }
 

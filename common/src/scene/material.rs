@@ -286,6 +286,13 @@ mod tests {
         line_refused("newmtl a", "the material \"a\" is defined at m.mtl:1 already");
         let error = load_mtl("Kd 1 1 1\nnewmtl a\n").unwrap_err();
         assert_eq!(error, "m.mtl:1: Kd stands before the first newmtl");
+        let files: [(&str, &[u8]); 3] = [
+            ("model.obj", b"mtllib m.mtl n.mtl\n"),
+            ("m.mtl", b"newmtl a\n"),
+            ("n.mtl", b"\nNs 1\n"),
+        ];
+        let error = load_files(&files, &Limits::DEFAULT).unwrap_err();
+        assert_eq!(error, "n.mtl:2: Ns stands before the first newmtl");
         let error = load_mtl("newmtl b\nnewmtl c #2\n").unwrap_err();
         let known = "the mtllib files so far hold \"b\", \"c #2\"";
         assert_eq!(error, format!("model.obj:2: the material \"a\" is not defined; {known}"));

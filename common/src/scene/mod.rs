@@ -7,6 +7,7 @@ mod material;
 mod mesh;
 pub mod obj;
 mod obj_check;
+mod records;
 mod texture;
 mod upload;
 mod world;
@@ -17,8 +18,7 @@ pub use light::{DirectionalLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};
 pub use obj::Model;
+pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
 pub use texture::Texture;
-pub use upload::{
-    InstanceRecord, MaterialRecord, SceneAddresses, SceneOnGpu, build_top, input_usage, transform,
-};
+pub use upload::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
 pub use world::{Instance, Scene};

@@ -302,6 +302,7 @@ pub(super) mod tests {
     use super::*;
     use crate::scene::assets;
     use proptest::prelude::*;
+    use std::path::MAIN_SEPARATOR;
 
     pub const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -315,7 +316,8 @@ pub(super) mod tests {
             std::fs::write(path, bytes).unwrap();
         }
         load_within(&folder.path().join("model.obj"), limits).map_err(|error| {
-            let line = format!("{error:#}").replace(&format!("{}/", folder.path().display()), "");
+            let line = format!("{error:#}")
+                .replace(&format!("{}{MAIN_SEPARATOR}", folder.path().display()), "");
             assert!(!line.contains('\n'), "{line}");
             line
         })
@@ -483,6 +485,7 @@ pub(super) mod tests {
             TRIANGLE.replace("f 1 2 3", "f 1 \\\n  2 \\\r\n3"),
             TRIANGLE.replace("f 1 2 3", "f 1 2 3\\"),
             TRIANGLE.replace("v 0 1 0", "# C:\\models\\\n\nv 0 1 0 # up"),
+            TRIANGLE.replace("v 0 1 0", "v 0 1 0 # C:\\models\\"),
             TRIANGLE.replace("v 1 0 0", "v 1 0 0 0.5 0.5 1e-9"),
             TRIANGLE.replace("v 1 0 0", "v 2 0 0 2"),
             TRIANGLE.replace("f 1 2 3", "s off\nl 1 2\np 1\nvp 0 0\nvt 0.5\nf 1/ 2// 3"),

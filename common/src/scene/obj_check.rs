@@ -277,11 +277,13 @@ impl Folder {
         // Exporters on Windows write backslashes, and drives that are relative paths elsewhere.
         let relative = name.replace('\\', "/");
         let drive = relative.as_bytes().get(1) == Some(&b':');
-        let mut parts = Path::new(&relative).components();
-        let inside = parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        let parts = Path::new(&relative).components();
+        let inside =
+            parts.clone().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
         ensure!(inside && !drive, outside());
-        let base = from.and_then(|from| from.path.parent()).unwrap_or(&self.root);
-        let path = base.join(&relative).canonicalize().map_err(|error| match error.kind() {
+        let mut path = from.and_then(|from| from.path.parent()).unwrap_or(&self.root).to_owned();
+        path.extend(parts.filter(|part| *part != Component::CurDir));
+        let path = path.canonicalize().map_err(|error| match error.kind() {
             ErrorKind::NotFound => anyhow!("{keyword} names {}, which is not there", quoted(name)),
             _ => anyhow!("{keyword} names {}, which cannot be read: {error}", quoted(name)),
         })?;

@@ -185,6 +185,20 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn paths_start_at_the_mtl_file_and_names_at_the_obj_file() {
+        let obj = format!("mtllib sub/m.mtl\n{TRIANGLE}");
+        let texel = png(&[[1, 2, 3, 4]], 1);
+        let files: [(&str, &[u8]); 3] = [
+            ("model.obj", obj.as_bytes()),
+            ("sub/m.mtl", b"newmtl a\nKd 0.5 0.5 0.5\nmap_Kd t.png\n"),
+            ("sub/t.png", &texel),
+        ];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        assert_eq!(model.textures[0].name, "sub/t.png");
+        assert_eq!(model.materials[0].base_color, glam::Vec3::splat(0.5));
+    }
+
+    #[test]
     fn alpha_is_luminance_only_where_opacity_has_no_alpha() {
         let opaque = opaque_png(&[[255, 255, 255], [0, 255, 0], [80, 80, 80]]);
         let alpha =

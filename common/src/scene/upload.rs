@@ -1,61 +1,14 @@
 //! A scene on the device: buffers that shaders reach by address, acceleration structures, textures.
 
-use anyhow::Result;
+use std::sync::Arc;
+
+use anyhow::{Result, ensure};
 use ash::vk;
-use glam::Vec3;
 
-use super::{Material, Mesh, Scene, Vertex};
+use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
-    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
+    AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
 };
-
-common::shader_struct! {
-    /// Where a shader finds the mesh and the material of an instance.
-    pub struct InstanceRecord {
-        /// Address of the mesh's [`Vertex`] array.
-        pub vertices: Address,
-        /// Address of its triangles, three `u32` each, in the model's order.
-        pub triangles: Address,
-        /// Address of the permutation: primitive `i` of the build is triangle `original[i]`.
-        pub original: Address,
-        /// Which [`MaterialRecord`].
-        pub material: u32,
-        /// Which mesh of the model.
-        pub mesh: u32,
-    }
-}
-
-common::shader_struct! {
-    /// A [`Material`] as shaders read it.
-    pub struct MaterialRecord {
-        /// Diffuse reflectance, linear RGB.
-        pub base_color: Vec3,
-        /// 1 is opaque, 0 is not there.
-        pub opacity: f32,
-        /// Specular reflectance, linear RGB.
-        pub specular: Vec3,
-        /// Exponent of the highlight.
-        pub shininess: f32,
-        /// Emitted radiance, linear RGB.
-        pub emission: Vec3,
-        /// Which texture multiplies the base colour; -1 for none.
-        pub base_texture: i32,
-        /// Which texture's alpha multiplies the opacity; -1 for none.
-        pub opacity_texture: i32,
-        /// The illumination model of the MTL file.
-        pub illumination: u32,
-    }
-}
-
-common::shader_struct! {
-    /// Addresses of a scene's arrays, for push constants.
-    pub struct SceneAddresses {
-        /// Of the [`InstanceRecord`] array, indexed by `gl_InstanceCustomIndexEXT`.
-        pub instances: Address,
-        /// Of the [`MaterialRecord`] array.
-        pub materials: Address,
-    }
-}
 
 /// A scene in device memory, ready to be traced.
 pub struct SceneOnGpu {
@@ -64,10 +17,27 @@ pub struct SceneOnGpu {
     /// One bottom level a mesh, in the model's order.
     pub blas: Vec<AccelerationStructure>,
     /// Every texture of the model.
-    pub textures: TextureTable,
+    pub textures: Arc<TextureTable>,
     /// Where shaders find the rest.
     pub addresses: SceneAddresses,
+    /// What it was built with.
+    pub options: SceneOptions,
     _buffers: Vec<Buffer>,
+}
+
+/// How a scene's acceleration structures are built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneOptions {
+    /// Order primitives and instances in space before the build.
+    pub ordering: bool,
+    /// Promise that an any-hit shader runs at most once for each triangle that a ray crosses.
+    pub no_duplicate_any_hit: bool,
+}
+
+impl Default for SceneOptions {
+    fn default() -> Self {
+        Self { ordering: true, no_duplicate_any_hit: false }
+    }
 }
 
 /// Buffers that shaders read by address and builds read their input from.
@@ -78,49 +48,65 @@ pub fn input_usage() -> vk::BufferUsageFlags {
 }
 
 impl SceneOnGpu {
-    /// Uploads a scene and builds its acceleration structures; `ordering` sorts in space first.
+    /// Uploads a scene and builds its acceleration structures.
     ///
     /// # Errors
-    /// If memory is short.
-    pub fn new(gpu: &Gpu, scene: &Scene, ordering: bool) -> Result<Self> {
-        let model = &scene.model;
+    /// If memory is short, or there are more instances than an instance's 24-bit index can number.
+    pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
+        let textures = scene.model.textures.iter().map(|texture| {
+            let extent = vk::Extent2D { width: texture.width, height: texture.height };
+            Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
+        });
+        let textures = TextureTable::new(gpu, textures.collect::<Result<_>>()?)?;
+        Self::build(gpu, scene, options, Arc::new(textures))
+    }
+
+    /// Builds everything but the textures again, with other options; pipelines stay valid.
+    ///
+    /// # Errors
+    /// As [`SceneOnGpu::new`].
+    pub fn rebuild(&mut self, gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<()> {
+        *self = Self::build(gpu, scene, options, self.textures.clone())?;
+        Ok(())
+    }
+
+    fn build(
+        gpu: &Gpu,
+        scene: &Scene,
+        options: SceneOptions,
+        textures: Arc<TextureTable>,
+    ) -> Result<Self> {
+        let Scene { model, instances, .. } = scene;
+        ensure!(instances.len() < 1 << 24, "{} instances are too many", instances.len());
         let mut buffers = Vec::new();
         let mut blas = Vec::new();
         let mut meshes = Vec::new();
         for (index, mesh) in model.meshes.iter().enumerate() {
             // An any-hit shader is worth calling only where it can say no.
-            let mut placed = scene.instances.iter().filter(|instance| instance.mesh == index);
+            let mut placed = instances.iter().filter(|instance| instance.mesh == index);
             let opaque = placed.all(|instance| !model.materials[instance.material].has_cutout());
-            let on_gpu = MeshOnGpu::new(gpu, mesh, opaque, ordering)?;
+            let on_gpu = MeshOnGpu::new(gpu, mesh, opaque, options)?;
             meshes.push(on_gpu.addresses);
             blas.push(on_gpu.blas);
             buffers.extend(on_gpu.buffers);
         }
-        let records: Vec<InstanceRecord> = scene
-            .instances
-            .iter()
-            .map(|instance| InstanceRecord {
-                material: instance.material as u32,
-                mesh: instance.mesh as u32,
-                ..meshes[instance.mesh]
-            })
-            .collect();
-        let materials: Vec<MaterialRecord> = model.materials.iter().map(record).collect();
-        let instances = Buffer::with_data(gpu, "instance records", &records, input_usage())?;
+        let records = instances.iter().map(|instance| InstanceRecord {
+            material: instance.material as u32,
+            mesh: instance.mesh as u32,
+            ..meshes[instance.mesh]
+        });
+        let records: Vec<_> = records.collect();
+        let materials: Vec<_> = model.materials.iter().map(MaterialRecord::from).collect();
+        let records = Buffer::with_data(gpu, "instance records", &records, input_usage())?;
         let materials = Buffer::with_data(gpu, "materials", &materials, input_usage())?;
         let addresses = SceneAddresses {
-            instances: instances.address.into(),
+            instances: records.address.into(),
             materials: materials.address.into(),
         };
-        let textures = model.textures.iter().map(|texture| {
-            let extent = vk::Extent2D { width: texture.width, height: texture.height };
-            Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
-        });
-        let textures = TextureTable::new(gpu, textures.collect::<Result<_>>()?)?;
+        buffers.extend([records, materials]);
 
-        let order = instance_order(scene, ordering);
-        let placed = order.iter().map(|&index| {
-            let instance = &scene.instances[index as usize];
+        let placed = instance_order(scene, options.ordering).into_iter().map(|index| {
+            let instance = &instances[index as usize];
             vk::AccelerationStructureInstanceKHR {
                 transform: transform(&instance.transform),
                 // The custom index stays the scene's, whatever the order of the build.
@@ -132,8 +118,7 @@ impl SceneOnGpu {
             }
         });
         let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
-        buffers.extend([instances, materials]);
-        Ok(Self { tlas, blas, textures, addresses, _buffers: buffers })
+        Ok(Self { tlas, blas, textures, addresses, options, _buffers: buffers })
     }
 }
 
@@ -190,9 +175,9 @@ struct MeshOnGpu {
 }
 
 impl MeshOnGpu {
-    fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, ordering: bool) -> Result<Self> {
+    fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, options: SceneOptions) -> Result<Self> {
         let name = &mesh.name;
-        let permutation = if ordering {
+        let permutation = if options.ordering {
             order::kd_median(&mesh.triangle_bounds())
         } else {
             (0..mesh.triangles.len() as u32).collect()
@@ -211,6 +196,7 @@ impl MeshOnGpu {
             indices: build_input.address,
             count: mesh.triangles.len() as u32,
             opaque,
+            no_duplicate_any_hit: options.no_duplicate_any_hit,
         };
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
         Ok(Self {
@@ -224,19 +210,5 @@ impl MeshOnGpu {
             },
             buffers: vec![vertices, triangles, original],
         })
-    }
-}
-
-fn record(material: &Material) -> MaterialRecord {
-    let number = |texture: Option<usize>| texture.map_or(-1, |index| index as i32);
-    MaterialRecord {
-        base_color: material.base_color,
-        opacity: material.opacity,
-        specular: material.specular,
-        shininess: material.shininess,
-        emission: material.emission,
-        base_texture: number(material.base_texture),
-        opacity_texture: number(material.opacity_texture),
-        illumination: material.illumination,
     }
 }

@@ -1,0 +1,15 @@
+// Random numbers without state: the same key gives the same number, whoever asks and when.
+
+// A hash of four numbers to four (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d).
+uvec4 hash(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v += v.yzxy * v.wxyz;
+    v ^= v >> 16u;
+    v += v.yzxy * v.wxyz;
+    return v;
+}
+
+// The upper 24 bits as a number in [0, 1): every one of them is exact in 32-bit floats.
+float to_unit(uint bits) {
+    return float(bits >> 8u) * (1.0 / 16777216.0);
+}

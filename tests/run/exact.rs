@@ -1,0 +1,60 @@
+//! A scene as the reference sees it, and the judgement on a whole picture of hits.
+
+use common::reference::Ray;
+use common::reference::scene::{Instance, Scene};
+use common::reference::transform::Transform;
+use common::reference::verdict::{Answer, Verdict};
+use common::scene;
+
+/// The reference's copy of a scene: the same f32 positions and matrices.
+pub fn reference(scene: &scene::Scene) -> Scene {
+    let instances = scene.instances.iter().map(|instance| {
+        let mesh = &scene.model.meshes[instance.mesh];
+        let corners = |&triangle: &[u32; 3]| {
+            triangle.map(|index| mesh.vertices[index as usize].position.to_array())
+        };
+        let [x0, x1, x2, x3, y0, y1, y2, y3, z0, z1, z2, z3] =
+            scene::transform(&instance.transform).matrix;
+        let rows = [[x0, x1, x2, x3], [y0, y1, y2, y3], [z0, z1, z2, z3]];
+        Instance {
+            transform: Transform::from_rows(rows).expect("an instance's matrix can be inverted"),
+            triangles: mesh.triangles.iter().map(corners).collect(),
+        }
+    });
+    Scene::new(instances)
+}
+
+/// How many rays ended how.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// The exact answer.
+    pub agree: usize,
+    /// Another triangle at the same distance, within the bounds.
+    pub ties: usize,
+    /// Explained by an edge grazed within its bound.
+    pub grazes: usize,
+    /// Explained by nothing.
+    pub wrong: usize,
+    /// The first of those.
+    pub first_wrong: Option<String>,
+}
+
+/// Judges each ray's answer: instance, triangle and t, `None` for a miss.
+pub fn judge(scene: &Scene, rays: impl Iterator<Item = (Ray, Option<Answer>)>) -> Tally {
+    let mut tally = Tally::default();
+    for (index, (ray, answer)) in rays.enumerate() {
+        match scene.judge(&ray, answer, |_| true) {
+            Verdict::Agrees => tally.agree += 1,
+            Verdict::Tie { .. } => tally.ties += 1,
+            Verdict::WithinEdgeBound { .. } | Verdict::WithinIntervalBound { .. } => {
+                tally.grazes += 1;
+            }
+            verdict @ Verdict::Wrong { .. } => {
+                tally.wrong += 1;
+                let line = || format!("ray {index}: {ray:?} {answer:?}: {verdict:?}");
+                tally.first_wrong.get_or_insert_with(line);
+            }
+        }
+    }
+    tally
+}
