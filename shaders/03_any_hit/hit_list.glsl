@@ -34,7 +34,7 @@ vec4 show_list(uint pixel, uint count) {
     uint listed = min(count, MAX_HITS);
     sort_list(first, listed);
     if (push.show == SHOW_PICTURE || push.show == SHOW_NORMAL) {
-        return vec4(heat(float(count) / 16.0), 1.0);
+        return vec4(heat(float(count) / 12.0), 1.0);
     }
     if (push.layer >= listed) {
         return push.show == SHOW_HIT ? vec4(-1.0, -1.0, -1.0, count) : vec4(0.0, 0.0, 0.0, 1.0);

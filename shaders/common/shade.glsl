@@ -5,12 +5,13 @@ struct DirectionalLight {
     vec3 radiance;
 };
 
-// The sky in a direction: a pale horizon, bluer above, warm below.
+// The sky in a direction: pale at the horizon, bluer above, and a cool grey backdrop below.
 vec3 sky(vec3 direction) {
-    float height = direction.y;
-    vec3 above = mix(vec3(0.80, 0.84, 0.88), vec3(0.23, 0.38, 0.62), sqrt(max(height, 0.0)));
-    vec3 below = mix(vec3(0.80, 0.84, 0.88), vec3(0.30, 0.27, 0.24), min(-8.0 * height, 1.0));
-    return height > 0.0 ? above : below;
+    vec3 horizon = vec3(0.84, 0.87, 0.90);
+    if (direction.y > 0.0) {
+        return mix(horizon, vec3(0.23, 0.38, 0.62), sqrt(direction.y));
+    }
+    return mix(horizon, vec3(0.20, 0.245, 0.29), smoothstep(0.0, 0.45, -direction.y));
 }
 
 // What the sky sends to a surface from all sides: more from above than from below.

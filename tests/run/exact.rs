@@ -1,10 +1,11 @@
 //! A scene as the reference sees it, and the judgement on a whole picture of hits.
 
+use common::app::Picture;
 use common::reference::Ray;
 use common::reference::scene::{Instance, Scene};
 use common::reference::transform::Transform;
 use common::reference::verdict::{Answer, Verdict};
-use common::scene;
+use common::scene::{self, Camera};
 
 /// The reference's copy of a scene: the same f32 positions and matrices.
 pub fn reference(scene: &scene::Scene) -> Scene {
@@ -22,6 +23,19 @@ pub fn reference(scene: &scene::Scene) -> Scene {
         }
     });
     Scene::new(instances)
+}
+
+/// The rays whose directions the GPU wrote (`show=ray direction`).
+pub fn rays<'a>(camera: &Camera, directions: &'a Picture) -> impl Iterator<Item = Ray> + 'a {
+    let origin = camera.eye.as_vec3().to_array();
+    directions.pixels.iter().map(move |&[x, y, z, _]| Ray::from_f32(origin, [x, y, z], 0.0, 1e30))
+}
+
+/// What the GPU wrote of a hit (`show=hit`): instance, triangle, t; `None` for a miss.
+pub fn answer(pixel: &[f32; 4]) -> Option<Answer> {
+    let [instance, primitive, t, _] = *pixel;
+    let hit = Answer { instance: instance as u32, primitive: primitive as u32, t };
+    (instance >= 0.0).then_some(hit)
 }
 
 /// How many rays ended how.

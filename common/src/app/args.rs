@@ -35,6 +35,10 @@ pub struct Args {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 
+    /// Time a control's values in turns, --frames rounds, and print a table
+    #[arg(long, value_name = "NAME=A|B|…")]
+    pub compare: Option<String>,
+
     /// Print the controls: name, kind, possible values, value
     #[arg(long)]
     pub list_controls: bool,

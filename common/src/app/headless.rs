@@ -9,7 +9,7 @@ use ash::vk;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::Args;
-use super::{Format, Frame, Milliseconds, Picture, Report, Sample, Setup, controls};
+use super::{Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls};
 use crate::gpu::{Gpu, GpuOptions, Image, Timer, barrier};
 use crate::usage::Usage;
 
@@ -27,6 +27,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     for file in [&args.out, &args.report].into_iter().flatten() {
         check_writable(file)?;
     }
+    let comparison = args.compare.as_deref().map(compare::parse).transpose()?;
     let gpu = Gpu::new(&GpuOptions {
         requirements: S::requirements(),
         device: args.device.as_deref(),
@@ -50,10 +51,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
 
     let image = Image::storage(&gpu, "picture", args.size)?;
     let timer = Timer::new(&gpu)?;
-    let mut times = Vec::new();
-    let mut first_frame = Duration::ZERO;
-    let progress = Progress::new(args.frames);
-    for index in 0..args.frames {
+    let render = |sample: &mut S, index| {
         gpu.submit(|cmd| {
             timer.start(cmd);
             sample.render(&Frame { gpu: &gpu, cmd, image: &image, index })?;
@@ -61,13 +59,35 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             barrier::trace_to_trace(&gpu, cmd);
             Ok(())
         })?;
-        times.push(timer.milliseconds()?);
+        timer.milliseconds()
+    };
+    let comparison = match comparison {
+        None => None,
+        Some((control, values)) => {
+            let turns = u64::from(args.frames) * (values.len() as u64 + 1) + values.len() as u64;
+            let progress = Progress::new(turns, start);
+            Some(compare::compare(&control, &values, args.frames, |value| {
+                controls::set(&control, value, |c| sample.controls(c))?;
+                progress.step();
+                render(&mut sample, 0)
+            })?)
+        }
+    };
+    let mut times = Vec::new();
+    let mut first_frame = Duration::ZERO;
+    let frames = if comparison.is_some() { 1 } else { args.frames };
+    let progress = Progress::new(frames.into(), start);
+    for index in 0..frames {
+        times.push(render(&mut sample, index)?);
         if index == 0 {
             first_frame = start.elapsed();
         }
-        progress.step(start);
+        progress.step();
     }
-    progress.finish();
+    drop(progress);
+    if let (Some(comparison), false) = (&comparison, args.report == Some("-".into())) {
+        print!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table());
+    }
 
     if let Some(out) = &args.out {
         let (width, height) = (args.size.width, args.size.height);
@@ -94,6 +114,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             groups: statistics.groups,
             bytes_allocated: gpu.allocated_bytes(),
             validation_messages: gpu.validation_messages(),
+            comparison,
             chapter: sample.report()?,
         }
         .save(path)?;
@@ -145,24 +166,30 @@ fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
 }
 
 /// A bar on standard error, once the run has taken a while and if someone can see it.
-struct Progress(ProgressBar);
+struct Progress {
+    bar: ProgressBar,
+    start: Instant,
+}
 
 impl Progress {
-    fn new(frames: u32) -> Self {
+    fn new(frames: u64, start: Instant) -> Self {
         let bar = ProgressBar::hidden();
-        bar.set_length(frames.into());
+        bar.set_length(frames);
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left");
-        Self(style.map_or(bar.clone(), |style| bar.with_style(style)))
+        Self { bar: style.map_or(bar.clone(), |style| bar.with_style(style)), start }
     }
 
-    fn step(&self, start: Instant) {
-        if self.0.is_hidden() && start.elapsed() > PATIENCE && std::io::stderr().is_terminal() {
-            self.0.set_draw_target(indicatif::ProgressDrawTarget::stderr());
+    fn step(&self) {
+        let visible = self.start.elapsed() > PATIENCE && std::io::stderr().is_terminal();
+        if self.bar.is_hidden() && visible {
+            self.bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
         }
-        self.0.inc(1);
+        self.bar.inc(1);
     }
+}
 
-    fn finish(&self) {
-        self.0.finish_and_clear();
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }

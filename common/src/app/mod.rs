@@ -1,6 +1,7 @@
 //! A program around a sample: arguments, controls, a headless run or a window, picture and report.
 
 mod args;
+pub mod compare;
 pub mod controls;
 mod headless;
 mod picture;
@@ -131,7 +132,7 @@ fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
     }
-    if args.headless || args.list_controls {
+    if args.headless || args.list_controls || args.compare.is_some() {
         return headless::<S>(name, args);
     }
     Err(Usage("no window yet: add --headless".to_owned()).into())

@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 
+use super::compare::Comparison;
 use crate::files::write_whole;
 
 /// The report of one run.
@@ -43,6 +44,8 @@ pub struct Report {
     pub bytes_allocated: u64,
     /// What validation said; empty where it is off.
     pub validation_messages: Vec<String>,
+    /// What `--compare` measured.
+    pub comparison: Option<Comparison>,
     /// What the chapter itself has to tell.
     pub chapter: serde_json::Value,
 }

@@ -1,0 +1,171 @@
+//! What a choice costs: several values of one control, timed in turns within one run.
+//!
+//! Times of separate runs differ by the machine's mood. Here every round renders one frame of each
+//! value, in an order that changes from round to round, and only times of the same round are divided
+//! by each other. The first value is timed twice a round: the second time against the first is the
+//! noise floor, which no smaller difference can beat.
+
+use anyhow::Result;
+use serde::Serialize;
+
+use crate::usage::Usage;
+
+/// A control's values, measured against the first.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Comparison {
+    /// The control.
+    pub control: String,
+    /// How many rounds were timed, after one to warm up.
+    pub rounds: u32,
+    /// The first value against itself.
+    pub noise: Ratio,
+    /// Each value, in the order given.
+    pub values: Vec<Measured>,
+}
+
+/// The time of one value.
+#[derive(Clone, Debug, Serialize)]
+pub struct Measured {
+    /// The control's value.
+    pub value: String,
+    /// The median of the device's milliseconds for a frame.
+    pub milliseconds: f64,
+    /// Its time over the first value's, of the same round.
+    pub ratio: Ratio,
+}
+
+/// The middle of the rounds' ratios.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Ratio {
+    /// A quarter of the rounds lie below.
+    pub low: f64,
+    /// The median.
+    pub median: f64,
+    /// A quarter of the rounds lie above.
+    pub high: f64,
+}
+
+impl Ratio {
+    fn of(mut ratios: Vec<f64>) -> Self {
+        ratios.sort_by(f64::total_cmp);
+        let at = |part: usize| ratios.get(ratios.len() * part / 4).copied().unwrap_or_default();
+        Self { low: at(1), median: at(2), high: at(3) }
+    }
+}
+
+/// Splits `NAME=A|B|C`.
+///
+/// # Errors
+/// If there is no name or fewer than two values.
+pub fn parse(text: &str) -> Result<(String, Vec<String>), Usage> {
+    let parts = text.split_once('=');
+    let values = |list: &str| list.split('|').map(|value| value.trim().to_owned()).collect();
+    match parts.map(|(name, list)| (name.trim().to_owned(), values(list))) {
+        Some((name, values)) if !name.is_empty() && Vec::len(&values) > 1 => Ok((name, values)),
+        _ => Err(Usage(format!(
+            "--compare takes a control and its values, as NAME=A|B; not '{text}'"
+        ))),
+    }
+}
+
+/// Times `rounds` rounds; `frame` renders one frame with the value set and returns milliseconds.
+///
+/// # Errors
+/// The first error of `frame`.
+pub fn compare(
+    control: &str,
+    values: &[String],
+    rounds: u32,
+    mut frame: impl FnMut(&str) -> Result<f64>,
+) -> Result<Comparison> {
+    // The first value stands at the end once more, for the noise.
+    let turns: Vec<&str> = values.iter().chain(&values[..1]).map(String::as_str).collect();
+    for value in values {
+        frame(value)?;
+    }
+    let mut times = vec![Vec::new(); turns.len()];
+    for round in 0..rounds as usize {
+        for position in 0..turns.len() {
+            // Rotated from round to round, and every other round backwards.
+            let turn = (position + round) % turns.len();
+            let turn = if round % 2 == 0 { turn } else { turns.len() - 1 - turn };
+            times[turn].push(frame(turns[turn])?);
+        }
+    }
+    let ratio = |turn: usize| {
+        Ratio::of(times[turn].iter().zip(&times[0]).map(|(time, first)| time / first).collect())
+    };
+    let measured = |(turn, value): (usize, &String)| {
+        let mut sorted = times[turn].clone();
+        sorted.sort_by(f64::total_cmp);
+        let milliseconds = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        Measured { value: value.clone(), milliseconds, ratio: ratio(turn) }
+    };
+    Ok(Comparison {
+        control: control.to_owned(),
+        rounds,
+        noise: ratio(turns.len() - 1),
+        values: values.iter().enumerate().map(measured).collect(),
+    })
+}
+
+impl Comparison {
+    /// The comparison as a Markdown table, as the pages show it.
+    pub fn table(&self) -> String {
+        let first = self.values.first().map_or("", |measured| &measured.value);
+        let mut table = format!(
+            "| {} | GPU ms | time / {first} | middle half of {} rounds |\n|---|---|---|---|\n",
+            self.control, self.rounds
+        );
+        let mut row = |name: &str, milliseconds: String, ratio: Ratio| {
+            let Ratio { low, median, high } = ratio;
+            table +=
+                &format!("| {name} | {milliseconds} | {median:.2} | {low:.2} to {high:.2} |\n");
+        };
+        for Measured { value, milliseconds, ratio } in &self.values {
+            row(value, format!("{milliseconds:.1}"), *ratio);
+        }
+        row(&format!("{first} again (noise)"), String::new(), self.noise);
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_are_of_the_same_round() {
+        // A machine that slows down by half a percent a frame: medians of times would be skewed.
+        let mut slow = 1.0;
+        let comparison = compare("rung", &["a".into(), "b".into()], 30, |value| {
+            slow *= 1.005;
+            Ok(if value == "b" { 2.0 * slow } else { slow })
+        });
+        let comparison = comparison.unwrap();
+        assert!((comparison.values[1].ratio.median - 2.0).abs() < 0.03, "{comparison:?}");
+        assert!((comparison.noise.median - 1.0).abs() < 0.03, "{comparison:?}");
+        assert!(comparison.table().contains("| b |"), "{}", comparison.table());
+    }
+
+    #[test]
+    fn every_value_goes_first_and_last() {
+        let mut order = Vec::new();
+        let values = ["a".to_owned(), "b".to_owned()];
+        compare("rung", &values, 6, |value| {
+            order.push(value.to_owned());
+            Ok(1.0)
+        })
+        .unwrap();
+        let rounds: Vec<_> = order[2..].chunks(3).map(|round| round[0].as_str()).collect();
+        assert!(rounds.contains(&"a") && rounds.contains(&"b"), "{rounds:?}");
+    }
+
+    #[test]
+    fn a_comparison_needs_a_name_and_two_values() {
+        assert_eq!(parse("mode=a| b c").unwrap(), ("mode".into(), vec!["a".into(), "b c".into()]));
+        for wrong in ["mode", "mode=a", "=a|b"] {
+            assert!(parse(wrong).unwrap_err().0.contains("NAME=A|B"), "{wrong}");
+        }
+    }
+}
