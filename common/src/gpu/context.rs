@@ -137,7 +137,7 @@ impl Gpu {
         let entry = load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
-            create_instance(&entry, messages.as_ref(), &options.surface_extensions)?;
+            create_instance(&entry, messages.as_deref(), &options.surface_extensions)?;
         let candidates = device::candidates(&instance, &options.requirements)?;
         let chosen = match device::choose(candidates, options.device) {
             Ok(chosen) => chosen,
@@ -301,7 +301,7 @@ impl Gpu {
 
 fn create_instance(
     entry: &Entry,
-    messages: Option<&Box<Messages>>,
+    messages: Option<&Messages>,
     surface_extensions: &[*const c_char],
 ) -> Result<(Instance, bool)> {
     // SAFETY: the loader is alive.

@@ -49,12 +49,12 @@ impl Messages {
 
     /// A messenger that reports to `self`, to chain into instance creation or to create alone.
     ///
-    /// The box must outlive the messenger: its address is the callback's user data.
-    pub fn messenger_info(self: &Box<Self>) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+    /// `self` must outlive the messenger and stay where it is: its address is the callback's user data.
+    pub fn messenger_info(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
         use vk::{
             DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type,
         };
-        let address: *const Self = &**self;
+        let address: *const Self = self;
         vk::DebugUtilsMessengerCreateInfoEXT::default()
             .message_severity(Severity::WARNING | Severity::ERROR)
             .message_type(Type::GENERAL | Type::VALIDATION | Type::PERFORMANCE)
