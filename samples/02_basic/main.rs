@@ -46,6 +46,7 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        // ANCHOR: pipeline
         let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
             .raygen("camera.rgen")
             .miss("sky.rmiss")
@@ -57,9 +58,11 @@ impl Sample for Demo {
             .push_constants::<Push>()
             .build(gpu)?;
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        // ANCHOR_END: pipeline
         Ok(Self { scene, pipeline, sbt, camera, sun: Sun::default(), show: 0 })
     }
 
+    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let views = ["picture", "normal", "triangle", "hit", "ray direction"];
         c.choice("show", &mut self.show, &views);
@@ -67,8 +70,10 @@ impl Sample for Demo {
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
     }
+    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
@@ -81,6 +86,7 @@ impl Sample for Demo {
         ];
         self.pipeline.bind(frame.cmd, &descriptors, &push)?;
         self.sbt.trace(frame.cmd, frame.image.extent);
+        // ANCHOR_END: trace
         Ok(())
     }
 }

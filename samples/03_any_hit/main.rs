@@ -77,6 +77,7 @@ impl Sample for Demo {
         // ANCHOR_END: pieces
         let camera = model.camera;
         let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
+        // ANCHOR: pipeline
         let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
             .raygen("camera.rgen")
             .miss("sky.rmiss")
@@ -88,6 +89,7 @@ impl Sample for Demo {
             .push_constants::<Push>()
             .build(gpu)?;
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        // ANCHOR_END: pipeline
         Ok(Self {
             model,
             scene,
@@ -106,10 +108,11 @@ impl Sample for Demo {
         })
     }
 
+    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let views = ["picture", "normal", "triangle", "hit", "ray direction"];
         c.choice("show", &mut self.show, &views);
-        let modes = ["opaque", "cut-out", "at random", "at random, naively", "all hits"];
+        let modes = ["opaque", "cut-out", "random", "naive random", "all hits"];
         c.choice("mode", &mut self.mode, &modes);
         c.slider("opacity", &mut self.opacity, 0.0..=1.0);
         c.integer("samples", &mut self.samples, 1..=256);
@@ -120,6 +123,7 @@ impl Sample for Demo {
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
     }
+    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: rebuild
@@ -138,6 +142,7 @@ impl Sample for Demo {
         // The frame before may still write the list when this one begins.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: hits
+        // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
@@ -156,6 +161,7 @@ impl Sample for Demo {
         ];
         self.pipeline.bind(frame.cmd, &descriptors, &push)?;
         self.sbt.trace(frame.cmd, frame.image.extent);
+        // ANCHOR_END: trace
         Ok(())
     }
 }

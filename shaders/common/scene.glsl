@@ -42,6 +42,7 @@ struct Surface {
     vec2 uv;
 };
 
+// ANCHOR: surface
 // Interpolates the vertices of a triangle; `weights` are the hit attributes, the second and third
 // barycentric coordinates.
 Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
@@ -55,3 +56,4 @@ Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
     surface.uv = w.x * a.uv + w.y * b.uv + w.z * c.uv;
     return surface;
 }
+// ANCHOR_END: surface

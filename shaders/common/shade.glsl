@@ -19,6 +19,7 @@ vec3 ambient(vec3 normal) {
     return mix(vec3(0.16, 0.14, 0.12), vec3(0.42, 0.47, 0.55), 0.5 + 0.5 * normal.y);
 }
 
+// ANCHOR: reflect
 // Lambert's law and a normalised Blinn-Phong highlight (Akenine-Moeller et al., Real-Time Rendering,
 // 4th ed., section 9.8). All vectors are unit; `view` points to the eye, `light` to the light.
 vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 view, vec3 light) {
@@ -26,3 +27,4 @@ vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 
     float highlight = pow(max(dot(normal, normalize(view + light)), 0.0), shininess);
     return (base + specular * highlight * (shininess + 8.0) / 8.0) * lambert / 3.14159265;
 }
+// ANCHOR_END: reflect

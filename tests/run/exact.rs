@@ -1,9 +1,12 @@
 //! A scene as the reference sees it, and the judgement on a whole picture of hits.
 
+use std::fmt;
+
 use common::app::Picture;
 use common::reference::Ray;
 use common::reference::scene::{Instance, Scene};
 use common::reference::transform::Transform;
+use common::reference::ulp::ulp_error;
 use common::reference::verdict::{Answer, Verdict};
 use common::scene::{self, Camera};
 
@@ -39,7 +42,7 @@ pub fn answer(pixel: &[f32; 4]) -> Option<Answer> {
 }
 
 /// How many rays ended how.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Tally {
     /// The exact answer.
     pub agree: usize,
@@ -51,12 +54,29 @@ pub struct Tally {
     pub wrong: usize,
     /// The first of those.
     pub first_wrong: Option<String>,
+    /// Error of each hit's t against f64, in units of the last place.
+    pub ulp_errors: Vec<f64>,
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { agree, ties, grazes, wrong, .. } = self;
+        let mut errors = self.ulp_errors.clone();
+        errors.sort_by(f64::total_cmp);
+        let at = |part: f64| errors.get((errors.len() as f64 * part) as usize).unwrap_or(&0.0);
+        let (half, most, worst) = (at(0.5), at(0.99), errors.last().unwrap_or(&0.0));
+        write!(f, "{agree} rays agree, {ties} ties, {grazes} at edges, {wrong} wrong; ")?;
+        write!(f, "t is off by {half:.1} ULP (median), {most:.1} (p99), {worst:.1} (most)")
+    }
 }
 
 /// Judges each ray's answer: instance, triangle and t, `None` for a miss.
 pub fn judge(scene: &Scene, rays: impl Iterator<Item = (Ray, Option<Answer>)>) -> Tally {
     let mut tally = Tally::default();
     for (index, (ray, answer)) in rays.enumerate() {
+        let exact =
+            answer.and_then(|a| Some((a, scene.candidate_at(&ray, a.instance, a.primitive)?)));
+        tally.ulp_errors.extend(exact.map(|(answer, exact)| ulp_error(answer.t, exact.hit.t)));
         match scene.judge(&ray, answer, |_| true) {
             Verdict::Agrees => tally.agree += 1,
             Verdict::Tie { .. } => tally.ties += 1,

@@ -94,8 +94,8 @@ fn alpha_at(model: &Model, mesh: usize, triangle: u32, weights: glam::Vec2) -> f
 
 #[test]
 fn transparency_at_random_does_not_depend_on_the_order() {
-    let ordered = hits(&["--set", "mode=at random"]);
-    let unordered = hits(&["--set", "mode=at random", "--unordered"]);
+    let ordered = hits(&["--set", "mode=random"]);
+    let unordered = hits(&["--set", "mode=random", "--unordered"]);
     let (ties, others) = differences(&ordered, &unordered);
     println!("{ties} ties");
     assert_eq!(others, 0, "pixels that differ though their distances do");
@@ -105,8 +105,8 @@ fn transparency_at_random_does_not_depend_on_the_order() {
 
 #[test]
 fn the_naive_way_does_depend_on_the_order() {
-    let ordered = hits(&["--set", "mode=at random, naively"]);
-    let unordered = hits(&["--set", "mode=at random, naively", "--unordered"]);
+    let ordered = hits(&["--set", "mode=naive random"]);
+    let unordered = hits(&["--set", "mode=naive random", "--unordered"]);
     let (_, others) = differences(&ordered, &unordered);
     assert!(others > ordered.pixels.len() / 100, "only {others} pixels differ");
 }
@@ -115,12 +115,11 @@ fn the_naive_way_does_depend_on_the_order() {
 fn a_second_invocation_changes_only_the_naive_way() {
     let twice = ["--set", "invocations=2"];
     let run = |mode, more: &[&str]| hits(&[&["--set", mode], more].concat());
-    let (once, again) = (run("mode=at random", &[]), run("mode=at random", &twice));
+    let (once, again) = (run("mode=random", &[]), run("mode=random", &twice));
     assert_eq!(bits(&once), bits(&again));
-    let once_at_most = run("mode=at random", &["--set", "no duplicates=on"]);
+    let once_at_most = run("mode=random", &["--set", "no duplicates=on"]);
     assert_eq!(bits(&once), bits(&once_at_most));
-    let (once, again) =
-        (run("mode=at random, naively", &[]), run("mode=at random, naively", &twice));
+    let (once, again) = (run("mode=naive random", &[]), run("mode=naive random", &twice));
     assert!(differences(&once, &again).1 > once.pixels.len() / 100);
 }
 

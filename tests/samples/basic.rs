@@ -26,10 +26,10 @@ fn every_hit_agrees_with_the_reference() {
     let directions = render("02_basic", SIZE, &["--set", "show=ray direction"]).picture;
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
-    println!("{tally:?}");
+    println!("{tally}");
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
     // Edges are thin: where more than one ray in five hundred needs an excuse, something is wrong.
-    assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally:?}");
+    assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
     // The scene is no empty sky: most rays must have met something.
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
 }
