@@ -1,5 +1,6 @@
 //! Every chapter, rendered headless and small, under validation: one module a chapter.
 
 mod basic;
+mod foundation;
 #[path = "../run/mod.rs"]
 mod run;
