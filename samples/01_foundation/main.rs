@@ -149,20 +149,18 @@ const EXTENSIONS: [&CStr; 4] = [
 ];
 // ANCHOR_END: extensions
 
-/// The features that this program uses, given to `f` as a chain: to be switched on, or, off, for a
-/// device to fill with what it offers.
+/// The features that this program uses, as a chain that `f` gets: on, to make a device with, or off,
+/// for a physical device to say which it has.
 fn with_features<R>(
     on: bool,
     f: impl FnOnce(&mut vk::PhysicalDeviceFeatures2) -> R,
 ) -> (R, [(&'static str, vk::Bool32); 4]) {
-    // ANCHOR: features
     let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default().buffer_device_address(on);
     let mut vulkan13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(on);
     let mut structures =
         vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(on);
     let mut pipelines =
         vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default().ray_tracing_pipeline(on);
-    // ANCHOR_END: features
     let mut features = vk::PhysicalDeviceFeatures2::default()
         .push_next(&mut vulkan12)
         .push_next(&mut vulkan13)
@@ -183,7 +181,6 @@ fn with_device<R>(
     chosen: &Candidate,
     then: impl FnOnce(&Device) -> Result<R>,
 ) -> Result<R> {
-    // ANCHOR: device
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(chosen.queue_family)
         .queue_priorities(&[1.0])];
@@ -196,7 +193,6 @@ fn with_device<R>(
         // SAFETY: `judge` found all of this on the device.
         unsafe { instance.create_device(chosen.handle, &info, None) }
     });
-    // ANCHOR_END: device
     let device = device.with_context(|| format!("cannot open {}", chosen.name))?;
     let result = then(&device);
     // SAFETY: `then` has waited for its work and destroyed what it made.
@@ -610,7 +606,6 @@ impl Drop for Gpu<'_> {
 }
 
 impl<'a> Gpu<'a> {
-    // ANCHOR: own
     /// Notes that `handle` is to be destroyed, whether the story ends well or not.
     ///
     /// # Safety
@@ -625,9 +620,7 @@ impl<'a> Gpu<'a> {
         self.undo.push(Box::new(move || unsafe { destroy(maker, handle, None) }));
         handle
     }
-    // ANCHOR_END: own
 
-    // ANCHOR: allocate
     /// Memory in the device, or memory that the host can map; with addresses for what lies in it or not.
     fn allocate(
         &mut self,
@@ -666,7 +659,6 @@ impl<'a> Gpu<'a> {
         self.allocated += needs.size;
         Ok(memory)
     }
-    // ANCHOR_END: allocate
 
     // ANCHOR: buffer
     /// A buffer whose address, if it has one, is a multiple of `alignment`.
