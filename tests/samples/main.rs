@@ -2,5 +2,6 @@
 
 mod any_hit;
 mod basic;
+mod foundation;
 #[path = "../run/mod.rs"]
 mod run;

@@ -22,11 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// On wrong arguments ([`Usage`]), if anything fails, or if validation had something to say.
 pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let start = Instant::now();
-    // What would be refused after the work is refused before it.
-    args.out.as_deref().map(Format::of).transpose()?;
-    for file in [&args.out, &args.report].into_iter().flatten() {
-        check_writable(file)?;
-    }
+    check_files(args)?;
     let comparison = args.compare.as_deref().map(compare::parse).transpose()?;
     let gpu = Gpu::new(&GpuOptions {
         requirements: S::requirements(),
@@ -131,6 +127,15 @@ pub fn check_validation(gpu: &Gpu) -> Result<()> {
         [] => Ok(()),
         messages => bail!("{} validation messages; the first: {}", messages.len(), messages[0]),
     }
+}
+
+/// Refuses before the work what would be refused after it: a picture or report that cannot be written.
+///
+/// # Errors
+/// With the file, and why.
+pub fn check_files(args: &Args) -> Result<()> {
+    args.out.as_deref().map(Format::of).transpose()?;
+    [&args.out, &args.report].into_iter().flatten().try_for_each(|file| check_writable(file))
 }
 
 fn check_writable(file: &Path) -> Result<()> {

@@ -16,7 +16,7 @@ use ash::vk;
 
 pub use args::Args;
 pub use controls::Controls;
-pub use headless::headless;
+pub use headless::{check_files, headless};
 pub use picture::{Format, Picture};
 pub use report::{Milliseconds, Report};
 

@@ -162,6 +162,11 @@ fn first_message(path: &str, error: &GlslangError) -> String {
     let Some(message) = log.lines().find_map(|line| line.strip_prefix("ERROR: ")) else {
         return format!("shader '{path}' does not compile: {}", log.trim().replace('\n', "; "));
     };
+    // Without an include directive there is no `#line`, and glslang calls the file 0.
+    let message = match message.strip_prefix("0:") {
+        Some(rest) => format!("{path}:{rest}"),
+        None => message.to_owned(),
+    };
     format!("shader does not compile: {}", message.trim_end())
 }
 
