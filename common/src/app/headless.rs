@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::Args;
 use super::{Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls};
-use crate::gpu::{Gpu, GpuOptions, Image, Timer, barrier};
+use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
 use crate::usage::Usage;
 
 /// How long a run may take before it shows its progress.
@@ -109,21 +109,24 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             stages: statistics.stages,
             groups: statistics.groups,
             bytes_allocated: gpu.allocated_bytes(),
-            validation_messages: gpu.validation_messages(),
+            validation_messages: gpu.validation().all(),
             comparison,
             chapter: sample.report()?,
         }
         .save(path)?;
     }
-    check_validation(&gpu)
+    // Messages about what was never destroyed come when the device is.
+    let validation = gpu.validation();
+    drop((sample, image, timer, gpu));
+    check_validation(&validation)
 }
 
 /// Fails if validation has said anything.
 ///
 /// # Errors
 /// With the number of messages and the first.
-pub fn check_validation(gpu: &Gpu) -> Result<()> {
-    match gpu.validation_messages().as_slice() {
+pub fn check_validation(validation: &Messages) -> Result<()> {
+    match validation.all().as_slice() {
         [] => Ok(()),
         messages => bail!("{} validation messages; the first: {}", messages.len(), messages[0]),
     }

@@ -86,7 +86,7 @@ pub struct Statistics {
 
 struct Debug {
     names: ext::debug_utils::Device,
-    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Box<Messages>)>,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Arc<Messages>)>,
 }
 
 impl Deref for Gpu {
@@ -138,8 +138,9 @@ impl Gpu {
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
             create_instance(&entry, messages.as_deref(), &options.surface_extensions)?;
-        let candidates = device::candidates(&instance, &options.requirements)?;
-        let chosen = match device::choose(candidates, options.device) {
+        let chosen = device::candidates(&instance, &options.requirements)
+            .and_then(|candidates| device::choose(candidates, options.device));
+        let chosen = match chosen {
             Ok(chosen) => chosen,
             Err(error) => {
                 // SAFETY: nothing else has been made from this instance.
@@ -156,7 +157,7 @@ impl Gpu {
         instance: Instance,
         chosen: &Candidate,
         requirements: &Requirements,
-        messages: Option<Box<Messages>>,
+        messages: Option<Arc<Messages>>,
         has_debug_utils: bool,
     ) -> Result<Self> {
         let physical_device = chosen.handle;
@@ -198,7 +199,7 @@ impl Gpu {
                 Some(messages) => {
                     let utils = ext::debug_utils::Instance::new(&entry, &instance);
                     let info = messages.messenger_info();
-                    // SAFETY: the user data is the box kept beside the messenger.
+                    // SAFETY: the user data is kept beside the messenger.
                     let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
                     Some((utils, handle, messages))
                 }
@@ -212,7 +213,7 @@ impl Gpu {
             acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
-            limits: Limits::of(&instance, physical_device),
+            limits: Limits::of(&instance, physical_device, queue_family),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
@@ -239,10 +240,10 @@ impl Gpu {
         let _ = unsafe { debug.names.set_debug_utils_object_name(&info) };
     }
 
-    /// What validation has said so far; empty where it is off.
-    pub fn validation_messages(&self) -> Vec<String> {
+    /// What validation says, now and after the device is gone: a leak is said last.
+    pub fn validation(&self) -> Arc<Messages> {
         let messenger = self.debug.as_ref().and_then(|debug| debug.messenger.as_ref());
-        messenger.map_or_else(Vec::new, |(_, _, messages)| messages.all())
+        messenger.map_or_else(Arc::default, |(_, _, messages)| messages.clone())
     }
 
     /// Records commands with `record`, submits them, and waits until the device has done them.

@@ -28,3 +28,4 @@ pub use requirements::{Features, Requirement, Requirements};
 pub use sbt::{Record, ShaderBindingTable};
 pub use texture::TextureTable;
 pub use timing::Timer;
+pub use validation::Messages;
