@@ -1,0 +1,134 @@
+//! Named parts of a source file, from a comment line `// ANCHOR: name` to `// ANCHOR_END: name`.
+//!
+//! The form is mdBook's, so that its users know it; unlike there, a missing anchor is an error.
+
+use std::ops::Range;
+
+use crate::fault::Fault;
+
+/// A named part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Anchor {
+    /// Its name.
+    pub name: String,
+    /// Its lines, from 0, without the two comments around it.
+    pub lines: Range<usize>,
+}
+
+enum Mark<'a> {
+    Start(&'a str),
+    End(&'a str),
+}
+
+fn mark(line: &str) -> Option<Mark<'_>> {
+    let line = line.trim();
+    let comment = line.strip_prefix("//").or_else(|| line.strip_prefix('#'))?.trim_start();
+    let start = comment.strip_prefix("ANCHOR:").map(|name| Mark::Start(name.trim()));
+    start.or_else(|| comment.strip_prefix("ANCHOR_END:").map(|name| Mark::End(name.trim())))
+}
+
+/// Whether a line only marks where an anchor begins or ends.
+pub fn is_mark(line: &str) -> bool {
+    mark(line).is_some()
+}
+
+/// Every anchor of a file, in the order of their beginnings.
+///
+/// # Errors
+/// If a name is given twice, or one of the two comments is missing.
+pub fn anchors(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
+    let mut found: Vec<Anchor> = Vec::new();
+    let mut open: Vec<usize> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let fault = |what: String, remedy: &str| Err(Fault::new(file, index + 1, what, remedy));
+        match mark(line) {
+            Some(Mark::Start(name)) => {
+                if let Some(first) = found.iter().find(|anchor| anchor.name == name) {
+                    let what = format!("anchor '{name}' begins a second time");
+                    return fault(
+                        what,
+                        &format!("rename it or the one in line {}", first.lines.start),
+                    );
+                }
+                open.push(found.len());
+                found.push(Anchor { name: name.to_owned(), lines: index + 1..index + 1 });
+            }
+            Some(Mark::End(name)) => {
+                let Some(at) = open.iter().position(|&i| found[i].name == name) else {
+                    let what = format!("anchor '{name}' ends but is not open");
+                    return fault(what, "add its ANCHOR line or remove this one");
+                };
+                found[open.remove(at)].lines.end = index;
+            }
+            None => {}
+        }
+    }
+    if let Some(&first) = open.first() {
+        let Anchor { name, lines } = &found[first];
+        let what = format!("anchor '{name}' does not end");
+        return Err(Fault::new(file, lines.start, what, format!("add // ANCHOR_END: {name}")));
+    }
+    Ok(found)
+}
+
+/// The text of a part, or of the whole file: without marks, moved to the left as far as it goes.
+pub fn part(text: &str, lines: Option<Range<usize>>) -> String {
+    let all: Vec<&str> = text.lines().collect();
+    let lines = &all[lines.unwrap_or(0..all.len())];
+    let kept: Vec<&str> = lines.iter().copied().filter(|line| !is_mark(line)).collect();
+    let blank = |line: &&&str| line.trim().is_empty();
+    let first = kept.iter().take_while(blank).count();
+    let last = kept.len() - kept[first..].iter().rev().take_while(blank).count();
+    let kept = &kept[first..last];
+    let indent = |line: &&str| line.len() - line.trim_start_matches(' ').len();
+    let shared = kept.iter().filter(|line| !blank(line)).map(indent).min().unwrap_or(0);
+    kept.iter().map(|line| line.get(shared..).unwrap_or("").to_owned() + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "\
+a
+    // ANCHOR: outer
+    b
+
+      // ANCHOR: inner
+      ä ← wide
+      // ANCHOR_END: inner
+    // ANCHOR_END: outer
+c
+";
+
+    #[test]
+    fn parts_are_dedented_and_lose_inner_marks() {
+        let found = anchors("f", TEXT).unwrap();
+        assert_eq!(part(TEXT, Some(found[0].lines.clone())), "b\n\n  ä ← wide\n");
+        assert_eq!(part(TEXT, Some(found[1].lines.clone())), "ä ← wide\n");
+        assert_eq!(part("\n\nx\n\n", None), "x\n");
+        assert_eq!(part("", None), "");
+    }
+
+    #[test]
+    fn anchors_may_overlap_and_stand_in_other_comments() {
+        let text = "# ANCHOR: a\n1\n# ANCHOR: b\n2\n# ANCHOR_END: a\n3\n# ANCHOR_END: b\n";
+        let found = anchors("f", text).unwrap();
+        let texts: Vec<String> =
+            found.iter().map(|anchor| part(text, Some(anchor.lines.clone()))).collect();
+        assert_eq!(texts, ["1\n2\n", "2\n3\n"]);
+    }
+
+    #[test]
+    fn wrong_marks_are_named_with_their_line() {
+        let cases = [
+            ("x\n// ANCHOR: a\n", "f:2: anchor 'a' does not end; add // ANCHOR_END: a"),
+            ("// ANCHOR_END: a\n", "f:1: anchor 'a' ends but is not open"),
+            ("// ANCHOR: a\n// ANCHOR_END: a\n// ANCHOR: a\n", "f:3: anchor 'a' begins a second"),
+        ];
+        for (text, expected) in cases {
+            let fault = anchors("f", text).unwrap_err().to_string();
+            assert!(fault.starts_with(expected), "{fault}");
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! The whole book: what its generated parts should say, what is wrong, and mending what can be mended.
+
+use std::collections::BTreeSet;
+
+use anyhow::Result;
+
+use crate::anchor::anchors;
+use crate::body::body;
+use crate::fault::Fault;
+use crate::markdown::{Markdown, check_formulas, check_links, local};
+use crate::page::{Kind, Page};
+use crate::picture::{Picture, Sources};
+use crate::program::Programs;
+use crate::project::{Project, README, SUMMARY};
+use crate::{agree, command, gallery, stray};
+
+/// The book of a project.
+pub struct Book<'a> {
+    project: &'a Project,
+    programs: &'a Programs,
+    pages: Vec<Page>,
+}
+
+impl<'a> Book<'a> {
+    /// Reads every page.
+    ///
+    /// # Errors
+    /// If one cannot be read.
+    pub fn open(project: &'a Project, programs: &'a Programs) -> Result<Self> {
+        let page = |path: String| Ok(Page::parse(&path, &project.read(&path)?));
+        let pages = project.pages().into_iter().map(page).collect::<Result<_>>()?;
+        Ok(Self { project, programs, pages })
+    }
+
+    /// Everything that is wrong, in the order of files and lines.
+    pub fn check(&self) -> Vec<Fault> {
+        let mut faults = agree::check(self.project);
+        // A chapter's own picture is the gallery's too, whether or not its command is right.
+        let mut linked: BTreeSet<String> =
+            self.project.chapters.iter().map(|chapter| chapter.picture()).collect();
+        self.ask_programs();
+        for page in &self.pages {
+            faults.extend(page.faults.iter().cloned());
+            faults.extend(self.stale_blocks(page));
+            let written = Markdown::parse(&page.written());
+            faults.extend(check_links(self.project, &page.path, &written.links));
+            faults.extend(check_formulas(&page.path, &written.formulas));
+            faults.extend(command::check(self.project, self.programs, &page.path, &written.code));
+            faults.extend(self.title(page, &written));
+            linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
+        }
+        let (pictures, wrong) = self.pictures();
+        faults.extend(wrong);
+        let mut sources = Sources::default();
+        for picture in &pictures {
+            let stale = picture.stale(self.project, &mut sources);
+            faults.extend(stale.map(|what| picture.fault(what)));
+            linked.insert(picture.file());
+        }
+        faults.extend(self.without_picture(&pictures));
+        faults.extend(self.without_gallery());
+        let summary = gallery::summary(self.project);
+        let found = self.project.read(SUMMARY).unwrap_or_default();
+        if let Some(line) = first_difference(&found, &summary) {
+            faults.push(Fault::stale(
+                SUMMARY,
+                line,
+                "the table of contents is not that of Cargo.toml",
+            ));
+        }
+        faults.extend(self.wrong_anchors());
+        faults.extend(stray::check(self.project, &linked));
+        faults.sort();
+        faults.dedup();
+        faults
+    }
+
+    /// Fills every generated part; returns what it changed, and what it could not.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn sync(&self) -> Result<(Vec<String>, Vec<Fault>)> {
+        let (mut changed, mut faults) = (Vec::new(), Vec::new());
+        let mut write = |path: &str, old: &str, new: &str| {
+            if old != new {
+                common::files::write_whole(&self.project.root.join(path), new.as_bytes())?;
+                changed.push(path.to_owned());
+            }
+            anyhow::Ok(())
+        };
+        self.ask_programs();
+        for page in &self.pages {
+            faults.extend(page.faults.iter().cloned());
+            let bodies: Vec<Option<String>> = page
+                .blocks
+                .iter()
+                .map(|block| match body(self.project, self.programs, page, block) {
+                    Ok((text, _)) => Some(text),
+                    Err(fault) => {
+                        faults.push(fault);
+                        None
+                    }
+                })
+                .collect();
+            write(&page.path, &page.with_bodies(&[]), &page.with_bodies(&bodies))?;
+        }
+        let summary = self.project.read(SUMMARY).unwrap_or_default();
+        if self.project.root.join("docs").is_dir() {
+            write(SUMMARY, &summary, &gallery::summary(self.project))?;
+        }
+        faults.sort();
+        faults.dedup();
+        Ok((changed, faults))
+    }
+
+    /// Every picture that a page makes, and what is wrong with their markers.
+    pub fn pictures(&self) -> (Vec<Picture>, Vec<Fault>) {
+        let (mut pictures, mut faults) = (Vec::<Picture>::new(), Vec::new());
+        for page in &self.pages {
+            for mark in &page.pictures {
+                match Picture::of(self.project, page, mark) {
+                    Ok(picture) => match pictures.iter().find(|other| other.name == picture.name) {
+                        Some(other) => {
+                            let first = format!("{}:{}", other.page, other.line);
+                            let what = format!("{} is already made at {first}", picture.file());
+                            let remedy = "give this one a name: <!-- picture NAME -->";
+                            faults.push(Fault::new(picture.page, picture.line, what, remedy));
+                        }
+                        None => pictures.push(picture),
+                    },
+                    Err(fault) => faults.push(fault),
+                }
+            }
+        }
+        (pictures, faults)
+    }
+
+    fn ask_programs(&self) {
+        let blocks = self.pages.iter().flat_map(|page| &page.blocks);
+        let controls = blocks.filter(|block| block.kind == Kind::Controls);
+        let names: BTreeSet<&str> =
+            controls.filter_map(|block| block.words.first()).map(String::as_str).collect();
+        let known = self.project.chapters.iter().map(|chapter| &*chapter.name);
+        self.programs.ask(&known.filter(|name| names.contains(name)).collect::<Vec<_>>());
+    }
+
+    fn stale_blocks(&self, page: &Page) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for block in &page.blocks {
+            match body(self.project, self.programs, page, block) {
+                Ok((should, source)) => {
+                    let lines = page.lines[block.body.clone()].iter();
+                    let found: String = lines.map(|line| format!("{line}\n")).collect();
+                    if let Some(line) = first_difference(&found, &should) {
+                        let line = (block.line + line).min(block.body.end + 1);
+                        let what = format!("this {} is not what {source} says", block.kind.noun());
+                        faults.push(Fault::stale(&*page.path, line, what));
+                    }
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        faults
+    }
+
+    /// A chapter's page is headed by its number and title.
+    fn title(&self, page: &Page, written: &Markdown) -> Option<Fault> {
+        let chapter = self.project.chapters.iter().find(|chapter| chapter.page() == page.path)?;
+        let (line, title) = written.title.clone().unwrap_or((1, String::new()));
+        let what = "the heading does not name the chapter";
+        let remedy = format!("write `# {}`", chapter.heading());
+        (title != chapter.heading()).then(|| Fault::new(&*page.path, line, what, remedy))
+    }
+
+    fn without_picture(&self, pictures: &[Picture]) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for chapter in &self.project.chapters {
+            let page = self.pages.iter().find(|page| page.path == chapter.page());
+            let made = pictures.iter().any(|picture| picture.name == chapter.name);
+            // A marker that is wrong has been told as that.
+            if let Some(page) = page.filter(|page| !made && page.faults.is_empty()) {
+                let what = format!("no command makes {}", chapter.picture());
+                let remedy = "add <!-- picture --> on the line before the ```sh block with it";
+                faults.push(Fault::new(&*page.path, 1, what, remedy));
+            }
+        }
+        faults
+    }
+
+    fn without_gallery(&self) -> Option<Fault> {
+        let readme = self.pages.iter().find(|page| page.path == README)?;
+        let shown = readme.blocks.iter().any(|block| block.kind == Kind::Gallery);
+        let remedy = "add <!-- gallery --> and <!-- /gallery -->";
+        (!shown).then(|| Fault::new(README, 1, "the README has no gallery", remedy))
+    }
+
+    /// Anchors are held to their form even where no page shows them yet.
+    fn wrong_anchors(&self) -> Vec<Fault> {
+        let files = ["common/src", "samples", "shaders"].map(|folder| self.project.files(folder));
+        let text = |file: &String| self.project.read(file).ok();
+        let source = |file: &String| !file.ends_with(".obj");
+        let files = files.into_iter().flatten().filter(source);
+        files.filter_map(|file| anchors(&file, &text(&file)?).err()).collect()
+    }
+
+    /// Renders the pictures of these names, or with none those that are out of date.
+    ///
+    /// # Errors
+    /// If a name is unknown, or a command fails.
+    pub fn render(
+        &self,
+        names: &[String],
+        mut done: impl FnMut(&Picture, &str),
+    ) -> Result<Vec<Fault>> {
+        let (pictures, mut faults) = self.pictures();
+        let mut sources = Sources::default();
+        if let Some(unknown) = names.iter().find(|name| !pictures.iter().any(|p| p.name == **name))
+        {
+            let there: Vec<&str> = pictures.iter().map(|picture| &*picture.name).collect();
+            let what =
+                format!("no page makes a picture '{unknown}'; there is {}", there.join(", "));
+            return Err(common::usage::Usage(what).into());
+        }
+        for picture in &pictures {
+            let wanted = match names {
+                [] => picture.stale(self.project, &mut sources).is_some(),
+                _ => names.contains(&picture.name),
+            };
+            if wanted {
+                match picture.render(self.project, self.programs, &mut sources) {
+                    Ok(device) => done(picture, &device),
+                    Err(error) => faults.push(Fault::new(
+                        &*picture.page,
+                        picture.line,
+                        format!("{} cannot be rendered: {error:#}", picture.file()),
+                        "correct the command or the sample",
+                    )),
+                }
+            }
+        }
+        Ok(faults)
+    }
+}
+
+/// The first line, from 1, in which two texts differ.
+fn first_difference(a: &str, b: &str) -> Option<usize> {
+    let (mut left, mut right) = (a.lines(), b.lines());
+    (1..).find_map(|line| match (left.next(), right.next()) {
+        (None, None) => Some(None),
+        (a, b) if a == b => None,
+        _ => Some(Some(line)),
+    })?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_a_line() {
+        assert_eq!(first_difference("a\nb\n", "a\nb\n"), None);
+        assert_eq!(first_difference("a\nb\n", "a\nc\n"), Some(2));
+        assert_eq!(first_difference("a\n", "a\nb\n"), Some(2));
+        assert_eq!(first_difference("", ""), None);
+    }
+}

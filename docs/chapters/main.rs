@@ -1,0 +1,189 @@
+//! Keeps the book's pages true to the code, and shows readers any two chapters side by side.
+//!
+//! - `list`: the chapters, what each teaches and builds on
+//! - `diff A B`: what one chapter changes in another: code, shaders and page
+//! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
+//! - `check`: names everything that is stale, missing or stray, and what to do about it
+//!
+//! Data flows one way: [`project`] is read, pages are parsed ([`page`], [`markdown`]), what should stand
+//! in their blocks is made ([`body`], [`diff`], [`gallery`]) and compared or written ([`book`]).
+
+mod agree;
+mod anchor;
+mod body;
+mod book;
+mod command;
+mod diff;
+mod fault;
+mod gallery;
+mod markdown;
+mod page;
+mod picture;
+mod program;
+mod project;
+mod shader;
+mod show;
+mod stray;
+
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+use clap::{Parser, Subcommand};
+use common::usage::Usage;
+
+use book::Book;
+use diff::Parts;
+use fault::Fault;
+use program::Programs;
+use project::{Chapter, Project};
+
+/// Shows any two chapters side by side, and keeps the book's pages true to the code
+#[derive(Debug, Parser)]
+#[command(name = "chapters", disable_version_flag = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+
+    /// The project's root
+    #[arg(long, value_name = "DIR", global = true, default_value = env!("CARGO_MANIFEST_DIR"), hide_default_value = true)]
+    root: PathBuf,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// List the chapters: what each teaches, builds on, and needs of the device
+    List {
+        /// As JSON, for scripts
+        #[arg(long)]
+        json: bool,
+    },
+    /// Show what a chapter changes in another, such as `diff 02 03`; coloured unless piped or NO_COLOR
+    Diff {
+        /// The older chapter: its number or name
+        old: String,
+        /// The newer chapter
+        new: String,
+        /// Only count lines
+        #[arg(long)]
+        stat: bool,
+        /// Compare the Rust code
+        #[arg(long)]
+        code: bool,
+        /// Compare the shaders
+        #[arg(long)]
+        shaders: bool,
+        /// Compare the pages
+        #[arg(long)]
+        page: bool,
+        /// Lines around each change
+        #[arg(long, value_name = "N", default_value_t = 3)]
+        context: usize,
+    },
+    /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
+    Sync {
+        /// Also render the pictures of these names, or all that are out of date
+        #[arg(long, value_name = "NAME", num_args = 0..)]
+        pictures: Option<Vec<String>>,
+    },
+    /// Name everything that is stale, missing or stray; exit code 1 if anything is
+    Check,
+}
+
+fn main() -> ExitCode {
+    common::app::finish(parse().and_then(|arguments| run(&arguments)))
+}
+
+fn parse() -> Result<Arguments> {
+    Arguments::try_parse().map_err(|error| {
+        if !error.use_stderr() {
+            error.exit();
+        }
+        let text = error.to_string();
+        // Without a command clap's error is the help, in which no line says what is missing.
+        let line = text.lines().find_map(|line| line.strip_prefix("error: "));
+        let line = line.unwrap_or("no command; there is list, diff, sync, check");
+        Usage(format!("{line}; --help lists the commands")).into()
+    })
+}
+
+fn run(arguments: &Arguments) -> Result<()> {
+    let project = Project::open(&arguments.root)?;
+    match &arguments.command {
+        Command::List { json } => print(&list(&project, *json)?),
+        Command::Diff { old, new, stat, code, shaders, page, context } => {
+            let (old, new) = (project.chapter(old)?, project.chapter(new)?);
+            let all = !(*code || *shaders || *page);
+            let parts = Parts { code: *code || all, shaders: *shaders || all, page: *page || all };
+            let diffs = diff::chapters(&project, old, new, parts)?;
+            let mut text = show::heading(old, new);
+            if !stat {
+                text.push_str(&show::changes(old, new, &diffs, *context));
+            }
+            text.push_str(&show::statistics(&diffs));
+            print(&text)
+        }
+        Command::Sync { pictures } => sync(&project, pictures.as_deref()),
+        Command::Check => {
+            let programs = Programs::beside_this(&project.root)?;
+            report(&Book::open(&project, &programs)?.check())
+        }
+    }
+}
+
+fn list(project: &Project, json: bool) -> Result<String> {
+    if json {
+        return Ok(serde_json::to_string_pretty(&project.chapters)? + "\n");
+    }
+    let width = |of: fn(&Chapter) -> &str| {
+        project.chapters.iter().map(|chapter| of(chapter).chars().count()).max().unwrap_or(0)
+    };
+    let (names, titles) = (width(|chapter| &chapter.name), width(|chapter| &chapter.title));
+    let line = |chapter: &Chapter| {
+        let Chapter { name, title, teaches, from, needs } = chapter;
+        // As `diff` takes it: a number is enough.
+        let from = from.as_deref().and_then(|from| from.split('_').next()).unwrap_or("–");
+        let needs = match &needs[..] {
+            [] => String::new(),
+            _ => format!(" (needs {})", needs.join(", ")),
+        };
+        format!("{name:names$}  {title:titles$}  from {from:2}  {teaches}{needs}\n")
+    };
+    Ok(project.chapters.iter().map(line).collect())
+}
+
+fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
+    let programs = Programs::beside_this(&project.root)?;
+    let book = Book::open(project, &programs)?;
+    let (changed, mut faults) = book.sync()?;
+    for file in changed {
+        print(&format!("{file}: renewed\n"))?;
+    }
+    if let Some(names) = pictures {
+        let failed = book.render(names, |picture, device| {
+            let _ = print(&format!("{}: rendered on {device}\n", picture.file()));
+        })?;
+        faults.extend(failed);
+    }
+    report(&faults)
+}
+
+/// Prints what is wrong; an error if anything is.
+fn report(faults: &[Fault]) -> Result<()> {
+    print(&faults.iter().map(|fault| format!("{fault}\n")).collect::<String>())?;
+    match faults.len() {
+        0 => Ok(()),
+        1 => bail!("1 fault in the book"),
+        count => bail!("{count} faults in the book"),
+    }
+}
+
+/// Prints to standard output, without colours where nobody would see them.
+fn print(text: &str) -> Result<()> {
+    match anstream::stdout().write_all(text.as_bytes()) {
+        // A reader that has seen enough, as `head` has.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => Ok(result?),
+    }
+}

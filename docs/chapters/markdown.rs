@@ -1,0 +1,198 @@
+//! What an author wrote on a page, taken apart: links, code, headings.
+
+use std::path::{Component, Path, PathBuf};
+
+use pulldown_cmark::{CodeBlockKind, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
+
+use crate::fault::Fault;
+use crate::project::Project;
+
+/// A link or a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Where it leads.
+    pub target: String,
+}
+
+/// A fenced block, or code within a sentence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// The line on which its text begins, from 1.
+    pub line: usize,
+    /// The language given; none within a sentence.
+    pub language: String,
+    /// The text.
+    pub text: String,
+}
+
+/// A page's parts.
+#[derive(Debug, Default)]
+pub struct Markdown {
+    /// Every link and picture.
+    pub links: Vec<Link>,
+    /// Every piece of code.
+    pub code: Vec<Code>,
+    /// Every formula, with its line.
+    pub formulas: Vec<(usize, String)>,
+    /// The first heading of the first level, with its line.
+    pub title: Option<(usize, String)>,
+}
+
+impl Markdown {
+    /// Takes a page apart.
+    pub fn parse(text: &str) -> Self {
+        let mut found = Self::default();
+        let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
+        let mut open_code: Option<Code> = None;
+        let mut open_title: Option<(usize, String)> = None;
+        for (event, span) in Parser::new_ext(text, options).into_offset_iter() {
+            let line = 1 + text[..span.start].matches('\n').count();
+            match event {
+                Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                    found.links.push(Link { line, target: dest_url.into_string() });
+                }
+                Event::Html(html) | Event::InlineHtml(html) => {
+                    let target = |target| Link { line, target };
+                    found.links.extend(html_targets(&html).into_iter().map(target));
+                }
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    let (language, line) = match kind {
+                        CodeBlockKind::Fenced(language) => (language.into_string(), line + 1),
+                        CodeBlockKind::Indented => ("text".to_owned(), line),
+                    };
+                    open_code = Some(Code { line, language, text: String::new() });
+                }
+                Event::End(TagEnd::CodeBlock) => found.code.extend(open_code.take()),
+                Event::Start(Tag::Heading { level: HeadingLevel::H1, .. }) => {
+                    open_title = Some((line, String::new()));
+                }
+                Event::End(TagEnd::Heading(HeadingLevel::H1)) => {
+                    found.title = found.title.take().or(open_title.take());
+                }
+                Event::InlineMath(formula) | Event::DisplayMath(formula) => {
+                    found.formulas.push((line, formula.into_string()));
+                }
+                Event::Code(code) => {
+                    if let Some((_, title)) = &mut open_title {
+                        title.push_str(&code);
+                    }
+                    found.code.push(Code {
+                        line,
+                        language: String::new(),
+                        text: code.into_string(),
+                    });
+                }
+                Event::Text(text) => match (&mut open_code, &mut open_title) {
+                    (Some(code), _) => code.text.push_str(&text),
+                    (_, Some((_, title))) => title.push_str(&text),
+                    _ => {}
+                },
+                _ => {}
+            }
+        }
+        found
+    }
+}
+
+/// What `src` and `href` name.
+fn html_targets(html: &str) -> Vec<String> {
+    let pieces = ["src=\"", "href=\""].into_iter().flat_map(|key| html.split(key).skip(1));
+    pieces.filter_map(|rest| rest.split_once('"')).map(|(target, _)| target.to_owned()).collect()
+}
+
+/// The file that a page's link leads to, from the project's root; `None` if it leads to the web or stays.
+pub fn local(page: &str, target: &str) -> Option<String> {
+    let target = target.split(['#', '?']).next().unwrap_or_default();
+    let scheme = target.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
+    if target.is_empty() || scheme || target.starts_with("//") {
+        return None;
+    }
+    let mut path = PathBuf::from(page);
+    path.pop();
+    for part in Path::new(target).components() {
+        match part {
+            Component::ParentDir if path.pop() => {}
+            // Above the root there is nothing; the link is kept as one that cannot resolve.
+            Component::ParentDir => path.push(".."),
+            Component::Normal(part) => path.push(part),
+            _ => {}
+        }
+    }
+    Some(path.to_string_lossy().replace('\\', "/"))
+}
+
+/// What is wrong with a page's links.
+pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for Link { line, target } in links {
+        let Some(path) = local(page, target) else { continue };
+        if !project.root.join(&path).exists() {
+            let what = format!("the link leads to '{path}', which does not exist");
+            faults.push(Fault::new(page, *line, what, "correct it"));
+        } else if page.starts_with("docs/") && path.ends_with(".md") && !path.starts_with("docs/") {
+            let what = format!("the link leads to '{path}', which is no page of the book");
+            faults.push(Fault::new(page, *line, what, "link a page in docs/ or the web"));
+        }
+    }
+    faults
+}
+
+/// Formulas of which Markdown, as mdBook reads it, would take something away before MathJax sees them.
+pub fn check_formulas(page: &str, formulas: &[(usize, String)]) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (line, formula) in formulas {
+        let mut pairs = formula.chars().zip(formula.chars().skip(1));
+        if let Some((_, lost)) = pairs.find(|(a, b)| *a == '\\' && b.is_ascii_punctuation()) {
+            let what = format!("in a formula, Markdown takes '\\{lost}' for '{lost}'");
+            faults.push(Fault::new(page, *line, what, "write a word, such as \\thinspace for \\,"));
+        }
+    }
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_code_and_title_have_their_lines() {
+        let text = "# 02 · `Basic`\n\n[a](x.md#y) ![b](images/ä.png)\n<img src=\"c.png\">\n\n\
+                    [r][ref] and `cargo run`\n\n```sh\none\ntwo\n```\n\n[ref]: z.rs\n";
+        let found = Markdown::parse(text);
+        let links: Vec<(usize, &str)> =
+            found.links.iter().map(|link| (link.line, &*link.target)).collect();
+        assert_eq!(links, [(3, "x.md#y"), (3, "images/ä.png"), (4, "c.png"), (6, "z.rs")]);
+        assert_eq!(found.title, Some((1, "02 · Basic".to_owned())));
+        let block = found.code.iter().find(|code| code.language == "sh").unwrap();
+        assert_eq!((block.line, &*block.text), (9, "one\ntwo\n"));
+        assert!(found.code.iter().any(|code| code.line == 6 && code.text == "cargo run"));
+    }
+
+    #[test]
+    fn formulas_must_survive_markdown() {
+        let text = "Fine: $a \\thinspace b$.\n\nNot: $t\\,d$, it costs $5.\n";
+        let faults = check_formulas("p.md", &Markdown::parse(text).formulas);
+        let [fault] = &faults[..] else { panic!("{faults:?}") };
+        assert!(
+            fault.to_string().starts_with("p.md:3: in a formula, Markdown takes '\\,' for ','")
+        );
+    }
+
+    #[test]
+    fn links_are_resolved_from_their_page() {
+        let cases = [
+            ("docs/a.md", "b.md#c", Some("docs/b.md")),
+            ("docs/a.md", "../samples/x/main.rs", Some("samples/x/main.rs")),
+            ("README.md", "docs/a.md", Some("docs/a.md")),
+            ("README.md", "../out", Some("../out")),
+            ("docs/a.md", "#part", None),
+            ("docs/a.md", "https://example.org/a.md", None),
+            ("docs/a.md", "mailto:a@b", None),
+        ];
+        for (page, target, expected) in cases {
+            assert_eq!(local(page, target).as_deref(), expected, "{target}");
+        }
+    }
+}

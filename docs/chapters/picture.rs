@@ -1,0 +1,267 @@
+//! The pages' pictures: made by the commands that the pages print, and each saying what it was made from.
+//!
+//! A PNG carries its command, a hash of its sources and the device in tEXt chunks, so that a picture
+//! that the code would no longer make is known without rendering it.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{BufReader, BufWriter, Write};
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow, bail};
+
+use crate::command::{Run, runs};
+use crate::fault::Fault;
+use crate::page::{Page, PictureMark};
+use crate::program::{BUILD, Programs};
+use crate::project::Project;
+use crate::shader;
+
+const COMMAND: &str = "Command";
+const SOURCES: &str = "Sources";
+const DEVICE: &str = "Device";
+
+/// A picture that a page's command makes.
+pub struct Picture {
+    /// The page.
+    pub page: String,
+    /// The marker's line there, from 1.
+    pub line: usize,
+    /// Its name: that of the file, without folder and extension.
+    pub name: String,
+    /// The command, in one line.
+    pub command: String,
+    /// The chapter whose program makes it.
+    pub chapter: String,
+    /// The program's arguments.
+    arguments: Vec<String>,
+}
+
+impl Picture {
+    /// The picture of a marker on a page.
+    ///
+    /// # Errors
+    /// If the command below it is not one run of a chapter.
+    pub fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
+        let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
+        let found = runs(&mark.command);
+        let [(_, run)] = &found[..] else {
+            let what = "a picture is made by exactly one `cargo run`";
+            return Err(wrong(what, "move the other commands to a block of their own"));
+        };
+        let program = run.program(project).unwrap_or_default().to_owned();
+        if !project.chapters.iter().any(|chapter| chapter.name == program) {
+            return Err(wrong(&format!("'{program}' is no chapter"), "name one with --bin"));
+        }
+        if out(run).is_none_or(|index| run.arguments.len() <= index + 1) {
+            return Err(wrong("the command writes no picture", "add --out FILE.png"));
+        }
+        let stem = page.path.trim_start_matches("docs/").trim_end_matches(".md");
+        Ok(Self {
+            page: page.path.clone(),
+            line: mark.line,
+            name: mark.name.clone().unwrap_or_else(|| stem.to_owned()),
+            command: mark
+                .command
+                .replace('\\', " ")
+                .split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" "),
+            chapter: program,
+            arguments: run.arguments.clone(),
+        })
+    }
+
+    /// Its file, from the project's root.
+    pub fn file(&self) -> String {
+        format!("docs/images/{}.png", self.name)
+    }
+
+    /// What is out of date about it, if anything is.
+    pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<String> {
+        let file = self.file();
+        if !project.has(&file) {
+            return Some(format!("the picture {file} is missing"));
+        }
+        let Ok(stamp) = stamp(&project.root.join(&file)) else {
+            return Some(format!("the picture {file} is no PNG"));
+        };
+        match (stamp.get(COMMAND), stamp.get(SOURCES)) {
+            (Some(command), _) if *command != self.command => {
+                Some(format!("the picture {file} was made by another command"))
+            }
+            (Some(_), Some(hash)) if *hash == sources.of(project, &self.chapter) => None,
+            (Some(_), Some(_)) => {
+                Some(format!("the picture {file} is older than what {} renders", self.chapter))
+            }
+            _ => Some(format!("the picture {file} does not say what made it")),
+        }
+    }
+
+    /// The fault that says that it is out of date.
+    pub fn fault(&self, what: String) -> Fault {
+        let remedy = format!("run: cargo run --bin chapters -- sync --pictures {}", self.name);
+        Fault::new(&*self.page, self.line, what, remedy)
+    }
+
+    /// Renders it, and returns the device that did.
+    ///
+    /// # Errors
+    /// If the program is missing or fails.
+    pub fn render(
+        &self,
+        project: &Project,
+        programs: &Programs,
+        sources: &mut Sources,
+    ) -> Result<String> {
+        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+        let (picture, report) = (folder.path().join("out.png"), folder.path().join("report.json"));
+        let mut arguments = self.arguments.clone();
+        let run = Run { bin: None, arguments: arguments.clone() };
+        let index = out(&run).context("the command writes no picture")?;
+        arguments[index + 1] = picture.to_string_lossy().into_owned();
+        let mut command =
+            programs.command(&self.chapter).map_err(|what| anyhow!("{what}; {BUILD}"))?;
+        command.args(&arguments).arg("--report").arg(&report);
+        let output =
+            command.output().with_context(|| format!("'{}' does not run", self.chapter))?;
+        if !output.status.success() {
+            let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
+            bail!("{}:{}: the command for {} failed: {said}", self.page, self.line, self.file());
+        }
+        let report: serde_json::Value = serde_json::from_slice(&fs::read(&report)?)?;
+        let device = report["device"].as_str().unwrap_or("unknown").to_owned();
+        let hash = sources.of(project, &self.chapter);
+        let texts = [(COMMAND, &*self.command), (SOURCES, &*hash), (DEVICE, &*device)];
+        let stamped = restamp(&picture, &texts)?;
+        let file = project.root.join(self.file());
+        fs::create_dir_all(project.root.join("docs/images"))?;
+        common::files::write_whole(&file, &stamped)?;
+        Ok(device)
+    }
+}
+
+/// Where `--out` stands among a run's arguments.
+fn out(run: &Run) -> Option<usize> {
+    run.arguments.iter().position(|word| word == "--out")
+}
+
+/// Hashes of what chapters' pictures are made from.
+#[derive(Default)]
+pub struct Sources(BTreeMap<String, String>);
+
+impl Sources {
+    /// The hash of a chapter's code, its shaders with all they include, and the world that it shows.
+    ///
+    /// Comments and blanks do not count, so that a better comment makes no picture stale.
+    pub fn of(&mut self, project: &Project, chapter: &str) -> String {
+        if let Some(known) = self.0.get(chapter) {
+            return known.clone();
+        }
+        let mut files = project.files(&format!("samples/{chapter}"));
+        let reads_scene =
+            |file: &String| project.read(file).is_ok_and(|text| text.contains("common::scene"));
+        let scene = files.iter().any(reads_scene);
+        if let Some(chapter) = project.chapters.iter().find(|known| known.name == chapter) {
+            files.extend(shader::own(project, chapter));
+            files.extend(shader::shared(project, chapter).into_keys());
+        }
+        if scene {
+            // Where the pieces stand and how the light falls is framework code.
+            files.extend(project.files("common/src/scene"));
+            let asset = |path: &String| path.matches('/').count() == 2;
+            files.extend(project.files("samples/assets").into_iter().filter(asset));
+        }
+        let mut hash = FNV_OFFSET;
+        for file in files {
+            hash = fnv(hash, file.as_bytes());
+            match project.read(&file) {
+                Ok(text) => {
+                    hash = essential(&text).fold(hash, |hash, line| fnv(hash, line.as_bytes()))
+                }
+                Err(_) => hash = fnv(hash, &fs::read(project.root.join(&file)).unwrap_or_default()),
+            }
+        }
+        let hash = format!("{hash:016x}");
+        self.0.insert(chapter.to_owned(), hash.clone());
+        hash
+    }
+}
+
+/// The lines that have an effect: no comments, no unit tests.
+fn essential(text: &str) -> impl Iterator<Item = &str> {
+    let lines = text.lines().take_while(|line| *line != "#[cfg(test)]").map(str::trim);
+    lines.filter(|line| !line.is_empty() && !line.starts_with("//"))
+}
+
+// FNV-1a, 64 bits (Fowler, Noll, Vo): the same on every system and with every version of Rust.
+const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+
+fn fnv(hash: u64, bytes: &[u8]) -> u64 {
+    // A byte that no text holds ends each part.
+    let bytes = bytes.iter().chain(&[0xff]);
+    bytes.fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// What a PNG says about itself.
+fn stamp(file: &Path) -> Result<BTreeMap<String, String>> {
+    let reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
+    let texts = &reader.info().uncompressed_latin1_text;
+    Ok(texts.iter().map(|text| (text.keyword.clone(), text.text.clone())).collect())
+}
+
+/// A PNG's bytes with other texts, packed as small as they go.
+fn restamp(file: &Path, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
+    let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
+    let mut pixels = vec![0; reader.output_buffer_size().context("the picture is too large")?];
+    let frame = reader.next_frame(&mut pixels)?;
+    let mut bytes = BufWriter::new(Vec::new());
+    let mut encoder = png::Encoder::new(&mut bytes, frame.width, frame.height);
+    encoder.set_color(frame.color_type);
+    encoder.set_depth(frame.bit_depth);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    for (key, text) in texts {
+        encoder.add_text_chunk((*key).to_owned(), (*text).to_owned())?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&pixels[..frame.buffer_size()])?;
+    writer.finish()?;
+    bytes.flush()?;
+    Ok(bytes.into_inner()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_and_blanks_have_no_effect() {
+        let lines = |text| essential(text).map(str::to_owned).collect::<Vec<_>>();
+        let short = "a\nb // c\n";
+        let long = "//! A.\na\n\n    // x\n    b // c\n#[cfg(test)]\nmod tests {}\n";
+        assert_eq!(lines(short), lines(long));
+    }
+
+    #[test]
+    fn the_hash_is_the_known_one() {
+        // FNV-1a of "a" followed by the byte that ends a part.
+        let a = 0xaf63_dc4c_8601_ec8c_u64;
+        assert_eq!(fnv(FNV_OFFSET, b"a"), (a ^ 0xff).wrapping_mul(0x0100_0000_01b3));
+    }
+
+    #[test]
+    fn a_stamp_survives() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.png");
+        image::RgbImage::from_fn(5, 4, |x, y| image::Rgb([x as u8, y as u8, 7]))
+            .save(&file)
+            .unwrap();
+        assert!(stamp(&file).unwrap().is_empty());
+        let bytes = restamp(&file, &[(COMMAND, "cargo run"), (DEVICE, "Ö")]).unwrap();
+        fs::write(&file, bytes).unwrap();
+        let read = stamp(&file).unwrap();
+        assert_eq!((&*read[COMMAND], &*read[DEVICE]), ("cargo run", "Ö"));
+        assert_eq!(image::open(&file).unwrap().to_rgb8().get_pixel(4, 3).0, [4, 3, 7]);
+    }
+}

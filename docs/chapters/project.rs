@@ -1,0 +1,211 @@
+//! The project: its root, what `Cargo.toml` says of the chapters, and its files.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use common::usage::Usage;
+use serde::{Deserialize, Serialize};
+
+use crate::fault::Fault;
+
+/// One chapter, as `[package.metadata.chapters.NN_name]` describes it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Chapter {
+    /// Its name, such as `02_basic`: the name of its program, folders, page, golden and picture.
+    #[serde(default)]
+    pub name: String,
+    /// Its title, such as `Basic`.
+    pub title: String,
+    /// What it teaches, in a line.
+    pub teaches: String,
+    /// The chapter that it builds on.
+    pub from: Option<String>,
+    /// What it needs of the device beyond the baseline.
+    #[serde(default)]
+    pub needs: Vec<String>,
+}
+
+impl Chapter {
+    /// The number, such as `02`.
+    pub fn number(&self) -> &str {
+        self.name.split('_').next().unwrap_or_default()
+    }
+
+    /// The name without the number, which is what its tests' module is called.
+    pub fn module(&self) -> &str {
+        self.name.split_once('_').map_or("", |(_, module)| module)
+    }
+
+    /// Number and title, such as `02 · Basic`.
+    pub fn heading(&self) -> String {
+        format!("{} · {}", self.number(), self.title)
+    }
+
+    /// Its page.
+    pub fn page(&self) -> String {
+        format!("docs/{}.md", self.name)
+    }
+
+    /// Its page's picture.
+    pub fn picture(&self) -> String {
+        format!("docs/images/{}.png", self.name)
+    }
+}
+
+/// A `[[bin]]` or `[[test]]`.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Target {
+    /// Its name.
+    pub name: String,
+    /// Its root module, from the project's root.
+    #[serde(default)]
+    pub path: String,
+}
+
+/// A project on disk. Paths are text, from the root, with `/` on every system.
+pub struct Project {
+    /// Where it lies.
+    pub root: PathBuf,
+    /// The text of `Cargo.toml`.
+    pub manifest: String,
+    /// The chapters, by number.
+    pub chapters: Vec<Chapter>,
+    /// The programs.
+    pub bins: Vec<Target>,
+    /// The test programs.
+    pub tests: Vec<Target>,
+    /// What `cargo run` alone runs.
+    pub default_run: Option<String>,
+}
+
+impl Project {
+    /// Reads the project in the folder `root`.
+    ///
+    /// # Errors
+    /// If `Cargo.toml` is missing, or says what it should not.
+    pub fn open(root: &Path) -> Result<Self> {
+        let manifest = read(&root.join("Cargo.toml"))?;
+        let read: Manifest = toml::from_str(&manifest).map_err(|error| {
+            let before = error.span().map_or("", |span| &manifest[..span.start]);
+            let what = error.message().replace('\n', " ");
+            Fault::new("Cargo.toml", before.matches('\n').count() + 1, what, "correct it").error()
+        })?;
+        let named = |(name, chapter)| Chapter { name, ..chapter };
+        let chapters = read.package.metadata.chapters.into_iter().map(named).collect();
+        Ok(Self {
+            root: root.to_owned(),
+            manifest,
+            chapters,
+            bins: read.bin,
+            tests: read.test,
+            default_run: read.package.default_run,
+        })
+    }
+
+    /// The chapter that a reader means by `02`, `2`, `basic` or `02_basic`.
+    ///
+    /// # Errors
+    /// If there is none; the line lists those that there are.
+    pub fn chapter(&self, given: &str) -> Result<&Chapter, Usage> {
+        let number = |text: &str| text.parse::<u32>().ok();
+        let meant = |chapter: &&Chapter| {
+            [&*chapter.name, chapter.module()].contains(&given)
+                || number(given).is_some_and(|n| number(chapter.number()) == Some(n))
+        };
+        self.chapters.iter().find(meant).ok_or_else(|| {
+            let names: Vec<&str> = self.chapters.iter().map(|chapter| &*chapter.name).collect();
+            Usage(format!("no chapter '{given}'; there is {}", names.join(", ")))
+        })
+    }
+
+    /// The text of a file, its lines ended by `\n` alone.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not UTF-8.
+    pub fn read(&self, path: &str) -> Result<String> {
+        read(&self.root.join(path))
+    }
+
+    /// Whether there is such a file.
+    pub fn has(&self, path: &str) -> bool {
+        self.root.join(path).is_file()
+    }
+
+    /// Every file below a folder, in order; hidden ones are nobody's business. None if there is no folder.
+    pub fn files(&self, folder: &str) -> Vec<String> {
+        let Ok(entries) = fs::read_dir(self.root.join(folder)) else { return Vec::new() };
+        let mut names: Vec<String> = entries
+            .flatten()
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect();
+        names.retain(|name| !name.starts_with('.'));
+        names.sort();
+        let paths = names.into_iter().map(|name| format!("{folder}/{name}"));
+        paths
+            .flat_map(
+                |path| {
+                    if self.root.join(&path).is_dir() { self.files(&path) } else { vec![path] }
+                },
+            )
+            .collect()
+    }
+
+    /// Every page: the README and what lies in `docs/`, but not the generated summary.
+    pub fn pages(&self) -> Vec<String> {
+        let mut pages = self.files("docs");
+        pages.retain(|path| path.matches('/').count() == 1 && path.ends_with(".md"));
+        pages.retain(|path| path != SUMMARY);
+        if self.has(README) {
+            pages.insert(0, README.to_owned());
+        }
+        pages
+    }
+
+    /// The line of `Cargo.toml` on which `text` stands, from 1; 1 if it does not.
+    pub fn manifest_line(&self, text: &str) -> usize {
+        self.manifest.lines().position(|line| line.trim() == text).map_or(1, |index| index + 1)
+    }
+
+    /// The line of `Cargo.toml` on which a chapter's table begins.
+    pub fn chapter_line(&self, chapter: &Chapter) -> usize {
+        self.manifest_line(&format!("[package.metadata.chapters.{}]", chapter.name))
+    }
+}
+
+/// The page that a code host shows first.
+pub const README: &str = "README.md";
+
+/// mdBook's table of contents.
+pub const SUMMARY: &str = "docs/SUMMARY.md";
+
+#[derive(Deserialize)]
+struct Manifest {
+    package: Package,
+    #[serde(default)]
+    bin: Vec<Target>,
+    #[serde(default)]
+    test: Vec<Target>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Package {
+    default_run: Option<String>,
+    #[serde(default)]
+    metadata: Metadata,
+}
+
+#[derive(Default, Deserialize)]
+struct Metadata {
+    #[serde(default)]
+    chapters: BTreeMap<String, Chapter>,
+}
+
+fn read(path: &Path) -> Result<String> {
+    let text =
+        fs::read_to_string(path).with_context(|| format!("cannot read '{}'", path.display()))?;
+    Ok(text.replace("\r\n", "\n"))
+}

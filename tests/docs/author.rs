@@ -1,0 +1,176 @@
+//! What only an author can mend: named with file, line and what to do.
+
+use crate::{Case, expect};
+
+#[test]
+fn wrong_markers_and_anchors_are_named_with_file_and_line() {
+    let cases: [Case; 7] = [
+        (
+            "an anchor renamed",
+            |f| {
+                f.replace("samples/01_one/main.rs", "ANCHOR: call", "ANCHOR: tell");
+                f.replace("samples/01_one/main.rs", "ANCHOR_END: call", "ANCHOR_END: tell");
+            },
+            "docs/01_one.md:13: samples/01_one/main.rs has no anchor 'call'",
+            "; name one of its anchors (tell) or add // ANCHOR: call to it",
+        ),
+        (
+            "an anchor not closed",
+            |f| f.replace("samples/01_one/main.rs", "    // ANCHOR_END: call\n", ""),
+            "samples/01_one/main.rs:4: anchor 'call' does not end",
+            "; add // ANCHOR_END: call",
+        ),
+        (
+            "an anchor twice",
+            |f| f.replace("samples/01_one/main.rs", "// Names", "// ANCHOR: call\n// Names"),
+            "samples/01_one/main.rs:9: anchor 'call' begins a second time",
+            "; rename it or the one in line 4",
+        ),
+        (
+            "a snippet of no file",
+            |f| f.replace("docs/01_one.md", "snippet samples", "snippet sample"),
+            "docs/01_one.md:13: there is no text file 'sample/01_one/main.rs'",
+            "; correct the marker",
+        ),
+        (
+            "a marker not closed",
+            |f| f.replace("docs/01_one.md", "<!-- /snippet -->\n", ""),
+            "docs/01_one.md:13: <!-- snippet samples/01_one/main.rs#call --> is never closed",
+            "; add <!-- /snippet --> on a line of its own",
+        ),
+        (
+            "a marker that closes nothing",
+            |f| f.replace("docs/01_one.md", "Its call:", "<!-- /controls -->"),
+            "docs/01_one.md:11: <!-- /controls --> closes nothing",
+            "above",
+        ),
+        (
+            "a picture's marker without its command",
+            |f| f.replace("docs/02_basic.md", "-->\n```sh", "-->\n\n```sh"),
+            "docs/02_basic.md:3: no command follows <!-- picture -->",
+            "; put it on the line before the ```sh block",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn stray_files_are_named() {
+    let cases: [Case; 6] = [
+        (
+            "a stray shader",
+            |f| f.write("shaders/common/old.glsl", "#version 460\n"),
+            "shaders/common/old.glsl:1: stray file: no shader includes it",
+            "; use it or delete it",
+        ),
+        (
+            "a stray module",
+            |f| f.write("docs/chapters/helper.rs", "fn help() {}\n"),
+            "docs/chapters/helper.rs:1: stray file: no [[bin]] and no `mod` names it",
+            "; use it or delete it",
+        ),
+        (
+            "a stray page",
+            |f| f.write("docs/notes.md", "# Notes\n"),
+            "docs/notes.md:1: stray file: it is no chapter's page",
+            "; use it or delete it",
+        ),
+        (
+            "a stray picture",
+            |f| f.write("docs/images/old.svg", "<svg/>"),
+            "docs/images/old.svg:1: stray file: no page shows it",
+            "; use it or delete it",
+        ),
+        (
+            "a stray golden",
+            |f| f.write("tests/golden/old.png", ""),
+            "tests/golden/old.png:1: stray file: no test compares with it",
+            "; use it or delete it",
+        ),
+        (
+            "a stray of no kind",
+            |f| f.write("samples/junk.txt", ""),
+            "samples/junk.txt:1: stray file: nothing mentions it",
+            "; use it or delete it",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn parts_of_a_chapter_that_do_not_agree_are_named() {
+    let cases: [Case; 4] = [
+        (
+            "a golden lost",
+            |f| f.remove("tests/golden/02_basic.png"),
+            "Cargo.toml:25: '02_basic' has no golden tests/golden/02_basic.png",
+            "; run: UPDATE=1 cargo test --test samples",
+        ),
+        (
+            "a test lost",
+            |f| {
+                f.remove("tests/samples/one.rs");
+                f.write("tests/samples/names.rs", "const ALSO: &str = \"01_one\";\n");
+                f.replace("tests/samples/main.rs", "mod one;", "mod names;");
+            },
+            "Cargo.toml:21: '01_one' has no test tests/samples/one.rs",
+            "; write it",
+        ),
+        (
+            "a chapter on a later one",
+            |f| f.replace("Cargo.toml", "from = \"01_one\"", "from = \"03_three\""),
+            "Cargo.toml:25: '02_basic' builds on '03_three', which is no earlier chapter",
+            "; correct its `from`",
+        ),
+        (
+            "a title changed in one place",
+            |f| f.replace("docs/02_basic.md", "# 02 · Basic", "# 02 · Basics"),
+            "docs/02_basic.md:1: the heading does not name the chapter",
+            "; write `# 02 · Basic`",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn links_and_commands_that_do_not_work_are_named_with_file_and_line() {
+    let cases: [Case; 6] = [
+        (
+            "a link to nowhere",
+            |f| f.replace("docs/01_one.md", "(02_basic.md)", "(03_next.md)"),
+            "docs/01_one.md:20: the link leads to 'docs/03_next.md', which does not exist",
+            "; correct it",
+        ),
+        (
+            "a command of no program",
+            |f| f.replace("docs/02_basic.md", "cargo run --bin NN_name", "cargo run --bin 3_x"),
+            "docs/02_basic.md:",
+            "there is no program '3_x', only 01_one, 02_basic, chapters; correct it",
+        ),
+        (
+            "a setting in a sentence",
+            |f| f.replace("docs/02_basic.md", "Compare them", "Try `--set show=all`. Compare them"),
+            "docs/02_basic.md:",
+            "'show' cannot be 'all': it takes picture, normal, triangle, hit, ray direction; correct it",
+        ),
+        (
+            "a command with an unknown option",
+            |f| f.replace("README.md", "# Fixture", "`cargo run -- --shiny`"),
+            "README.md:1: this command does not run: 02_basic does not take this: unexpected",
+            "; correct it",
+        ),
+        (
+            "a command that sets no control",
+            |f| f.replace("README.md", "# Fixture", "`cargo run -- --set \"moon=1\"`"),
+            "README.md:1: this command does not run: there is no control 'moon', only ",
+            "; correct it",
+        ),
+        (
+            "a control that cannot be that",
+            |f| f.replace("README.md", "# Fixture", "`cargo run -- --set \"sun elevation=91\"`"),
+            "README.md:1: this command does not run: 'sun elevation' cannot be '91'",
+            "; correct it",
+        ),
+    ];
+    expect(&cases, &[]);
+}

@@ -1,0 +1,241 @@
+//! A small project of two chapters in a temporary folder, whose every part is as it should be.
+//!
+//! Both chapters' programs are copies of `02_basic`: its pictures are real ones, its tables real tables.
+
+use std::env::consts::EXE_SUFFIX;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+use tempfile::TempDir;
+
+/// A project on disk, gone with its last user.
+pub struct Fixture {
+    folder: TempDir,
+}
+
+/// What a run of the tool ended with.
+pub struct Outcome {
+    /// The exit code.
+    pub code: i32,
+    /// Standard output.
+    pub out: String,
+    /// Standard error.
+    pub err: String,
+}
+
+/// The tool and the two programs, in a folder of their own.
+static PROGRAMS: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let sample = env!("CARGO_BIN_EXE_02_basic");
+    let tool = env!("CARGO_BIN_EXE_chapters");
+    for (program, name) in [(sample, "01_one"), (sample, "02_basic"), (tool, "chapters")] {
+        fs::copy(program, folder.path().join(format!("{name}{EXE_SUFFIX}"))).expect("a program");
+    }
+    folder
+});
+
+/// What every test copies: filled in and with its pictures, once.
+static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
+    let fixture = Fixture { folder: tempfile::tempdir().expect("a temporary folder") };
+    for (path, text) in FILES {
+        fixture.write(path, text);
+    }
+    let real = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["samples/02_basic", "shaders/02_basic"] {
+        copy(&real.join(folder), &fixture.path(folder));
+    }
+    // Of the common shaders those that are included: the others would be strays.
+    let mut open = files(&fixture.path("shaders"));
+    while let Some(file) = open.pop() {
+        let text = fs::read_to_string(file).expect("a shader");
+        for name in text.lines().filter_map(|line| line.strip_prefix("#include \"common/")) {
+            let path = format!("shaders/common/{}", name.trim_end_matches('"'));
+            if !fixture.path(&path).exists() {
+                fixture.write(&path, &fs::read_to_string(real.join(&path)).expect("a shader"));
+                open.push(fixture.path(&path));
+            }
+        }
+    }
+    let outcome = fixture.run(&["sync", "--pictures"]);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    for name in ["01_one", "02_basic"] {
+        fixture.write(&format!("tests/golden/{name}.png"), "only that it exists counts");
+    }
+    fixture
+});
+
+impl Fixture {
+    /// A copy of the whole project.
+    pub fn new() -> Self {
+        let fixture = Self { folder: tempfile::tempdir().expect("a temporary folder") };
+        copy(&WHOLE.path(""), &fixture.path(""));
+        fixture
+    }
+
+    /// Where a file of the project lies.
+    pub fn path(&self, path: &str) -> PathBuf {
+        self.folder.path().join(path)
+    }
+
+    /// A file's text.
+    pub fn read(&self, path: &str) -> String {
+        fs::read_to_string(self.path(path)).expect("a file of the fixture")
+    }
+
+    /// Writes a file, and its folder.
+    pub fn write(&self, path: &str, text: &str) {
+        let path = self.path(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, text).expect("a file");
+    }
+
+    /// Replaces a text that must stand in a file.
+    pub fn replace(&self, path: &str, from: &str, to: &str) {
+        let text = self.read(path);
+        assert!(text.contains(from), "'{from}' is not in {path}: {text}");
+        self.write(path, &text.replacen(from, to, 1));
+    }
+
+    /// Removes a file.
+    pub fn remove(&self, path: &str) {
+        fs::remove_file(self.path(path)).expect("a file of the fixture");
+    }
+
+    /// Runs the tool on the project.
+    pub fn run(&self, arguments: &[&str]) -> Outcome {
+        let tool = PROGRAMS.path().join(format!("chapters{EXE_SUFFIX}"));
+        run(Command::new(tool).args(arguments).arg("--root").arg(self.path("")))
+    }
+
+    /// What `check` says of it: nothing if all is well.
+    pub fn check(&self) -> String {
+        let outcome = self.run(&["check"]);
+        assert_eq!(outcome.code, i32::from(!outcome.out.is_empty()), "{}", outcome.err);
+        outcome.out
+    }
+}
+
+/// Runs a command to its end.
+pub fn run(command: &mut Command) -> Outcome {
+    let output = command.output().expect("the tool starts");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    let code = output.status.code().expect("an exit code");
+    Outcome { code, out: text(output.stdout), err: text(output.stderr) }
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect()
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
+    entries(folder).into_iter().flat_map(below).collect()
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in entries(from) {
+        let target = to.join(entry.file_name().expect("a name"));
+        if entry.is_dir() {
+            copy(&entry, &target);
+        } else {
+            fs::copy(&entry, &target).expect("a file");
+        }
+    }
+}
+
+/// Everything but what is copied from the real project.
+const FILES: [(&str, &str); 11] = [
+    (
+        "Cargo.toml",
+        r#"[package]
+name = "fixture"
+default-run = "02_basic"
+
+[[bin]]
+name = "01_one"
+path = "samples/01_one/main.rs"
+
+[[bin]]
+name = "02_basic"
+path = "samples/02_basic/main.rs"
+
+[[bin]]
+name = "chapters"
+path = "docs/chapters/main.rs"
+
+[[test]]
+name = "samples"
+path = "tests/samples/main.rs"
+
+[package.metadata.chapters.01_one]
+title = "One"
+teaches = "the first thing"
+
+[package.metadata.chapters.02_basic]
+title = "Basic"
+teaches = "the second thing"
+from = "01_one"
+"#,
+    ),
+    ("README.md", "# Fixture\n\n<!-- gallery -->\n<!-- /gallery -->\n"),
+    (
+        "samples/01_one/main.rs",
+        r#"//! 01 · One: the first thing.
+
+fn main() {
+    // ANCHOR: call
+    let name = "01_one";
+    run(name); // ünïcode → 漢字
+    // ANCHOR_END: call
+}
+// Names "one.rgen".
+"#,
+    ),
+    ("shaders/01_one/one.rgen", "#version 460\nvoid main() {\n    // first\n}\n"),
+    (
+        "docs/01_one.md",
+        r#"# 01 · One
+
+![The picture](images/01_one.png)
+
+<!-- picture -->
+```sh
+cargo run --bin 01_one -- --headless --size 48x30 \
+    --out one.png
+```
+
+Its call:
+
+<!-- snippet samples/01_one/main.rs#call -->
+<!-- /snippet -->
+
+See [the next chapter](02_basic.md) and [the code](../samples/01_one/main.rs).
+"#,
+    ),
+    (
+        "docs/02_basic.md",
+        r#"# 02 · Basic
+
+<!-- picture -->
+```sh
+cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
+```
+
+<!-- diff 01_one 02_basic -->
+<!-- /diff -->
+
+<!-- controls 02_basic -->
+<!-- /controls -->
+
+Compare them with `cargo run --bin chapters -- diff 01 02`, list what `cargo run --bin NN_name` can do.
+"#,
+    ),
+    ("docs/chapters/main.rs", "fn main() {}\n"),
+    ("docs/book.toml", "[book]\n"),
+    ("tests/samples/main.rs", "mod basic;\nmod one;\n"),
+    ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n"),
+    ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n"),
+];

@@ -1,0 +1,139 @@
+//! The book is what the code says: the real one, and that every fault in a small one is found.
+
+mod author;
+mod fixture;
+mod stale;
+
+use std::fs;
+use std::process::Command;
+
+use fixture::{Fixture, run};
+
+/// The real project's pages, pictures, tables, tests and files agree.
+#[test]
+fn the_book_is_current() {
+    let outcome = run(Command::new(env!("CARGO_BIN_EXE_chapters")).arg("check"));
+    assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
+}
+
+#[test]
+fn a_whole_project_has_no_faults_and_nothing_to_renew() {
+    let fixture = Fixture::new();
+    assert_eq!(fixture.check(), "");
+    let outcome = fixture.run(&["sync", "--pictures"]);
+    assert_eq!((outcome.code, &*outcome.out, &*outcome.err), (0, "", ""));
+}
+
+/// One fault: how it is made, and what `check` must begin and end a line with.
+type Case = (&'static str, fn(&Fixture), &'static str, &'static str);
+
+/// Holds that each fault is found, and found alone; if `mended`, that `sync` mends it.
+fn expect(cases: &[Case], mended: &[&str]) {
+    for (name, break_it, start, end) in cases {
+        let fixture = Fixture::new();
+        break_it(&fixture);
+        let found = fixture.check();
+        let line = found.lines().find(|line| line.starts_with(start) && line.ends_with(end));
+        assert!(line.is_some(), "{name}: no line '{start} … {end}' in:\n{found}");
+        assert_eq!(found.lines().count(), 1, "{name}: more than one line:\n{found}");
+        if !mended.is_empty() {
+            let outcome = fixture.run(mended);
+            assert_eq!(outcome.code, 0, "{name}: {}{}", outcome.out, outcome.err);
+            assert_eq!(fixture.check(), "", "{name}: not mended");
+        }
+    }
+}
+
+#[test]
+fn a_stray_in_a_chapter_is_told_beside_what_it_makes_stale() {
+    let fixture = Fixture::new();
+    fixture.write("shaders/02_basic/old.rmiss", "#version 460\n");
+    let found = fixture.check();
+    let stray =
+        "shaders/02_basic/old.rmiss:1: stray file: no program names it; use it or delete it";
+    assert!(found.lines().any(|line| line == stray), "{found}");
+}
+
+#[test]
+fn sync_mends_what_it_can_and_names_the_rest() {
+    let fixture = Fixture::new();
+    fixture.replace("docs/01_one.md", "#call -->", "#gone -->");
+    fixture.replace("docs/02_basic.md", "| `sun elevation` |", "| `sun height` |");
+    let outcome = fixture.run(&["sync"]);
+    assert_eq!(outcome.code, 1);
+    assert!(
+        outcome.out.starts_with("docs/02_basic.md: renewed\ndocs/01_one.md:13: "),
+        "{}",
+        outcome.out
+    );
+    assert_eq!(outcome.err, "error: 1 fault in the book\n");
+}
+
+#[test]
+fn files_of_windows_are_the_same_book() {
+    let fixture = Fixture::new();
+    for path in ["docs/01_one.md", "docs/02_basic.md", "samples/01_one/main.rs", "Cargo.toml"] {
+        fixture.write(path, &fixture.read(path).replace('\n', "\r\n"));
+    }
+    assert_eq!(fixture.check(), "");
+}
+
+#[test]
+fn a_program_that_is_not_built_is_named_with_its_cure() {
+    let fixture = Fixture::new();
+    let lonely = fixture.path(&format!(".alone{}", std::env::consts::EXE_SUFFIX));
+    fs::copy(env!("CARGO_BIN_EXE_chapters"), &lonely).expect("a copy of the tool");
+    let outcome = run(Command::new(lonely).arg("check").arg("--root").arg(fixture.path("")));
+    assert_eq!(outcome.code, 1);
+    let line = outcome.out.lines().next().unwrap_or_default();
+    assert!(
+        line.contains("the program '02_basic' is not built; run: cargo build --bins"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_comparison_is_plain_when_piped() {
+    let fixture = Fixture::new();
+    let outcome = fixture.run(&["diff", "1", "basic", "--code"]);
+    assert_eq!(outcome.code, 0);
+    assert!(!outcome.out.contains('\u{1b}'));
+    assert!(outcome.out.starts_with("01 · One → 02 · Basic\nBasic: the second thing\n"));
+    assert!(outcome.out.contains("run(name); // ünïcode → 漢字"), "{}", outcome.out);
+    assert!(!outcome.out.contains("ANCHOR"), "{}", outcome.out);
+    let shaders = fixture.run(&["diff", "01", "02", "--shaders"]).out;
+    assert!(shaders.contains("shaders/01_one/one.rgen, gone"), "{shaders}");
+    let new = "shaders/common/camera.glsl, new: included by shaders/02_basic/push.glsl";
+    assert!(shaders.contains(new), "{shaders}");
+    assert_eq!(fixture.run(&["diff", "01", "01"]).out.lines().last(), Some("Nothing differs."));
+}
+
+#[test]
+fn wrong_arguments_are_one_line_and_exit_code_2() {
+    let fixture = Fixture::new();
+    let cases: [(&[&str], &str); 4] = [
+        (&["diff", "1", "9"], "error: no chapter '9'; there is 01_one, 02_basic"),
+        (&["diff", "1"], "error: the following required arguments were not provided"),
+        (&["mend"], "error: unrecognized subcommand 'mend'"),
+        (&["sync", "--pictures", "x"], "error: no page makes a picture 'x'; there is 01_one, 02"),
+    ];
+    for (arguments, start) in cases {
+        let outcome = fixture.run(arguments);
+        assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.err);
+        assert!(outcome.err.starts_with(start), "{}", outcome.err);
+        assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    }
+}
+
+#[test]
+fn the_list_has_a_line_a_chapter() {
+    let fixture = Fixture::new();
+    let list = fixture.run(&["list"]).out;
+    assert_eq!(
+        list,
+        "01_one    One    from –   the first thing\n02_basic  Basic  from 01  the second thing\n"
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&fixture.run(&["list", "--json"]).out).expect("JSON");
+    assert_eq!((&json[1]["name"], &json[1]["from"]), (&"02_basic".into(), &"01_one".into()));
+}

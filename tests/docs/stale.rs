@@ -1,0 +1,131 @@
+//! What is generated, and no longer what the code says: found, and mended by `sync`.
+
+use std::fs;
+use std::path::Path;
+
+use crate::fixture::Fixture;
+use crate::{Case, expect};
+
+const SYNC: &str = "; run: cargo run --bin chapters -- sync";
+
+#[test]
+fn what_is_generated_is_found_stale_and_mended() {
+    let cases: [Case; 9] = [
+        (
+            "a word of a snippet edited",
+            |f| f.replace("docs/01_one.md", "run(name)", "run(game)"),
+            "docs/01_one.md:16: this snippet is not what samples/01_one/main.rs#call says",
+            SYNC,
+        ),
+        (
+            "a snippet's fence lost",
+            |f| f.replace("docs/01_one.md", "漢字\n```", "漢字"),
+            "docs/01_one.md:17: this snippet is not",
+            SYNC,
+        ),
+        (
+            "a line of a diff edited",
+            |f| f.replace("docs/02_basic.md", "\n-fn main() {", "\n-fn main(){"),
+            "docs/02_basic.md:",
+            SYNC,
+        ),
+        (
+            "a control changed",
+            |f| f.replace("docs/02_basic.md", "| `sun elevation` |", "| `sun height` |"),
+            "docs/02_basic.md:",
+            SYNC,
+        ),
+        (
+            "a control's row lost",
+            |f| f.replace("docs/02_basic.md", "| `field of view` |", "\n\n| "),
+            "docs/02_basic.md:",
+            SYNC,
+        ),
+        (
+            "the gallery edited",
+            |f| f.replace("README.md", "the second thing", "a second thing"),
+            "README.md:6: this gallery is not what Cargo.toml says",
+            SYNC,
+        ),
+        (
+            "the contents edited",
+            |f| f.replace("docs/SUMMARY.md", "02 · Basic", "02 · Basics"),
+            "docs/SUMMARY.md:4: the table of contents is not that of Cargo.toml",
+            SYNC,
+        ),
+        (
+            "the contents lost",
+            |f| f.remove("docs/SUMMARY.md"),
+            "docs/SUMMARY.md:1: the table of contents",
+            SYNC,
+        ),
+        (
+            "a new page beside the chapters",
+            |f| f.write("docs/reading.md", "# How to read this book\n"),
+            "docs/SUMMARY.md:3: the table of contents",
+            SYNC,
+        ),
+    ];
+    expect(&cases, &["sync"]);
+}
+
+#[test]
+fn code_that_changes_makes_stale_what_shows_it() {
+    let fixture = Fixture::new();
+    fixture.replace("samples/01_one/main.rs", "run(name)", "run(\"name\")");
+    let found = fixture.check();
+    let shown = |start: &str| found.lines().any(|line| line.starts_with(start));
+    assert!(shown("docs/01_one.md:16: this snippet"), "{found}");
+    assert!(shown("docs/02_basic.md:"), "{found}");
+    assert!(shown("docs/01_one.md:5: the picture docs/images/01_one.png is older"), "{found}");
+    assert_eq!(fixture.run(&["sync", "--pictures"]).code, 0);
+    assert_eq!(fixture.check(), "");
+}
+
+#[test]
+fn stale_pictures_are_found_and_rendered_anew() {
+    let remedy = "; run: cargo run --bin chapters -- sync --pictures 02_basic";
+    let cases: [Case; 5] = [
+        (
+            "an included shader changed",
+            |f| f.replace("shaders/common/camera.glsl", "normalize(", "normalize (1.0 * "),
+            "docs/02_basic.md:3: the picture docs/images/02_basic.png is older than what 02_basic",
+            remedy,
+        ),
+        (
+            "the command changed",
+            |f| f.replace("docs/02_basic.md", "32x20", "32x21"),
+            "docs/02_basic.md:3: the picture docs/images/02_basic.png was made by another command",
+            remedy,
+        ),
+        (
+            "the picture lost",
+            |f| f.remove("docs/images/02_basic.png"),
+            "docs/02_basic.md:3: the picture docs/images/02_basic.png is missing",
+            remedy,
+        ),
+        (
+            "a picture from elsewhere",
+            |f| {
+                fs::copy(golden(), f.path("docs/images/02_basic.png")).expect("a file");
+            },
+            "docs/02_basic.md:3: the picture docs/images/02_basic.png does not say what made it",
+            remedy,
+        ),
+        (
+            "no picture at all",
+            |f| f.write("docs/images/02_basic.png", "nonsense"),
+            "docs/02_basic.md:3: the picture docs/images/02_basic.png is no PNG",
+            remedy,
+        ),
+    ];
+    // A comment more or less makes no other picture.
+    let fixture = Fixture::new();
+    fixture.replace("shaders/common/camera.glsl", "\n", "\n// A comment.\n\n");
+    assert_eq!(fixture.check(), "");
+    expect(&cases, &["sync", "--pictures", "02_basic"]);
+}
+
+fn golden() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/02_basic.png")
+}
