@@ -115,7 +115,7 @@ impl Buffer {
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
             // The offset in memory is aligned; that the memory's own address is, no rule promises.
             anyhow::ensure!(
-                buffer.address % alignment == 0,
+                buffer.address.is_multiple_of(alignment),
                 "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
                 buffer.address
             );
