@@ -8,6 +8,7 @@ mod mesh;
 pub mod obj;
 mod obj_check;
 mod records;
+mod text;
 mod texture;
 mod upload;
 mod world;
