@@ -15,6 +15,7 @@ use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::device::{self, Candidate};
+use super::layout::StructLayout;
 use super::limits::Limits;
 use super::requirements::Requirements;
 use super::validation::{self, Messages};
@@ -65,6 +66,7 @@ pub struct GpuContext {
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
+    shared_structs: Mutex<Vec<StructLayout>>,
     command_pool: Mutex<vk::CommandPool>,
     debug: Option<Debug>,
 }
@@ -125,7 +127,9 @@ pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
     let candidates = device::candidates(&instance, wanted);
     // SAFETY: nothing has been made from this instance.
     unsafe { instance.destroy_instance(None) };
-    Ok(candidates?.iter().map(Candidate::line).collect())
+    let candidates = candidates?;
+    device::ensure_some(&candidates)?;
+    Ok(candidates.iter().map(Candidate::line).collect())
 }
 
 impl Gpu {
@@ -218,6 +222,7 @@ impl Gpu {
             driver: chosen.driver.clone(),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
+            shared_structs: Mutex::default(),
             command_pool: Mutex::new(command_pool),
             device,
             instance,
@@ -282,6 +287,19 @@ impl Gpu {
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }
+    }
+
+    /// Declares structures that shaders find by address: every pipeline made from now on is held to
+    /// them, as a wrong offset there makes a driver follow a wrong address.
+    pub fn share_structs(&self, layouts: &[StructLayout]) {
+        let mut shared = self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner);
+        shared.retain(|known| layouts.iter().all(|layout| layout.name != known.name));
+        shared.extend_from_slice(layouts);
+    }
+
+    /// What [`Gpu::share_structs`] has declared so far.
+    pub(super) fn shared_structs(&self) -> Vec<StructLayout> {
+        self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What has been built so far.

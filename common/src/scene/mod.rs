@@ -19,7 +19,7 @@ pub use light::{DirectionalLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};
 pub use obj::Model;
-pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
+pub use records::{InstanceRecord, MaterialRecord, SHARED_STRUCTS, SceneAddresses};
 pub use texture::Texture;
 pub use upload::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
 pub use world::{Instance, Scene};
