@@ -53,7 +53,10 @@ fn begin(path: &Path) -> Result<(PathBuf, NamedTempFile)> {
     let mut builder = tempfile::Builder::new();
     permit(&mut builder, existing);
     // The error's text would name the temporary file, which means nothing to the reader.
-    let file = builder.tempfile_in(folder).map_err(|error| anyhow!("{}", error.kind()))?;
+    let failed = |error: std::io::Error| {
+        anyhow!("no file can be made in '{}': {}", folder.display(), error.kind())
+    };
+    let file = builder.tempfile_in(folder).map_err(failed)?;
     Ok((target, file))
 }
 

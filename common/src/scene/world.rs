@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use glam::{Affine3A, DVec3, Vec3};
 
-use super::{Camera, Model, obj};
+use super::{Camera, Mesh, Model, obj};
 
 /// The farthest coordinate: intersection multiplies two of them and adds up a few such products.
 const REACH: f32 = 1e18;
@@ -46,8 +46,9 @@ impl Scene {
             })
             .collect();
         let mut scene = Self { model, instances, camera: Camera::default() };
-        let (low, high) = scene.bounds();
-        let reach = low.abs().max(high.abs()).max_element();
+        let corners = scene.model.meshes.iter().map(Mesh::bounds);
+        let reach = corners
+            .fold(0f32, |reach, (low, high)| reach.max(low.abs().max(high.abs()).max_element()));
         ensure!(
             reach <= REACH,
             "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of two coordinates \
