@@ -41,7 +41,8 @@ fn objects_that_are_wrong() {
         ("v 0 0\n", "model.obj:1: v has 2 numbers"),
         (
             "v 0 0 0\nv 1 0.",
-            "model.obj:2: v has 2 numbers; x y z, x y z w or x y z r g b is right; the file ends in this line, perhaps cut off",
+            "model.obj:2: v has 2 numbers; x y z, x y z w or x y z r g b is right; the file ends \
+             in this line, perhaps cut off",
         ),
     ] {
         files_refused(&[("model.obj", text.as_bytes())], &[words]);

@@ -324,8 +324,10 @@ fn create_instance(
     surface_extensions: &[*const c_char],
 ) -> Result<(Instance, bool)> {
     // SAFETY: the loader is alive.
-    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }
-        .context("the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's driver")?;
+    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
+        "the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's \
+             driver",
+    )?;
     let has_debug_utils =
         offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
     let mut extensions = surface_extensions.to_vec();
