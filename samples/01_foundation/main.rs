@@ -13,6 +13,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
+use common::app::output::print;
 use common::app::{Args, Milliseconds, Picture, Report, check_files, compile_shader, finish};
 use common::usage::Usage;
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
@@ -55,8 +56,8 @@ fn run() -> Result<()> {
     let messages = Messages::default();
     if args.list_devices {
         return with_instance(false, &messages, |instance| {
-            candidates(instance)?.iter().for_each(|device| println!("{}", device.line()));
-            Ok(())
+            let lines = candidates(instance)?.into_iter().map(|device| device.line() + "\n");
+            print(&lines.collect::<String>())
         });
     }
     if args.list_controls {
@@ -859,7 +860,12 @@ impl Candidate {
 
 fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let devices = unsafe { instance.enumerate_physical_devices()? };
+    let devices = match unsafe { instance.enumerate_physical_devices() } {
+        // What loaders say where drivers are installed, but none of them finds its device.
+        Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
+        devices => devices?,
+    };
+    ensure!(!devices.is_empty(), "no Vulkan device: run ./setup, or update your GPU's driver");
     devices.into_iter().enumerate().map(|(index, handle)| judge(instance, index, handle)).collect()
 }
 
@@ -933,7 +939,7 @@ fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> 
     };
     let suitable = candidates.into_iter().filter(|c| matches(c) && c.missing.is_empty());
     suitable.min_by_key(rank).ok_or_else(|| {
-        anyhow!("no such device can run this: [{all}]; run ./setup, or update your GPU's driver")
+        anyhow!("no device can run this: {all}; run ./setup, or update your GPU's driver")
     })
 }
 

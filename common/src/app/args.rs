@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use ash::vk;
 use clap::Parser;
+use clap::builder::NonEmptyStringValueParser;
 
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
 #[derive(Clone, Debug, Parser)]
-#[command(disable_version_flag = true)]
+#[command(disable_version_flag = true, about = "Renders one chapter")]
 pub struct Args {
     /// Render without a window, write what is asked for, and exit
     #[arg(long)]
@@ -44,7 +45,7 @@ pub struct Args {
     pub list_controls: bool,
 
     /// Use this device: a number of --list-devices or a part of its name
-    #[arg(long, value_name = "N|NAME")]
+    #[arg(long, value_name = "N|NAME", value_parser = NonEmptyStringValueParser::new(), allow_negative_numbers = true)]
     pub device: Option<String>,
 
     /// Print the devices and what each lacks

@@ -4,12 +4,15 @@ use std::io::IsTerminal;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use ash::vk;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::Args;
-use super::{Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls};
+use super::{
+    Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls, output,
+};
+use crate::files;
 use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
 use crate::usage::Usage;
 
@@ -40,7 +43,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_controls {
         for control in controls::list(|c| sample.controls(c)) {
             let controls::Listed { name, kind, possible, value } = control;
-            println!("{name}\t{kind}\t{possible}\t{value}");
+            output::print(&format!("{name}\t{kind}\t{possible}\t{value}\n"))?;
         }
         return Ok(());
     }
@@ -82,7 +85,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     }
     drop(progress);
     if let (Some(comparison), false) = (&comparison, args.report == Some("-".into())) {
-        print!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table());
+        output::print(&format!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table()))?;
     }
 
     if let Some(out) = &args.out {
@@ -132,29 +135,23 @@ pub fn check_validation(validation: &Messages) -> Result<()> {
     }
 }
 
-/// Refuses before the work what would be refused after it: a picture or report that cannot be written.
+/// Refuses before the work what would be refused after it: a picture or report that cannot be written,
+/// or one file for both.
 ///
 /// # Errors
 /// With the file, and why.
 pub fn check_files(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
-    [&args.out, &args.report].into_iter().flatten().try_for_each(|file| check_writable(file))
-}
-
-fn check_writable(file: &Path) -> Result<()> {
-    if file == Path::new("-") {
-        return Ok(());
+    let report = args.report.as_deref().filter(|path| *path != Path::new("-"));
+    for file in [args.out.as_deref(), report].into_iter().flatten() {
+        files::check_writable(file)?;
     }
-    let folder = match file.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    if file.is_dir() {
-        bail!("cannot write '{}': it is a folder", file.display());
+    match (&args.out, report) {
+        (Some(out), Some(report)) if files::same(out, report) => {
+            Err(Usage(format!("--out and --report both name '{}'", report.display())).into())
+        }
+        _ => Ok(()),
     }
-    tempfile::NamedTempFile::new_in(folder)
-        .map(drop)
-        .with_context(|| format!("cannot write '{}'", file.display()))
 }
 
 fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {

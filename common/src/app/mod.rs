@@ -4,6 +4,7 @@ mod args;
 pub mod compare;
 pub mod controls;
 mod headless;
+pub mod output;
 mod picture;
 mod report;
 
@@ -124,7 +125,7 @@ pub fn run<S: Sample>(name: &'static str) -> ExitCode {
 pub fn finish(result: Result<()>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
-    eprintln!("error: {line}");
+    output::complain(&format!("error: {line}"));
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
@@ -144,7 +145,7 @@ fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
 /// If there is no Vulkan.
 pub fn list_devices(requirements: &Requirements) -> Result<()> {
     for line in gpu::device_lines(requirements)? {
-        println!("{line}");
+        output::print(&format!("{line}\n"))?;
     }
     Ok(())
 }

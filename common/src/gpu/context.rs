@@ -15,6 +15,7 @@ use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::device::{self, Candidate};
+use super::layout::StructLayout;
 use super::limits::Limits;
 use super::requirements::Requirements;
 use super::validation::{self, Messages};
@@ -65,6 +66,7 @@ pub struct GpuContext {
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
+    shared_structs: Mutex<Vec<StructLayout>>,
     command_pool: Mutex<vk::CommandPool>,
     debug: Option<Debug>,
 }
@@ -125,7 +127,9 @@ pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
     let candidates = device::candidates(&instance, wanted);
     // SAFETY: nothing has been made from this instance.
     unsafe { instance.destroy_instance(None) };
-    Ok(candidates?.iter().map(Candidate::line).collect())
+    let candidates = candidates?;
+    device::ensure_some(&candidates)?;
+    Ok(candidates.iter().map(Candidate::line).collect())
 }
 
 impl Gpu {
@@ -218,6 +222,7 @@ impl Gpu {
             driver: chosen.driver.clone(),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
+            shared_structs: Mutex::default(),
             command_pool: Mutex::new(command_pool),
             device,
             instance,
@@ -284,6 +289,19 @@ impl Gpu {
         }
     }
 
+    /// Declares structures that shaders find by address: every pipeline made from now on is held to
+    /// them, as a wrong offset there makes a driver follow a wrong address.
+    pub fn share_structs(&self, layouts: &[StructLayout]) {
+        let mut shared = self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner);
+        shared.retain(|known| layouts.iter().all(|layout| layout.name != known.name));
+        shared.extend_from_slice(layouts);
+    }
+
+    /// What [`Gpu::share_structs`] has declared so far.
+    pub(super) fn shared_structs(&self) -> Vec<StructLayout> {
+        self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
     /// What has been built so far.
     pub fn statistics(&self) -> Statistics {
         self.statistics.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -306,7 +324,10 @@ fn create_instance(
     surface_extensions: &[*const c_char],
 ) -> Result<(Instance, bool)> {
     // SAFETY: the loader is alive.
-    let offered = unsafe { entry.enumerate_instance_extension_properties(None)? };
+    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
+        "the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's \
+             driver",
+    )?;
     let has_debug_utils =
         offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
     let mut extensions = surface_extensions.to_vec();

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use ash::{Instance, vk};
 
 use super::requirements::{Features, Requirements};
@@ -53,7 +53,11 @@ fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
 /// If Vulkan cannot enumerate devices.
 pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let handles = unsafe { instance.enumerate_physical_devices()? };
+    let handles = match unsafe { instance.enumerate_physical_devices() } {
+        // What loaders say where drivers are installed, but none of them finds its device.
+        Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
+        handles => handles.context("cannot list the Vulkan devices")?,
+    };
     handles
         .into_iter()
         .enumerate()
@@ -119,17 +123,25 @@ fn judge(
     Ok(candidate)
 }
 
+const INSTALL: &str =
+    "run ./setup to install a software driver with ray tracing, or update your GPU's driver";
+
+/// Fails if there is no device at all.
+///
+/// # Errors
+/// Then, with what to install.
+pub fn ensure_some(candidates: &[Candidate]) -> Result<()> {
+    ensure!(!candidates.is_empty(), "no Vulkan device, though there is a driver: {INSTALL}");
+    Ok(())
+}
+
 /// Picks the device that `asked` names by number or part of its name, else the best suitable one.
 ///
 /// # Errors
 /// If none fits: one line that lists every device and what it lacks, and what to install.
 pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
     let list = |all: &[Candidate]| all.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
-    const INSTALL: &str =
-        "run ./setup to install a software driver with ray tracing, or update your GPU's driver";
-    if candidates.is_empty() {
-        bail!("no Vulkan device: {INSTALL}");
-    }
+    ensure_some(&candidates)?;
     if let Some(asked) = asked {
         let matches = |candidate: &Candidate| match asked.parse::<usize>() {
             Ok(number) => candidate.index == number,

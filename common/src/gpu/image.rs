@@ -195,7 +195,12 @@ impl Image {
             barrier::after_readback(&self.gpu, cmd);
             Ok(())
         })?;
-        Ok(bytemuck::pod_collect_to_vec(staging.mapped_bytes()))
+        let mut pixels = Vec::new();
+        pixels.try_reserve_exact(bytes as usize / 16).context("no memory to read the picture")?;
+        pixels.extend(
+            staging.mapped_bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>),
+        );
+        Ok(pixels)
     }
 
     fn copy_region(&self) -> vk::BufferImageCopy {

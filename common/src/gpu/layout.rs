@@ -118,6 +118,10 @@ impl Reflection {
                     None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
                 }
             }
+            // Of an array, the second element is elsewhere if the sizes differ.
+            if let Some(stride) = self.stride(&name).filter(|stride| *stride != layout.size) {
+                bail!("{path}: {name} takes {stride} bytes in the shader, {} in Rust", layout.size);
+            }
             if members.len() < layout.fields.len() {
                 let missing = layout
                     .fields
@@ -174,6 +178,18 @@ impl Reflection {
             ] if *of == id && *n == member => Some(*offset as usize),
             _ => None,
         })
+    }
+
+    /// The bytes from one element to the next in an array of the structure `name`, if there is one.
+    fn stride(&self, name: &str) -> Option<usize> {
+        let arrays = self.module.types_global_values.iter();
+        let mut arrays = arrays.filter(|i| {
+            let is_array = matches!(i.class.opcode, Op::TypeArray | Op::TypeRuntimeArray);
+            is_array
+                && matches!(i.operands[..], [Operand::IdRef(of), ..] if self.debug_name(of, None) == name)
+        });
+        let array = arrays.next()?.result_id?;
+        self.decoration(array, Decoration::ArrayStride).map(|stride| stride as usize)
     }
 
     fn decoration(&self, id: u32, wanted: Decoration) -> Option<u32> {

@@ -309,8 +309,9 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &self.callable {
             groups.push(general(stages.add(shader)?));
         }
+        let shared = [gpu.shared_structs(), self.push.into_iter().collect()].concat();
         for shader in &stages.shaders {
-            Reflection::of(&shader.spirv)?.check(&shader.path, self.push.as_slice())?;
+            Reflection::of(&shader.spirv)?.check(&shader.path, &shared)?;
         }
         let mut pipeline = RayTracingPipeline {
             handle: vk::Pipeline::null(),

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::ffi::{CStr, c_void};
+use std::io::Write;
 use std::sync::{Arc, Mutex};
 
 use anyhow::{Result, bail};
@@ -74,7 +75,8 @@ impl Messages {
         let message = format!("{severity}: {text}");
         let mut seen = self.seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if seen.insert(id) {
-            eprintln!("{message}");
+            // A panic may not leave a callback, and `eprintln!` panics where nobody listens.
+            let _ = writeln!(std::io::stderr(), "{message}");
         }
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(message);
     }

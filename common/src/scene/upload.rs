@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
+use super::{InstanceRecord, MaterialRecord, Mesh, SHARED_STRUCTS, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
     AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
 };
@@ -53,6 +53,7 @@ impl SceneOnGpu {
     /// # Errors
     /// If memory is short, or there are more instances than an instance's 24-bit index can number.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
+        gpu.share_structs(&SHARED_STRUCTS);
         let textures = scene.model.textures.iter().map(|texture| {
             let extent = vk::Extent2D { width: texture.width, height: texture.height };
             Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)

@@ -1,0 +1,300 @@
+//! The text of a model's files, which are not to be trusted.
+//!
+//! Text is read in bounds, line by line, so that whatever is wrong has a line number; files are
+//! opened only inside the folder of the OBJ file.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+
+/// What a model may take. Without bounds a small file can ask for all the memory there is.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// Bytes of the OBJ file.
+    pub obj_bytes: u64,
+    /// Bytes of an MTL file.
+    pub mtl_bytes: u64,
+    /// Positions, normals, texture coordinates and triangles, each.
+    pub elements: usize,
+    /// Statements that start a new mesh: objects, groups, changes of material.
+    pub meshes: usize,
+    /// Width and height of a texture.
+    pub texture_side: u32,
+    /// Bytes of all textures, decoded.
+    pub texture_bytes: u64,
+}
+
+impl Limits {
+    /// For a machine that people work at.
+    pub const DEFAULT: Self = Self {
+        obj_bytes: 512 << 20,
+        mtl_bytes: 16 << 20,
+        elements: 50_000_000,
+        meshes: 1_000_000,
+        texture_side: 16384,
+        texture_bytes: 1 << 30,
+    };
+}
+
+/// Bytes of one statement; a polygon of 1024 corners needs about half.
+const STATEMENT_BYTES: usize = 64 << 10;
+
+/// Bytes of a name. Meshes hold copies of theirs.
+const NAME_BYTES: usize = 1024;
+
+/// A text file in memory.
+pub(super) struct Text {
+    /// The path as error messages show it.
+    pub shown: String,
+    bytes: Vec<u8>,
+}
+
+impl Text {
+    /// Reads a file of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// If it is missing, larger, no regular file, or not text.
+    pub fn read(path: &Path, shown: String, limit: u64) -> Result<Self> {
+        let mut bytes = Vec::new();
+        open(path, &shown, limit)?
+            .take(limit)
+            .read_to_end(&mut bytes)
+            .map_err(|error| anyhow!("{shown}: cannot be read: {error}"))?;
+        if let Some(zero) = bytes.iter().position(|&byte| byte == 0) {
+            let line = 1 + bytes[..zero].iter().filter(|&&byte| byte == b'\n').count();
+            bail!("{shown}:{line}: holds a zero byte: this is a binary file, not text");
+        }
+        Ok(Self { shown, bytes })
+    }
+
+    /// The statements in order.
+    pub fn statements(&self) -> Statements<'_> {
+        let rest = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);
+        Statements { shown: &self.shown, rest, line: 0, open_end: !self.bytes.ends_with(b"\n") }
+    }
+}
+
+/// Opens a regular file of at most `limit` bytes; a pipe or a device could deliver without end.
+///
+/// # Errors
+/// If it is missing, larger, or no regular file.
+pub(super) fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
+    let failed = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => anyhow!("{shown}: there is no such file"),
+        _ => anyhow!("{shown}: cannot be read: {error}"),
+    };
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    ensure!(
+        metadata.is_file(),
+        "{shown}: is not a file that can be read, but a folder or a device"
+    );
+    let size = metadata.len();
+    ensure!(size <= limit, "{shown}: is too large: {size} bytes, at most {limit} are read");
+    File::open(path).map_err(failed)
+}
+
+/// Goes through a text's statements, leaving out comments and empty lines.
+pub(super) struct Statements<'a> {
+    shown: &'a str,
+    rest: &'a [u8],
+    line: usize,
+    open_end: bool,
+}
+
+impl<'a> Statements<'a> {
+    /// The next line without white space around it. Ends at LF, CR LF, or CR as on old Macs.
+    fn physical(&mut self) -> &'a [u8] {
+        let end = self.rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        let (line, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        let ends = if rest.starts_with(b"\r\n") { 2 } else { rest.len().min(1) };
+        self.rest = &rest[ends..];
+        self.line += 1;
+        line.trim_ascii()
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = Statement<'a>;
+
+    fn next(&mut self) -> Option<Statement<'a>> {
+        // A comment may end in a backslash, a Windows folder for one: it continues nothing.
+        let continued = |line: &[u8]| line.ends_with(b"\\") && !line.contains(&b'#');
+        let line = loop {
+            if self.rest.is_empty() {
+                return None;
+            }
+            let line = self.physical();
+            if !line.is_empty() && line[0] != b'#' {
+                break line;
+            }
+        };
+        let number = self.line;
+        let mut text = Cow::Borrowed(line);
+        while continued(&text) && !self.rest.is_empty() && text.len() <= STATEMENT_BYTES {
+            let text = text.to_mut();
+            text.pop();
+            text.push(b' ');
+            text.extend(self.physical());
+        }
+        let text = match text {
+            Cow::Borrowed(line) => String::from_utf8_lossy(line),
+            Cow::Owned(lines) => String::from_utf8_lossy(&lines).into_owned().into(),
+        };
+        let cut = self.open_end && self.rest.is_empty();
+        Some(Statement { shown: self.shown, line: number, text, cut })
+    }
+}
+
+/// A keyword and what follows it, with its place.
+pub(super) struct Statement<'a> {
+    shown: &'a str,
+    line: usize,
+    text: Cow<'a, str>,
+    cut: bool,
+}
+
+impl Statement<'_> {
+    /// File and line.
+    pub fn place(&self) -> String {
+        format!("{}:{}", self.shown, self.line)
+    }
+
+    /// The keyword and the rest, without white space around it.
+    ///
+    /// # Errors
+    /// If the statement is too long to be one.
+    pub fn split(&self) -> Result<(&str, &str)> {
+        let length = self.text.len();
+        ensure!(
+            length <= STATEMENT_BYTES,
+            "the line is too long: {length} bytes, at most {STATEMENT_BYTES} are read"
+        );
+        let text = self.text.trim_end_matches('\\');
+        let (keyword, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        Ok((keyword, rest.trim()))
+    }
+
+    /// The error with its place before it, and a hint if the file ends within this line.
+    pub fn at(&self, error: anyhow::Error) -> anyhow::Error {
+        let hint = if self.cut { "; the file ends in this line, perhaps cut off" } else { "" };
+        anyhow!("{}: {error}{hint}", self.place())
+    }
+}
+
+/// What stands before a comment. Names may hold a `#` ("Material #25"), numbers never do.
+pub(super) fn uncommented(rest: &str) -> &str {
+    rest.split('#').next().unwrap_or_default()
+}
+
+/// A name: what follows the keyword, spaces and all.
+///
+/// # Errors
+/// If there is none, or it is too long.
+pub(super) fn name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
+    ensure!(!rest.is_empty(), "{keyword} is not followed by a name");
+    let bytes = rest.len();
+    ensure!(
+        bytes <= NAME_BYTES,
+        "the name is too long: {bytes} bytes, at most {NAME_BYTES} are read"
+    );
+    Ok(rest)
+}
+
+/// Reads the numbers after a keyword into `values` and says how many there are.
+///
+/// # Errors
+/// If one is not a number, not finite, or there are more than `values` has room for.
+pub(super) fn numbers(rest: &str, values: &mut [f32]) -> Result<usize> {
+    let mut count = 0;
+    for word in uncommented(rest).split_whitespace() {
+        let value: f32 =
+            word.parse().ok().with_context(|| format!("{} is not a number", quoted(word)))?;
+        ensure!(value.is_finite(), "{} is not a finite 32-bit number", quoted(word));
+        let most = values.len();
+        *values.get_mut(count).with_context(|| format!("more than {most} numbers"))? = value;
+        count += 1;
+    }
+    Ok(count)
+}
+
+/// A word of the file on one line, however long and strange it is.
+pub(super) fn quoted(word: &str) -> String {
+    let mut start: String = word.chars().take(60).collect();
+    if start.len() < word.len() {
+        start.push('…');
+    }
+    format!("{start:?}")
+}
+
+/// The folder of the OBJ file. Nothing outside it is opened: a model from elsewhere has no business
+/// with the reader's other files.
+pub(super) struct Folder {
+    given: PathBuf,
+    root: PathBuf,
+}
+
+/// A file that a model names.
+pub(super) struct Named {
+    /// Its path, links resolved.
+    pub path: PathBuf,
+    /// Its path relative to the OBJ file's folder, with `/` between the parts.
+    pub name: String,
+    /// Its path as error messages show it.
+    pub shown: String,
+}
+
+impl Folder {
+    /// The folder of a file.
+    ///
+    /// # Errors
+    /// If there is no such folder.
+    pub fn of(file: &Path) -> Result<Self> {
+        let given = file.parent().unwrap_or(Path::new(""));
+        let here = if given.as_os_str().is_empty() { Path::new(".") } else { given };
+        let root = here.canonicalize().map_err(|error| match error.kind() {
+            ErrorKind::NotFound => anyhow!("{}: there is no such file", shown(file)),
+            _ => anyhow!("{}: cannot be read: {error}", shown(file)),
+        })?;
+        Ok(Self { given: given.to_owned(), root })
+    }
+
+    /// Finds the file that `keyword` names; relative paths start at the file `from`, or else at the
+    /// OBJ file.
+    ///
+    /// # Errors
+    /// If it is missing, or outside the folder, directly or through a symbolic link.
+    pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
+        let name = name(keyword, named)?;
+        let outside = || {
+            let name = quoted(name);
+            anyhow!(
+                "{keyword} names {name}, outside the OBJ file's folder; copy it into the folder"
+            )
+        };
+        // Exporters on Windows write backslashes, and drives that are relative paths elsewhere.
+        let relative = name.replace('\\', "/");
+        let drive = relative.as_bytes().get(1) == Some(&b':');
+        let parts = Path::new(&relative).components();
+        let inside =
+            parts.clone().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        ensure!(inside && !drive, outside());
+        let mut path = from.and_then(|from| from.path.parent()).unwrap_or(&self.root).to_owned();
+        path.extend(parts.filter(|part| *part != Component::CurDir));
+        let path = path.canonicalize().map_err(|error| match error.kind() {
+            ErrorKind::NotFound => anyhow!("{keyword} names {}, which is not there", quoted(name)),
+            _ => anyhow!("{keyword} names {}, which cannot be read: {error}", quoted(name)),
+        })?;
+        let inside = path.strip_prefix(&self.root).map_err(|_| outside())?;
+        let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+        let (name, shown) = (parts.join("/"), shown(&self.given.join(inside)));
+        Ok(Named { name, shown, path })
+    }
+}
+
+/// A path on one line.
+pub(super) fn shown(path: &Path) -> String {
+    path.display().to_string().replace(char::is_control, "\u{fffd}")
+}

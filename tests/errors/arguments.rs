@@ -1,0 +1,122 @@
+//! Options, controls, sizes, devices: wrong arguments end with 2 and say what would be right.
+
+use crate::{refused, refused_by, run, sample};
+
+#[test]
+fn options() {
+    for (arguments, words) in [
+        (&["--bogus"][..], "unexpected argument '--bogus' found; --help lists the options"),
+        (&["stray"], "unexpected argument 'stray'"),
+        (&[""], "unexpected argument ''"),
+        (&["--set"], "a value is required for '--set <NAME=VALUE>'"),
+        (&["--out"], "a value is required for '--out <FILE>'"),
+        (&["--out", ""], "a value is required for '--out <FILE>'"),
+        (&["--out", "a.png", "--out", "b.png"], "cannot be used multiple times"),
+        (&["--frames", "0"], "invalid value '0' for '--frames <N>': 0 is not in 1.."),
+        (&["--frames=-1"], "invalid value '-1' for '--frames <N>'"),
+        (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
+        (&["--scene", ""], "a value is required for '--scene <FILE.obj>'"),
+    ] {
+        refused(arguments, 2, &[words]);
+    }
+}
+
+#[test]
+fn controls() {
+    let there_is = "there is show, sun azimuth, sun elevation, camera eye";
+    let azimuth = "control 'sun azimuth' cannot be";
+    for (setting, words) in [
+        ("bogus=1", &["no control 'bogus'", there_is][..]),
+        ("Show=picture", &["no control 'Show'", there_is]),
+        ("sun azimuth=360.5", &[azimuth, "0 to 360"]),
+        ("sun azimuth=NaN", &[azimuth, "0 to 360"]),
+        ("sun azimuth=", &[azimuth, "0 to 360"]),
+        ("sun azimuth=1=2", &[azimuth, "'1=2'", "0 to 360"]),
+        ("show=nothing", &["'show'", "'nothing'", "picture, normal, triangle"]),
+        ("camera eye=1,2", &["'camera eye'", "x,y,z"]),
+        ("camera eye=1,2,inf", &["'camera eye'", "x,y,z"]),
+        ("camera eye=1,2,1e300", &["'camera eye'", "x,y,z"]),
+        ("sun azimuth", &["a setting is a name and a value"]),
+        ("=1", &["a setting is a name and a value"]),
+        ("", &["a setting is a name and a value"]),
+    ] {
+        refused(&["--set", setting], 2, words);
+    }
+    // Each setting is held against the rules, not only the last of a name.
+    refused(&["--set", "show=bogus", "--set", "show=normal"], 2, &["'bogus'"]);
+}
+
+#[test]
+fn comparisons() {
+    for (comparison, words) in [
+        ("bogus", "--compare takes a control and its values, as NAME=A|B; not 'bogus'"),
+        ("show=picture", "NAME=A|B"),
+        ("bogus=1|2", "no control 'bogus'; there is show"),
+        ("show=picture|nothing", "control 'show' cannot be 'nothing'"),
+        ("sun azimuth=1|NaN", "control 'sun azimuth' cannot be 'NaN'"),
+    ] {
+        refused(&["--compare", comparison], 2, &[words]);
+    }
+}
+
+#[test]
+fn sizes() {
+    let whole = "a size is two whole numbers of at least 1, such as 640x400";
+    for size in ["0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "8.5x8", "99999999999x8", ""] {
+        refused_by(sized(size), 2, &[&format!("invalid value '{size}'"), whole]);
+    }
+    // No device has so large an image, or traces so many rays at once.
+    for size in ["4294967295x1", "1x4294967295", "4294967295x4294967295"] {
+        refused_by(sized(size), 2, &[&format!("{size} is too large for "), " a side and "]);
+    }
+}
+
+fn sized(size: &str) -> std::process::Command {
+    let mut command = run::command(crate::SAMPLE);
+    command.args(["--headless", "--size", size]);
+    command
+}
+
+#[test]
+fn memory_that_cannot_be_had() {
+    // The list of hits takes 4.4 GB here, and the software driver's buffers hold at most 4.
+    let arguments = ["--headless", "--size", "16384x700", "--set", "mode=all hits"];
+    let software = ["--device", "llvmpipe"];
+    let (code, line) = run::refused("03_any_hit", &[&arguments[..], &software].concat());
+    if code == 1 {
+        assert!(line.contains("the buffer 'hits' of 4404"), "{line}");
+    } else {
+        println!("not tried: {line}");
+        assert!(line.contains("no device 'llvmpipe'"), "{line}");
+    }
+}
+
+#[test]
+fn devices() {
+    for device in ["no such device", "99", "-1", "18446744073709551616"] {
+        refused(&["--device", device], 2, &[&format!("no device '{device}'; there is 0: ")]);
+    }
+    refused(&["--device", ""], 2, &["a value is required for '--device <N|NAME>'"]);
+}
+
+#[test]
+fn what_only_tells_ends_with_0() {
+    for (argument, words) in [
+        ("--help", "--size <WxH>"),
+        ("--list-devices", "0: "),
+        ("--list-controls", "sun azimuth\tnumber\t0 to 360\t"),
+    ] {
+        let output = run::command(crate::SAMPLE).arg(argument).output().unwrap();
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{argument}");
+        assert!(told.contains(words), "{argument}: {told}");
+    }
+}
+
+#[test]
+fn the_last_setting_of_a_name_counts() {
+    let mut command = sample();
+    command.args(["--set", "sun azimuth=1", "--set", "sun azimuth=2", "--list-controls"]);
+    let told = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    assert!(told.contains("sun azimuth\tnumber\t0 to 360\t2\n"), "{told}");
+}

@@ -1,0 +1,104 @@
+//! A machine that lacks something: loader, driver, device, validation layer.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::{refused_by, run, sample};
+
+const SETUP: &str = "run ./setup";
+
+/// The two that make an instance of their own.
+const SAMPLES: [&str; 2] = ["01_foundation", "02_basic"];
+
+#[track_caller]
+fn refused_with(variable: &str, value: impl AsRef<Path>, words: &[&str]) {
+    for sample in SAMPLES {
+        for argument in ["--headless", "--list-devices"] {
+            let mut command = run::command(sample);
+            command.arg(argument).env(variable, value.as_ref());
+            refused_by(command, 1, words);
+        }
+    }
+}
+
+#[test]
+fn no_loader() {
+    let words = ["no Vulkan loader (", SETUP];
+    refused_with("VULKAN_LOADER", "/nonexistent", &words);
+    // A file that is no library at all.
+    refused_with("VULKAN_LOADER", run::root().join("Cargo.toml"), &words);
+}
+
+#[test]
+fn no_driver() {
+    let words = ["Vulkan driver", SETUP];
+    refused_with("VK_DRIVER_FILES", "/nonexistent", &words);
+    refused_with("VK_ICD_FILENAMES", "/nonexistent", &words);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("driver.json");
+    fs::write(&file, manifest(Path::new("/nonexistent.so"))).unwrap();
+    refused_with("VK_ICD_FILENAMES", &file, &words);
+    // Some loaders pass over a broken manifest, some fail.
+    fs::write(&file, "{").unwrap();
+    refused_with("VK_ICD_FILENAMES", &file, &["Vulkan", SETUP]);
+}
+
+#[test]
+fn no_device_with_ray_tracing() {
+    let driver = driver();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("driver.json");
+    fs::write(&file, manifest(&driver)).unwrap();
+    let lacks = ["A card of 2014", "lacks VK_KHR_", "VK_KHR_ray_tracing_pipeline"];
+    for sample in SAMPLES {
+        let command = |argument: &str| {
+            let mut command = run::command(sample);
+            command.arg(argument).env("VK_ICD_FILENAMES", &file);
+            command
+        };
+        refused_by(command("--headless"), 1, &["no device can run this: 0: ", SETUP]);
+        refused_by(command("--headless"), 1, &lacks);
+        let mut named = command("--headless");
+        named.args(["--device", "card"]);
+        refused_by(named, 1, &lacks);
+        let told = command("--list-devices").output().unwrap();
+        assert!(told.status.success());
+        let told = String::from_utf8(told.stdout).unwrap();
+        assert!(lacks.iter().all(|word| told.contains(word)), "{told}");
+
+        for argument in ["--headless", "--list-devices"] {
+            let mut without = command(argument);
+            without.env("DRIVER_WITHOUT_DEVICE", "1");
+            refused_by(without, 1, &["no Vulkan device", SETUP]);
+        }
+    }
+}
+
+/// A driver's manifest, as the loader reads it.
+fn manifest(library: &Path) -> String {
+    let driver = serde_json::json!({ "library_path": library, "api_version": "1.3.0" });
+    serde_json::json!({ "file_format_version": "1.0.0", "ICD": driver }).to_string()
+}
+
+/// The library of `driver/`, on which this test depends: cargo puts it beside.
+fn driver() -> PathBuf {
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+    let test = std::env::current_exe().expect("a running program has a file");
+    test.with_file_name(format!("{DLL_PREFIX}driver_without_ray_tracing{DLL_SUFFIX}"))
+}
+
+#[test]
+fn no_validation_layer() {
+    let mut command = sample();
+    command.arg("--validate").env("VK_LAYER_PATH", "/nonexistent");
+    refused_by(command, 1, &["--validate needs VK_LAYER_KHRONOS_validation", SETUP]);
+}
+
+#[test]
+fn no_environment_at_all() {
+    // Neither HOME nor PATH nor a language: as from a service.
+    let folder = tempfile::tempdir().unwrap();
+    let status = sample().env_clear().current_dir(&folder).status().unwrap();
+    assert!(status.success());
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}

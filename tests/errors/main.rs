@@ -1,0 +1,46 @@
+//! Whatever is wrong, a sample says so in one line and ends with 1 (failed) or 2 (wrong arguments):
+//! one module for each kind of input.
+
+mod arguments;
+mod machine;
+mod models;
+mod outputs;
+#[path = "../run/mod.rs"]
+mod run;
+mod shaders;
+
+use std::path::Path;
+
+/// The chapter that stands for all: what is tested here is the framework's.
+const SAMPLE: &str = "02_basic";
+
+/// Runs [`SAMPLE`] small and headless and holds its refusal against an exit code and words of its line.
+#[track_caller]
+fn refused(arguments: &[&str], code: i32, words: &[&str]) {
+    let mut command = sample();
+    command.args(arguments);
+    refused_by(command, code, words);
+}
+
+/// As [`refused`], for a command of the caller's making.
+#[track_caller]
+fn refused_by(mut command: std::process::Command, code: i32, words: &[&str]) {
+    let (actual, line) = run::refusal(command.output().expect("the sample starts"));
+    assert_eq!(actual, code, "{line}");
+    for word in words {
+        assert!(line.contains(word), "'{word}' is not in: {line}");
+    }
+    println!("{line}");
+}
+
+/// [`SAMPLE`], small and headless.
+fn sample() -> std::process::Command {
+    let mut command = run::command(SAMPLE);
+    command.args(["--headless", "--size", "8x8"]);
+    command
+}
+
+/// A path as an argument.
+fn text(path: &Path) -> &str {
+    path.to_str().expect("temporary folders have plain names")
+}

@@ -1,0 +1,144 @@
+//! Pictures and reports: written whole or not at all, and refused before the work.
+
+use std::fs;
+use std::process::Stdio;
+use std::time::Duration;
+
+use crate::{refused, run, sample, text};
+
+#[test]
+fn files_that_cannot_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for name in ["folder.png", "folder.json"] {
+        fs::create_dir(path(name)).unwrap();
+    }
+    refused(&["--out", text(&path("gone/a.png"))], 1, &["cannot write '", "there is no folder"]);
+    refused(&["--report", text(&path("gone/a.json"))], 1, &["there is no folder"]);
+    refused(&["--out", text(&path("folder.png"))], 1, &["it is a folder"]);
+    refused(&["--report", text(&path("folder.json"))], 1, &["it is a folder"]);
+    let long = path(&format!("{}.png", "a".repeat(300)));
+    refused(&["--out", text(&long)], 1, &["cannot write '"]);
+    assert_eq!(folder.path().read_dir().unwrap().count(), 2, "a refusal leaves nothing");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn folders_that_take_no_files_and_devices() {
+    refused(&["--out", "/proc/x.png"], 1, &["cannot write '/proc/x.png': no file can be made"]);
+    refused(&["--report", "/proc/x.json"], 1, &["no file can be made in '/proc'"]);
+    // Links to devices, so that a mistake costs the link and not the device.
+    let folder = tempfile::tempdir().unwrap();
+    let link = folder.path().join("null.png");
+    std::os::unix::fs::symlink("/dev/null", &link).unwrap();
+    for option in ["--out", "--report"] {
+        refused(&[option, text(&link)], 1, &["it is a device or a pipe, not a file"]);
+    }
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+}
+
+#[test]
+fn formats_that_are_unknown() {
+    for name in ["a.jpg", "a", ".png", "a.png.txt", "-", "a.png/.."] {
+        refused(&["--out", name], 2, &["cannot write '", "': a picture is .png or .exr"]);
+    }
+}
+
+#[test]
+fn one_file_for_both() {
+    let folder = tempfile::tempdir().unwrap();
+    let [a, b] = ["a.png", "./a.png"].map(|name| folder.path().join(name));
+    refused(&["--out", text(&a), "--report", text(&b)], 2, &["--out and --report both name '"]);
+}
+
+#[test]
+fn a_failed_run_leaves_the_files_that_were_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let [out, report] = ["a.png", "a.json"].map(|name| folder.path().join(name));
+    for file in [&out, &report] {
+        fs::write(file, "precious").unwrap();
+    }
+    let outputs = ["--out", text(&out), "--report", text(&report)];
+    for wrong in [["--set", "bogus=1"], ["--scene", "gone.obj"], ["--device", "99"]] {
+        let (code, _) = run::refusal(sample().args(outputs).args(wrong).output().unwrap());
+        assert!(code == 1 || code == 2);
+        for file in [&out, &report] {
+            assert_eq!(fs::read_to_string(file).unwrap(), "precious", "{wrong:?}");
+        }
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 2);
+}
+
+#[test]
+fn names_that_are_odd() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a b.png", "ü 象.exr", "A.PNG"] {
+        let status = sample().current_dir(&folder).args(["--out", name]).status().unwrap();
+        assert!(status.success(), "{name}");
+        assert!(folder.path().join(name).is_file(), "{name}");
+    }
+    let status = sample().current_dir(&folder).arg("--out=-x.png").status().unwrap();
+    assert!(status.success() && folder.path().join("-x.png").is_file());
+    assert_eq!(folder.path().read_dir().unwrap().count(), 4);
+}
+
+#[test]
+fn a_run_that_is_killed_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = sample();
+    command.current_dir(&folder).args(["--frames", "4000000000", "--out", "a.png"]);
+    let mut child = command.spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    assert!(child.try_wait().unwrap().is_none(), "it was to render for days");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
+fn two_runs_may_write_the_same_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut command = sample();
+        command.current_dir(&folder).args(["--out", "a.png"]).spawn().unwrap()
+    };
+    for mut child in [start(), start(), start()] {
+        assert!(child.wait().unwrap().success());
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 1);
+    assert_eq!(image::open(folder.path().join("a.png")).unwrap().width(), 8);
+}
+
+#[test]
+fn a_reader_that_has_read_enough_is_no_error() {
+    for arguments in [
+        &["--list-controls"][..],
+        &["--list-devices"],
+        &["--report", "-"],
+        &["--compare", "show=picture|normal"],
+        &["--help"],
+    ] {
+        let mut command = sample();
+        command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && errors.is_empty(), "{arguments:?}: {errors}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_said() {
+    let full = || fs::File::options().write(true).open("/dev/full").unwrap();
+    for arguments in [&["--list-controls"][..], &["--list-devices"], &["--report", "-"]] {
+        let output = sample().args(arguments).stdout(full()).output().unwrap();
+        let (code, line) = run::refusal(output);
+        assert_eq!(code, 1, "{line}");
+        assert!(line.contains("cannot write to standard output: No space left"), "{line}");
+    }
+    // Nowhere is left to say it; the exit code is.
+    let status = sample().arg("--bogus").stderr(full()).status().unwrap();
+    assert_eq!(status.code(), Some(2));
+}

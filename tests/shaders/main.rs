@@ -1,0 +1,120 @@
+//! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
+
+#[path = "../run/mod.rs"]
+mod run;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use common::gpu::shader::{Shader, compile};
+use common::gpu::{Reflection, StructLayout};
+use common::scene::SHARED_STRUCTS;
+
+/// What files that are only included are called; everything else is a stage.
+const INCLUDED: &str = "glsl";
+
+/// Every file below `shaders/`, with `/` between the parts of its path.
+fn files() -> BTreeSet<String> {
+    fn walk(folder: &Path, below: &str, found: &mut BTreeSet<String>) {
+        for entry in folder.read_dir().expect("shaders/ can be read") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().expect("a name").to_string_lossy();
+            let below = format!("{below}{name}");
+            if path.is_dir() {
+                walk(&path, &format!("{below}/"), found);
+            } else {
+                found.insert(below);
+            }
+        }
+    }
+    let mut found = BTreeSet::new();
+    walk(&run::root().join("shaders"), "", &mut found);
+    found
+}
+
+/// Every stage, compiled.
+fn stages() -> Vec<Shader> {
+    let stages = files().into_iter().filter(|file| !file.ends_with(INCLUDED));
+    stages.map(|stage| compile(&stage).unwrap_or_else(|error| panic!("{error:#}"))).collect()
+}
+
+/// The chapters: the folders of `samples/` that begin with a number.
+fn chapters() -> Vec<String> {
+    let folders = run::root().join("samples").read_dir().expect("samples/ can be read");
+    let names = folders.map(|entry| entry.expect("an entry").file_name());
+    let names = names.map(|name| name.to_string_lossy().into_owned());
+    names.filter(|name| name.starts_with(|first: char| first.is_ascii_digit())).collect()
+}
+
+#[test]
+fn every_stage_compiles() {
+    let stages = stages();
+    assert!(stages.len() >= 7, "{} stages", stages.len());
+    for stage in stages {
+        assert_eq!(stage.spirv[0], 0x0723_0203, "{}", stage.path);
+        assert_eq!(stage.files[0], stage.path);
+    }
+}
+
+#[test]
+fn structures_are_the_same_in_rust_and_in_every_shader() {
+    let mut seen = BTreeSet::new();
+    for stage in stages() {
+        let reflection = Reflection::of(&stage.spirv).unwrap();
+        reflection.check(&stage.path, &SHARED_STRUCTS).unwrap();
+        seen.extend(reflection.structs().into_iter().map(|(name, _)| name));
+    }
+    for layout in SHARED_STRUCTS {
+        assert!(
+            seen.contains(layout.name),
+            "no shader has {}, so nothing was checked",
+            layout.name
+        );
+    }
+}
+
+#[test]
+fn a_structure_that_differs_is_refused_by_name() {
+    let stage = compile("02_basic/shade.rchit").unwrap();
+    let reflection = Reflection::of(&stage.spirv).unwrap();
+    let layout = |fields: &'static [(&'static str, usize)], size| StructLayout {
+        name: "Vertex",
+        fields,
+        size,
+    };
+    let right = layout(&[("position", 0), ("normal", 12), ("uv", 24)], 32);
+    reflection.check("a.rchit", &[right]).unwrap();
+    for (wrong, words) in [
+        (layout(&[("position", 0), ("normal", 16), ("uv", 24)], 32), "Vertex.normal is 12 bytes"),
+        (layout(&[("position", 0), ("uv", 24)], 32), "Vertex.normal is in the shader but not in"),
+        (
+            layout(&[("position", 0), ("normal", 12), ("uv", 24), ("id", 32)], 32),
+            "Vertex lacks id, which Rust has",
+        ),
+        (layout(right.fields, 48), "Vertex takes 32 bytes in the shader, 48 in Rust"),
+    ] {
+        let error = reflection.check("a.rchit", &[wrong]).unwrap_err().to_string();
+        assert!(error.starts_with("a.rchit: ") && error.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn every_file_is_used_by_a_chapter() {
+    let mut used = BTreeSet::new();
+    for chapter in chapters() {
+        let output = run::command(&chapter)
+            .args(["--headless", "--size", "8x8", "--report", "-"])
+            .output()
+            .expect("the sample starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|error| panic!("{chapter}: {error}: {errors}"));
+        let stages = report["stages"].as_array().expect("the report lists stages");
+        assert!(!stages.is_empty(), "{chapter} reports no stages");
+        for stage in stages {
+            used.extend(compile(stage.as_str().expect("a path")).unwrap().files);
+        }
+    }
+    let orphans: Vec<_> = files().difference(&used).cloned().collect();
+    assert!(orphans.is_empty(), "used by no chapter: {}", orphans.join(", "));
+}
