@@ -28,7 +28,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         requirements: S::requirements(),
         device: args.device.as_deref(),
         validate: args.validate,
-        surface_extensions: Vec::new(),
+        window: None,
     })?;
     check_size(&gpu, args.size)?;
     let setup = Setup::new(args);
@@ -157,7 +157,11 @@ fn check_writable(file: &Path) -> Result<()> {
         .with_context(|| format!("cannot write '{}'", file.display()))
 }
 
-fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
+/// Fails if a picture is larger than the device allows.
+///
+/// # Errors
+/// With what it allows.
+pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
     let side = gpu.limits.max_image_dimension;
     let rays = u64::from(gpu.limits.max_ray_dispatch_invocation_count);
     let fits = size.width <= side
