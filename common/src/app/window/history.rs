@@ -10,7 +10,7 @@ use super::style;
 const LENGTH: usize = 96;
 const HEIGHT: f32 = 44.0;
 
-/// Milliseconds of the last pictures, the newest at the end.
+/// Milliseconds that full pictures took or would have taken, the newest at the end.
 #[derive(Default)]
 pub struct History {
     times: VecDeque<Time>,
@@ -18,19 +18,19 @@ pub struct History {
 
 struct Time {
     milliseconds: f64,
-    full: bool,
+    measured: bool,
 }
 
 impl History {
-    /// Adds the time of a picture, of `full` size or of less.
-    pub fn add(&mut self, milliseconds: f64, full: bool) {
+    /// Adds the time of a full picture: measured, or foretold from a smaller one.
+    pub fn add(&mut self, milliseconds: f64, measured: bool) {
         if self.times.len() == LENGTH {
             self.times.pop_front();
         }
-        self.times.push_back(Time { milliseconds, full });
+        self.times.push_back(Time { milliseconds, measured });
     }
 
-    /// Bars from the right, bright where the picture was full size; the scale is written above them.
+    /// Bars from the right, bright where the picture was full; the scale is written above them.
     pub fn show(&self, ui: &mut Ui) {
         let (response, painter) =
             ui.allocate_painter(vec2(ui.available_width(), HEIGHT), Sense::hover());
@@ -47,14 +47,14 @@ impl History {
                 pos2(right - bar + 0.5, area.bottom() - height),
                 pos2(right, area.bottom()),
             );
-            let color = if time.full { style::ACCENT } else { style::ACCENT.gamma_multiply(0.45) };
+            let color = if time.measured { style::ACCENT } else { style::ACCENT.gamma_multiply(0.45) };
             painter.rect_filled(rect, CornerRadius::ZERO, color);
         }
         let line = area.bottom() - room;
         painter.hline(area.x_range(), line, (1.0, Color32::from_white_alpha(18)));
         let (font, label) = (FontId::proportional(10.0), format!("{top} ms"));
         painter.text(pos2(area.left() + 4.0, line - 1.0), Align2::LEFT_BOTTOM, label, font, style::DIM);
-        response.on_hover_text("GPU time of the last pictures; dim bars: reduced size while moving");
+        response.on_hover_text("GPU time of a full picture; dim: foretold from a smaller one");
     }
 }
 

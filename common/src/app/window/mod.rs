@@ -309,18 +309,18 @@ impl<'a, S: Sample> Open<'a, S> {
                 Ask::Leave => return Ok(false),
                 Ask::Picture => self.view.ask_picture(),
                 Ask::Reload => {
-                    self.panel.note = "compiling shaders …".to_owned();
+                    self.panel.tell("compiling shaders …".to_owned());
                     self.reload.ask(Instant::now());
                 }
                 Ask::Help | Ask::Panel => {}
             }
         }
-        let stepped = self.view.step(extent, outcome.held)?;
+        let stepped = self.view.step(extent, outcome.hands)?;
         if let Some(written) = self.view.take_picture(&self.facts.name) {
-            self.panel.note = match written {
+            self.panel.tell(match written {
                 Ok(path) => format!("wrote {}", path.display()),
                 Err(error) => format!("{error:#}"),
-            };
+            });
             self.redraw_at = Some(Instant::now());
         }
         let triangles = context.tessellate(output.shapes, output.pixels_per_point);
@@ -346,8 +346,10 @@ impl<'a, S: Sample> Open<'a, S> {
         self.view.facts(&mut self.facts);
         let picture_at = match *stepped {
             Stepped::New { milliseconds, full } => {
-                self.panel.history.add(milliseconds, full);
                 let [width, height] = self.facts.rendered;
+                let pixels = |[width, height]: [u32; 2]| f64::from(width) * f64::from(height);
+                let part = pixels(self.facts.rendered) / pixels(self.facts.full);
+                self.panel.history.add(milliseconds / part, full);
                 tracing::debug!("{width}x{height}: {milliseconds:.1} ms");
                 Some(now)
             }
@@ -373,10 +375,10 @@ impl<'a, S: Sample> Open<'a, S> {
                 format!("{error:#}")
             })
         });
-        self.panel.note = match &result {
-            Ok(()) => format!("shaders reloaded in {:.1} s", start.elapsed().as_secs_f64()),
-            Err(_) => String::new(),
-        };
+        if result.is_ok() {
+            let seconds = start.elapsed().as_secs_f64();
+            self.panel.tell(format!("shaders reloaded in {seconds:.1} s"));
+        }
         self.panel.error = result.err();
         self.window.request_redraw();
     }

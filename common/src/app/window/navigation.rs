@@ -103,15 +103,18 @@ impl Navigation {
     /// Takes up what was dragged and scrolled on the picture.
     pub fn drag(&mut self, picture: &Response, input: &InputState) {
         let height = f64::from(picture.rect.height().max(1.0));
-        let delta = picture.drag_delta();
-        let drag = DVec2::new(delta.x.into(), delta.y.into()) / height;
-        let (by, modifiers) = (|button| picture.dragged_by(button), input.modifiers);
-        if by(PointerButton::Primary) && modifiers.command {
-            self.motion.look += drag;
-        } else if by(PointerButton::Primary) && !modifiers.shift {
-            self.motion.orbit += drag;
-        } else if picture.dragged() {
-            self.motion.pan += drag;
+        // Of the response only flags are asked: what reads the input again would wait for itself.
+        if picture.dragged() {
+            let delta = input.pointer.delta();
+            let drag = DVec2::new(delta.x.into(), delta.y.into()) / height;
+            let left = input.pointer.button_down(PointerButton::Primary);
+            if left && input.modifiers.command {
+                self.motion.look += drag;
+            } else if left && !input.modifiers.shift {
+                self.motion.orbit += drag;
+            } else {
+                self.motion.pan += drag;
+            }
         }
         if picture.hovered() {
             self.motion.zoom += f64::from(input.smooth_scroll_delta().y) / 300.0;

@@ -15,12 +15,26 @@ const MOVING: f64 = 45.0;
 const QUICK: f64 = 140.0;
 /// How long nothing must change before the picture sharpens.
 const STILL: Duration = Duration::from_millis(150);
-/// How long there must be no input before a picture that is not quick begins.
+/// How long there must be no input before a picture that is not quick begins: nothing can interrupt it.
 const HANDS_OFF: Duration = Duration::from_millis(700);
+/// The same while the pointer rests on the panel, whose sliders are likely to be taken again.
+const HANDS_NEAR: Duration = Duration::from_secs(2);
 /// The level that a software driver starts at, before its speed is known.
 const UNKNOWN: u32 = 8;
 /// The smallest picture: a sixteenth of the width and the height.
 const LAST: u32 = 16;
+
+/// Where the user's hands are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hands {
+    /// Away from the panel.
+    #[default]
+    Off,
+    /// The pointer rests on the panel.
+    Near,
+    /// A button or a key is down.
+    On,
+}
 
 /// What to do for the next frame of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,16 +93,27 @@ impl Pace {
         self.warm = true;
     }
 
-    /// The next step of a window of size `full`; `held` while a button or a key is down,
-    /// `accumulates` if further pictures of the same view are worth rendering.
-    pub fn step(&mut self, now: Instant, full: Extent2D, held: bool, accumulates: bool) -> Step {
+    /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are worth rendering.
+    pub fn step(
+        &mut self,
+        now: Instant,
+        full: Extent2D,
+        hands: Hands,
+        accumulates: bool,
+    ) -> Step {
+        let slow_at = match hands {
+            Hands::Off => Some(self.input + HANDS_OFF),
+            Hands::Near => Some(self.input + HANDS_NEAR),
+            Hands::On => None,
+        };
+        let slow_may_begin = slow_at.is_some_and(|at| at <= now);
         let level = match self.shown {
             None => {
                 self.level = self.level_within(MOVING, full, self.level);
                 self.level
             }
-            Some(0) if accumulates && (self.is_quick(full) || self.hands_off(now, held)) => 0,
-            Some(0) if accumulates => return Step::Keep(Some(self.input + HANDS_OFF)),
+            Some(0) if accumulates && (self.is_quick(full) || slow_may_begin) => 0,
+            Some(0) if accumulates => return Step::Keep(slow_at),
             Some(0) => return Step::Keep(None),
             // The first picture told nothing: its like is rendered again.
             Some(level) if self.cost.is_none() => level,
@@ -99,12 +124,10 @@ impl Pace {
                 let quick = self.level_within(QUICK, full, 0);
                 if quick < shown {
                     quick
-                } else if self.hands_off(now, held) {
+                } else if slow_may_begin {
                     0
-                } else if held {
-                    return Step::Keep(None);
                 } else {
-                    return Step::Keep(Some(self.input + HANDS_OFF));
+                    return Step::Keep(slow_at);
                 }
             }
         };
@@ -121,10 +144,6 @@ impl Pace {
     /// Whether the last picture was full size and shows how things stand.
     pub fn is_sharp(&self) -> bool {
         self.shown == Some(0)
-    }
-
-    fn hands_off(&self, now: Instant, held: bool) -> bool {
-        !held && now >= self.input + HANDS_OFF
     }
 
     fn is_quick(&self, full: Extent2D) -> bool {
@@ -168,8 +187,8 @@ mod tests {
         }
 
         /// Takes a step and returns the milliseconds that it took, 0 for none.
-        fn step(&mut self, held: bool) -> f64 {
-            let Step::Render(size) = self.pace.step(self.now, FULL, held, false) else {
+        fn step(&mut self, hands: Hands) -> f64 {
+            let Step::Render(size) = self.pace.step(self.now, FULL, hands, false) else {
                 self.now += Duration::from_millis(10);
                 return 0.0;
             };
@@ -188,20 +207,20 @@ mod tests {
             for frame in 0..100 {
                 run.pace.change(run.now);
                 run.pace.input(run.now);
-                let took = run.step(true);
+                let took = run.step(Hands::On);
                 assert!(took > 0.0 && (took <= MOVING || frame < 2), "{full}: {took}");
             }
             // The button is still held: no slow picture begins, however long.
             for _ in 0..200 {
-                assert!(run.step(true) <= QUICK, "{full}");
+                assert!(run.step(Hands::On) <= QUICK, "{full}");
             }
             let released = run.now;
             run.pace.input(released);
             while !run.pace.is_sharp() {
-                run.step(false);
-                assert!(run.now < released + Duration::from_secs(7), "{full} never sharpens");
+                run.step(Hands::Near);
+                assert!(run.now < released + Duration::from_secs(9), "{full} never sharpens");
             }
-            assert_eq!(run.step(false), 0.0, "a sharp picture is kept");
+            assert_eq!(run.step(Hands::Off), 0.0, "a sharp picture is kept");
         }
     }
 
@@ -209,13 +228,13 @@ mod tests {
     fn a_fast_device_renders_full_size_from_the_first_frame() {
         let now = Instant::now();
         let mut pace = Pace::new(false, now);
-        assert_eq!(pace.step(now, FULL, true, false), Step::Render(FULL));
+        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
         pace.took(1280 * 720, 900.0);
         pace.change(now);
-        pace.step(now, FULL, true, false);
+        pace.step(now, FULL, Hands::On, false);
         pace.took(1280 * 720, 2.0);
         pace.change(now);
-        assert_eq!(pace.step(now, FULL, true, false), Step::Render(FULL));
+        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
     }
 
     #[test]
@@ -223,9 +242,9 @@ mod tests {
         let now = Instant::now();
         let mut pace = Pace::new(false, now);
         for _ in 0..5 {
-            assert_eq!(pace.step(now, FULL, false, true), Step::Render(FULL));
+            assert_eq!(pace.step(now, FULL, Hands::Off, true), Step::Render(FULL));
             pace.took(1280 * 720, 5.0);
         }
-        assert_eq!(pace.step(now, FULL, false, false), Step::Keep(None));
+        assert_eq!(pace.step(now, FULL, Hands::Off, false), Step::Keep(None));
     }
 }

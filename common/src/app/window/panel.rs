@@ -1,10 +1,13 @@
 //! The panel over the picture: what is measured, the controls, what went wrong.
 
+use std::time::{Duration, Instant};
+
 use egui::{Align, Align2, Area, Context, Id, Layout, RichText, ScrollArea, Sense, Ui};
 
 use super::history::History;
 use super::keys::{self, Ask};
 use super::navigation::Navigation;
+use super::pace::Hands;
 use super::rows::{self, Hidden, Rows};
 use super::style;
 use crate::app::Controls;
@@ -12,6 +15,8 @@ use crate::app::Controls;
 /// The distance of the panel from the window's edges, and its width.
 const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
+/// How long a note stands.
+const MOMENT: Duration = Duration::from_secs(4);
 
 /// What the panel tells of the run.
 #[derive(Clone, Debug, Default)]
@@ -61,15 +66,15 @@ pub struct Outcome {
     pub changed: bool,
     /// Keys that ask something of the window, in order.
     pub asked: Vec<Ask>,
-    /// A button or a key is down: more is to come.
-    pub held: bool,
+    /// Where the user's hands were.
+    pub hands: Hands,
 }
 
 impl Outcome {
     /// Adds what another pass over the same frame found out.
     pub fn merge(&mut self, other: Self) {
         self.changed |= other.changed;
-        self.held |= other.held;
+        self.hands = other.hands;
         for ask in other.asked {
             if !self.asked.contains(&ask) {
                 self.asked.push(ask);
@@ -86,8 +91,7 @@ pub struct Panel {
     pub history: History,
     /// What is wrong with the shaders, until it is mended.
     pub error: Option<String>,
-    /// The last thing that was done, such as a file that was written.
-    pub note: String,
+    note: Option<(String, Instant)>,
     shown: bool,
     help: bool,
 }
@@ -99,10 +103,15 @@ impl Panel {
             navigation: Navigation::new(name),
             history: History::default(),
             error: None,
-            note: String::new(),
+            note: None,
             shown: true,
             help: false,
         }
+    }
+
+    /// Tells for a moment what was done, such as a file that was written.
+    pub fn tell(&mut self, note: String) {
+        self.note = Some((note, Instant::now() + MOMENT));
     }
 
     /// One frame: reads keys and drags, shows everything, and lets `declare` show the controls.
@@ -116,13 +125,18 @@ impl Panel {
         let mut outcome = Outcome::default();
         let picture = ui.interact(ui.max_rect(), Id::new("picture"), Sense::drag());
         context.input(|input| self.navigation.drag(&picture, input));
-        outcome.held = context.input(|input| input.pointer.any_down());
+        let mut held = context.input(|input| input.pointer.any_down());
         // While a number is being typed, keys are its digits.
         if !context.text_edit_focused() {
-            outcome.held |= context.input(|input| self.navigation.keys(input));
+            held |= context.input(|input| self.navigation.keys(input));
             outcome.asked = keys::asked(&context);
             outcome.asked.retain(|ask| !self.answer(*ask));
         }
+        outcome.hands = match held {
+            true => Hands::On,
+            false if context.is_pointer_over_egui() => Hands::Near,
+            false => Hands::Off,
+        };
         outcome.changed = if self.shown {
             self.sheet(&context, facts, declare)
         } else {
@@ -244,9 +258,13 @@ impl Panel {
 
     fn footer(&self, ui: &mut Ui) {
         ui.separator();
-        let text = match self.note.as_str() {
-            "" => "F1 keys · F2 picture · F5 shaders · Tab panel",
-            note => note,
+        let now = Instant::now();
+        let text = match &self.note {
+            Some((note, end)) if now < *end => {
+                ui.ctx().request_repaint_after(*end - now);
+                note
+            }
+            _ => "F1 keys · F2 picture · F5 shaders · Tab panel",
         };
         ui.label(RichText::new(text).small().color(style::DIM));
     }
@@ -381,6 +399,18 @@ mod tests {
             harness.run();
         }
         assert_eq!(harness.state().asked, [Ask::Picture, Ask::Reload, Ask::Leave]);
+    }
+
+    #[test]
+    fn what_is_only_shown_is_not_rounded() {
+        let mut harness = harness();
+        let third = 1.0 / 3.0;
+        harness.state_mut().height = third;
+        harness.state_mut().camera.eye.x = f64::from(third);
+        harness.run();
+        assert_eq!(harness.state().height, third);
+        assert_eq!(harness.state().camera.eye.x, f64::from(third));
+        assert_eq!(harness.state().changes, 0);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The controls as rows of the panel: a name, and what changes its value.
 
-use egui::{ComboBox, DragValue, Grid, Response, Slider, Ui};
+use egui::emath::Numeric;
+use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
 
 use super::navigation::Navigation;
 use super::style;
@@ -79,23 +80,34 @@ impl Visit for Hidden<'_> {
     }
 }
 
+/// Shows a value and says whether it was changed.
 fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
     // The number beside a slider has a fixed place, so that the rows end alike.
     ui.spacing_mut().interact_size.x = NUMBER;
     ui.spacing_mut().slider_width = WIDGETS - NUMBER - ui.spacing().item_spacing.x;
     match value {
         Value::Slider(number, range) => {
+            let before = *number;
             // Three digits of the range's width, or as many as the number needs.
             let decimals = (2.0 - (range.end() - range.start()).log10().floor()).clamp(0.0, 6.0);
-            named(ui.add(Slider::new(number, range).fixed_decimals(decimals as usize)), name)
+            let slider = Slider::new(number, range).fixed_decimals(decimals as usize);
+            name_it(&ui.add(shown_as_is(slider)), name);
+            *number != before
         }
-        Value::Integer(number, range) => named(ui.add(Slider::new(number, range)), name),
-        Value::Checkbox(on) => named(ui.checkbox(on, ""), name),
+        Value::Integer(number, range) => {
+            let before = *number;
+            name_it(&ui.add(shown_as_is(Slider::new(number, range))), name);
+            *number != before
+        }
+        Value::Checkbox(on) => {
+            let before = *on;
+            name_it(&ui.checkbox(on, ""), name);
+            *on != before
+        }
         Value::Color(color) => {
-            let mut rgb = color.to_array();
-            let changed = named(ui.color_edit_button_rgb(&mut rgb), name);
-            *color = rgb.into();
-            changed
+            let before = *color;
+            name_it(&ui.color_edit_button_rgb(color.as_mut()), name);
+            *color != before
         }
         Value::Choice(position, options) => {
             let before = *position;
@@ -106,42 +118,47 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
                     ui.selectable_value(position, index as u32, *option);
                 }
             });
-            named(response.response, name);
+            name_it(&response.response, name);
             *position != before
         }
         Value::Vector(vector, range) => {
+            let before = *vector;
             let speed = (range.end() - range.start()) * 0.005;
-            three(ui, name, vector.as_mut(), |drag| drag.range(range.clone()).speed(speed))
+            three(ui, name, vector.as_mut(), |drag| drag.range(range.clone()).speed(speed));
+            *vector != before
         }
         Value::Point(point) => {
+            let before = *point;
             let speed = (point.length() * 0.005).max(1e-3);
-            three(ui, name, point.as_mut(), |drag| drag.speed(speed).fixed_decimals(2))
+            three(ui, name, point.as_mut(), |drag| drag.speed(speed).fixed_decimals(2));
+            *point != before
         }
     }
 }
 
+/// A slider that rounds and clamps what is dragged and typed, not what a script has set.
+fn shown_as_is(slider: Slider) -> Slider {
+    slider.clamping(SliderClamping::Edits)
+}
+
 /// Three numbers side by side.
-fn three<N: egui::emath::Numeric>(
+fn three<N: Numeric>(
     ui: &mut Ui,
     name: &str,
     parts: &mut [N; 3],
     shaped: impl Fn(DragValue) -> DragValue,
-) -> bool {
+) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let mut changed = false;
         for (part, axis) in parts.iter_mut().zip(["x", "y", "z"]) {
-            let width = [(WIDGETS - 8.0) / 3.0, ui.spacing().interact_size.y];
-            let response = ui.add_sized(width, shaped(DragValue::new(part)));
-            changed |= named(response, &format!("{name} {axis}"));
+            let size = [(WIDGETS - 8.0) / 3.0, ui.spacing().interact_size.y];
+            let response = ui.add_sized(size, shaped(DragValue::new(part)));
+            name_it(&response, &format!("{name} {axis}"));
         }
-        changed
-    })
-    .inner
+    });
 }
 
-/// Tells screen readers and tests what a widget is called; returns whether its value has changed.
-fn named(response: Response, name: &str) -> bool {
+/// Tells screen readers and tests what a widget is called.
+fn name_it(response: &Response, name: &str) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
-    response.changed()
 }

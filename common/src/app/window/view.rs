@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use ash::vk;
 
-use super::pace::{Pace, Step};
+use super::pace::{Hands, Pace, Step};
 use super::panel::Facts;
 use crate::app::{Frame, Picture, Sample};
 use crate::gpu::{Gpu, Image, Timer, barrier};
@@ -88,7 +88,7 @@ impl<S: Sample> View<S> {
     ///
     /// # Errors
     /// If the sample or the device fails.
-    pub fn step(&mut self, full: vk::Extent2D, held: bool) -> Result<Stepped> {
+    pub fn step(&mut self, full: vk::Extent2D, hands: Hands) -> Result<Stepped> {
         if full != self.full {
             self.full = full;
             self.change();
@@ -96,7 +96,7 @@ impl<S: Sample> View<S> {
         let step = if self.picture_due && !self.pace.is_sharp() {
             self.pace.full(full)
         } else {
-            self.pace.step(Instant::now(), full, held, self.sample.accumulates())
+            self.pace.step(Instant::now(), full, hands, self.sample.accumulates())
         };
         let extent = match step {
             Step::Render(extent) => extent,
