@@ -119,9 +119,9 @@ impl Desk {
     pub fn picture(&self) -> (RgbImage, PathBuf) {
         let pictures = || {
             let files = self.folder.path().read_dir().expect("the folder is there");
-            files.map(|file| file.expect("it can be listed").path()).filter(|path| {
-                path.extension().is_some_and(|extension| extension == "png")
-            })
+            files
+                .map(|file| file.expect("it can be listed").path())
+                .filter(|path| path.extension().is_some_and(|extension| extension == "png"))
         };
         let before: Vec<PathBuf> = pictures().collect();
         self.key(KEY_F2);
@@ -170,7 +170,8 @@ impl Desk {
     fn fake(&self, event: u8, detail: u8, x: i16, y: i16) {
         let extension = self.x.extension_information("XTEST").unwrap().expect("Xvfb has XTEST");
         let mut request = [0; 36];
-        (request[0], request[1], request[4], request[5]) = (extension.major_opcode, 2, event, detail);
+        (request[0], request[1], request[4], request[5]) =
+            (extension.major_opcode, 2, event, detail);
         request[2..4].copy_from_slice(&9u16.to_ne_bytes());
         request[24..26].copy_from_slice(&x.to_ne_bytes());
         request[26..28].copy_from_slice(&y.to_ne_bytes());

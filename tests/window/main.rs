@@ -126,9 +126,10 @@ fn dragging_a_slider_never_freezes_the_panel() {
     desk.key(KEY_ESCAPE);
     let output = desk.end();
     let log = String::from_utf8_lossy(&output.stderr).into_owned();
-    let longest = log.split("longest wait for a frame ").nth(1).and_then(|rest| {
-        rest.split(' ').next()?.parse::<u32>().ok()
-    });
+    let longest = log
+        .split("longest wait for a frame ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next()?.parse::<u32>().ok());
     let longest = longest.unwrap_or_else(|| panic!("no figure in the log: {log}"));
     println!("longest wait for a frame: {longest} ms");
     assert!(longest < 250, "{longest} ms from input to picture");
@@ -164,8 +165,11 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     let (width, _) = red.dimensions();
     assert_eq!(red.get_pixel(width - 1, 0), &Rgb([255, 0, 0]), "the sky is red");
 
-    let unbound = good.replace("void main", "layout(set = 0, binding = 7, rgba32f) uniform image2D \
-                                extra;\nvoid main");
+    let unbound = good.replace(
+        "void main",
+        "layout(set = 0, binding = 7, rgba32f) uniform image2D \
+                                extra;\nvoid main",
+    );
     let end = unbound.rfind('}').expect("a body");
     edit(&format!("{}    imageStore(extra, ivec2(0), payload);\n}}\n", &unbound[..end]));
     wait("the refusal", || tells_error(&desk).then_some(()));
@@ -177,7 +181,8 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("no error", || (!tells_error(&desk)).then_some(()));
     // The value that was set outlives every reload.
     wait("the first picture", || same(&desk.picture().0, &first).then_some(()));
-    std::fs::write(&push, layout.replace("uint show", "uint less;\n    uint show")).expect("an edit");
+    std::fs::write(&push, layout.replace("uint show", "uint less;\n    uint show"))
+        .expect("an edit");
     wait("the refusal", || tells_error(&desk).then_some(()));
     desk.close();
     ended_well(desk.end());

@@ -135,11 +135,12 @@ impl Swapchain {
         }
     }
 
-    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`.
+    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`; `false` if the window has changed
+    /// and wants another.
     ///
     /// # Errors
     /// If the device was lost.
-    pub fn present(&mut self, acquired: Acquired) -> Result<()> {
+    pub fn present(&mut self, acquired: Acquired) -> Result<bool> {
         let (wait, handles, indices) = ([acquired.after], [self.handle], [acquired.index]);
         let info = vk::PresentInfoKHR::default()
             .wait_semaphores(&wait)
@@ -149,9 +150,9 @@ impl Swapchain {
         match unsafe { self.swapchains.queue_present(self.gpu.queue, &info) } {
             Ok(suboptimal) => {
                 self.stale |= suboptimal;
-                Ok(())
+                Ok(!self.stale)
             }
-            Err(error) => self.outdated(error),
+            Err(error) => self.outdated(error).map(|()| false),
         }
     }
 
@@ -167,10 +168,8 @@ impl Swapchain {
     fn capabilities(&self) -> ash::prelude::VkResult<vk::SurfaceCapabilitiesKHR> {
         // SAFETY: the surface is alive and supported by the device, here and below.
         unsafe {
-            self.surfaces.get_physical_device_surface_capabilities(
-                self.gpu.physical_device,
-                self.surface,
-            )
+            self.surfaces
+                .get_physical_device_surface_capabilities(self.gpu.physical_device, self.surface)
         }
     }
 
@@ -198,8 +197,9 @@ impl Swapchain {
         let (entry, instance) = (&self.gpu.entry, &self.gpu.instance);
         let WindowHandles { display, window } = self.window;
         // SAFETY: whoever made this swapchain keeps the window alive longer.
-        self.surface = unsafe { ash_window::create_surface(entry, instance, display, window, None) }
-            .context("cannot draw to the window")?;
+        self.surface =
+            unsafe { ash_window::create_surface(entry, instance, display, window, None) }
+                .context("cannot draw to the window")?;
         self.stale = true;
         Ok(())
     }

@@ -47,13 +47,20 @@ impl History {
                 pos2(right - bar + 0.5, area.bottom() - height),
                 pos2(right, area.bottom()),
             );
-            let color = if time.measured { style::ACCENT } else { style::ACCENT.gamma_multiply(0.45) };
+            let color =
+                if time.measured { style::ACCENT } else { style::ACCENT.gamma_multiply(0.45) };
             painter.rect_filled(rect, CornerRadius::ZERO, color);
         }
         let line = area.bottom() - room;
         painter.hline(area.x_range(), line, (1.0, Color32::from_white_alpha(18)));
         let (font, label) = (FontId::proportional(10.0), format!("{top} ms"));
-        painter.text(pos2(area.left() + 4.0, line - 1.0), Align2::LEFT_BOTTOM, label, font, style::DIM);
+        painter.text(
+            pos2(area.left() + 4.0, line - 1.0),
+            Align2::LEFT_BOTTOM,
+            label,
+            font,
+            style::DIM,
+        );
         response.on_hover_text("GPU time of a full picture; dim: foretold from a smaller one");
     }
 }

@@ -134,8 +134,7 @@ impl Navigation {
         let axis = |plus, minus| {
             f64::from(i8::from(input.key_down(plus)) - i8::from(input.key_down(minus)))
         };
-        let fly =
-            DVec3::new(axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S));
+        let fly = DVec3::new(axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S));
         let hurry = if input.modifiers.shift { HURRY } else { 1.0 };
         self.motion.fly += fly * SPEED * hurry * f64::from(input.stable_dt.min(0.1));
         fly != DVec3::ZERO

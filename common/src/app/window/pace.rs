@@ -94,13 +94,7 @@ impl Pace {
     }
 
     /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are worth rendering.
-    pub fn step(
-        &mut self,
-        now: Instant,
-        full: Extent2D,
-        hands: Hands,
-        accumulates: bool,
-    ) -> Step {
+    pub fn step(&mut self, now: Instant, full: Extent2D, hands: Hands, accumulates: bool) -> Step {
         let slow_at = match hands {
             Hands::Off => Some(self.input + HANDS_OFF),
             Hands::Near => Some(self.input + HANDS_NEAR),

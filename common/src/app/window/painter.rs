@@ -12,7 +12,6 @@ use egui_ash_renderer::{DynamicRendering, Options, RenderMode, Renderer};
 
 use crate::gpu::{Acquired, Gpu, Image, Swapchain, transition};
 
-
 /// Draws a picture and a panel to images of one format.
 pub struct Painter {
     panel: Renderer<GpuAllocator>,

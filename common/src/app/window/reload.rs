@@ -60,14 +60,13 @@ impl Reload {
         Ok(())
     }
 
-    /// A file has changed; `true` if that matters here.
-    pub fn saved(&mut self, path: &str, now: Instant) -> bool {
+    /// A file has changed.
+    pub fn saved(&mut self, path: &str, now: Instant) {
         // What mends a failure may be a file that nothing included yet.
         let matters = self.failed || self.files.iter().any(|file| file == path);
         if matters {
             self.due = Some(now + DEBOUNCE);
         }
-        matters
     }
 
     /// Asks for a compilation, whether anything has changed or not.

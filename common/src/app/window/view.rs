@@ -6,8 +6,8 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use ash::vk;
 
+use super::facts::Facts;
 use super::pace::{Hands, Pace, Step};
-use super::panel::Facts;
 use crate::app::{Frame, Picture, Sample};
 use crate::gpu::{Gpu, Image, Timer, barrier};
 
