@@ -159,8 +159,9 @@ impl Desk {
         self.point(from.0, from.1);
         self.button(true);
         for step in 1..=steps {
-            let part = |a: i16, b: i16| a + (b - a) * step / steps;
-            self.point(part(from.0, to.0), part(from.1, to.1));
+            let part = f32::from(step) / f32::from(steps);
+            let between = |a: i16, b: i16| a + (f32::from(b - a) * part).round() as i16;
+            self.point(between(from.0, to.0), between(from.1, to.1));
             std::thread::sleep(Duration::from_millis(8));
         }
         self.button(false);

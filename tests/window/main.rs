@@ -213,7 +213,11 @@ fn the_readme_shows_this_window() {
     let file = run::root().join("docs/images/window.png");
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         let desk = Desk::open("02_basic", &["--size", "1280x720"], &[]);
-        desk.drag((900, 500), (920, 500), 20);
+        // There and back, until the plot is full.
+        for _ in 0..2 {
+            desk.drag((800, 500), (1100, 540), 240);
+            desk.drag((1100, 540), (800, 500), 240);
+        }
         desk.key(KEY_HOME);
         let (picture, _) = desk.picture();
         desk.point(1100, 690);

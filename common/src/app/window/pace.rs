@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 use ash::vk::Extent2D;
 
 /// Milliseconds for a picture while something moves: a fifteenth of a second, less the panel's share.
-const MOVING: f64 = 45.0;
+const MOVING: f64 = 40.0;
 /// Milliseconds that a still picture may take while someone is at the controls.
-const QUICK: f64 = 140.0;
+const QUICK: f64 = 120.0;
 /// How long nothing must change before the picture sharpens.
 const STILL: Duration = Duration::from_millis(150);
 /// How long there must be no input before a picture that is not quick begins: nothing can interrupt it.
@@ -20,7 +20,7 @@ const HANDS_OFF: Duration = Duration::from_millis(700);
 /// The same while the pointer rests on the panel, whose sliders are likely to be taken again.
 const HANDS_NEAR: Duration = Duration::from_secs(2);
 /// The level that a software driver starts at, before its speed is known.
-const UNKNOWN: u32 = 8;
+const UNKNOWN: u32 = 9;
 /// The smallest picture: a sixteenth of the width and the height.
 const LAST: u32 = 16;
 

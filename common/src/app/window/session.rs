@@ -14,6 +14,7 @@ use winit::window::Window;
 use super::facts::Facts;
 use super::keys::Ask;
 use super::lag::Lag;
+use super::pace::Hands;
 use super::painter::Painter;
 use super::panel::{Outcome, Panel};
 use super::reload::Reload;
@@ -89,7 +90,7 @@ impl<'a, S: Sample> Session<'a, S> {
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);
-        let session = Self {
+        let mut session = Self {
             view: View::new(&gpu, sample)?,
             painter: Painter::new(&gpu, &swapchain)?,
             swapchain,
@@ -118,6 +119,8 @@ impl<'a, S: Sample> Session<'a, S> {
             lag: Lag::default(),
             window,
         };
+        // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
+        session.view.step(args.size, Hands::Off)?;
         session.window.set_visible(true);
         session.window.request_redraw();
         Ok(session)
@@ -150,7 +153,10 @@ impl<'a, S: Sample> Session<'a, S> {
     pub fn close(self) -> Result<()> {
         let longest = self.lag.longest.as_millis();
         tracing::info!("{} frames; longest wait for a frame {longest} ms", self.presented);
-        check_validation(&self.gpu)
+        // Messages about what was never destroyed come when the device is.
+        let validation = self.gpu.validation();
+        drop(self);
+        check_validation(&validation)
     }
 
     /// A file below `shaders/` was written.
