@@ -20,15 +20,19 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size)]
     pub size: vk::Extent2D,
 
-    /// Frames to render headless; the last one is the picture
+    /// Frames to render; the last one is the picture, and a window closes after it
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
 
-    /// Write the last frame: .png (8-bit sRGB) or .exr (linear, unclamped)
+    /// Whether --frames was given: without it, a window stays open
+    #[arg(skip)]
+    pub frames_given: bool,
+
+    /// Write the last frame (with --headless; in a window, F2 writes one): .png (8-bit sRGB) or .exr (linear, unclamped)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// Write device, times, stages and messages as JSON; - is standard output
+    /// With --headless, write device, times, stages and messages as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 
@@ -60,6 +64,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE.obj")]
     pub scene: Option<PathBuf>,
 
+    /// Compile these shaders and exit: how a window tries an edit, as a compiler may abort on one
+    #[arg(long, hide = true, num_args = 1.., value_name = "PATH")]
+    pub compile: Vec<String>,
+
     /// Build acceleration structures in the model's order instead of a spatial one
     #[arg(long)]
     pub unordered: bool,
@@ -73,9 +81,13 @@ impl Args {
     /// # Errors
     /// One line that says what is wrong and where to look.
     pub fn parse_for(name: &'static str) -> Result<Self, Usage> {
-        use clap::{CommandFactory, FromArgMatches};
+        use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
         let command = Self::command().name(name);
-        let matches = command.try_get_matches().and_then(|m| Self::from_arg_matches(&m));
+        let matches = command.try_get_matches().and_then(|matches| {
+            let mut args = Self::from_arg_matches(&matches)?;
+            args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
+            Ok(args)
+        });
         matches.map_err(|error| {
             if !error.use_stderr() {
                 error.exit();

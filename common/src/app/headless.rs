@@ -31,7 +31,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         requirements: S::requirements(),
         device: args.device.as_deref(),
         validate: args.validate,
-        surface_extensions: Vec::new(),
+        window: None,
     })?;
     check_size(&gpu, args.size)?;
     let setup = Setup::new(args);
@@ -154,7 +154,11 @@ pub fn check_files(args: &Args) -> Result<()> {
     }
 }
 
-fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
+/// Fails if a picture is larger than the device allows.
+///
+/// # Errors
+/// With what it allows.
+pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
     let side = gpu.limits.max_image_dimension;
     let rays = u64::from(gpu.limits.max_ray_dispatch_invocation_count);
     let fits = size.width <= side

@@ -7,6 +7,7 @@ mod headless;
 pub mod output;
 mod picture;
 mod report;
+mod window;
 
 use std::cell::Cell;
 use std::path::PathBuf;
@@ -49,6 +50,13 @@ pub trait Sample: Sized {
     /// # Errors
     /// If something has to be rebuilt and cannot be.
     fn render(&mut self, frame: &Frame) -> Result<()>;
+
+    /// Whether further frames of an unchanged view improve the picture, as with accumulation.
+    ///
+    /// Without it, a window at rest renders nothing.
+    fn accumulates(&self) -> bool {
+        false
+    }
 
     /// What the chapter itself has to tell after the last frame; part of `--report`.
     ///
@@ -133,10 +141,16 @@ fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
     }
+    for shader in &args.compile {
+        compile_shader(shader)?;
+    }
+    if !args.compile.is_empty() {
+        return Ok(());
+    }
     if args.headless || args.list_controls || args.compare.is_some() {
         return headless::<S>(name, args);
     }
-    Err(Usage("no window yet: add --headless".to_owned()).into())
+    window::open::<S>(name, args)
 }
 
 /// Prints every device with its driver, and what it lacks.

@@ -4,7 +4,7 @@
 //! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CStr, CString};
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,6 +13,7 @@ use std::time::Duration;
 use anyhow::{Context as _, Result, anyhow};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
 use super::device::{self, Candidate};
 use super::layout::StructLayout;
@@ -29,8 +30,17 @@ pub struct GpuOptions<'a> {
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
-    /// Instance extensions of the window system.
-    pub surface_extensions: Vec<*const c_char>,
+    /// The window to draw to, if any: the device must have a queue that can.
+    pub window: Option<WindowHandles>,
+}
+
+/// A window as its system knows it. It must outlive whatever is made from it.
+#[derive(Clone, Copy)]
+pub struct WindowHandles {
+    /// The connection to the window system.
+    pub display: RawDisplayHandle,
+    /// The window.
+    pub window: RawWindowHandle,
 }
 
 /// A shared handle to the device and all that belongs to it.
@@ -61,6 +71,8 @@ pub struct GpuContext {
     pub name: String,
     /// Its driver, in its maker's words.
     pub driver: String,
+    /// Whether it is a driver that runs on the CPU.
+    pub software: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
     /// Device memory, shared with the panel's painter.
@@ -123,7 +135,7 @@ pub fn load() -> Result<Entry> {
 /// If there is no Vulkan.
 pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
     let entry = load()?;
-    let (instance, _) = create_instance(&entry, None, &[])?;
+    let (instance, _) = create_instance(&entry, None, None)?;
     let candidates = device::candidates(&instance, wanted);
     // SAFETY: nothing has been made from this instance.
     unsafe { instance.destroy_instance(None) };
@@ -141,9 +153,13 @@ impl Gpu {
         let entry = load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
-            create_instance(&entry, messages.as_deref(), &options.surface_extensions)?;
-        let chosen = device::candidates(&instance, &options.requirements)
-            .and_then(|candidates| device::choose(candidates, options.device));
+            create_instance(&entry, messages.as_deref(), options.window.as_ref())?;
+        let chosen = device::candidates(&instance, &options.requirements).and_then(|mut found| {
+            if let Some(window) = &options.window {
+                device::require_presentation(&entry, &instance, window, &mut found)?;
+            }
+            device::choose(found, options.device)
+        });
         let chosen = match chosen {
             Ok(chosen) => chosen,
             Err(error) => {
@@ -220,6 +236,7 @@ impl Gpu {
             limits: Limits::of(&instance, physical_device, queue_family),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
+            software: chosen.kind == vk::PhysicalDeviceType::CPU,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
             shared_structs: Mutex::default(),
@@ -256,6 +273,20 @@ impl Gpu {
     /// # Errors
     /// If recording or the device fails.
     pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
+        self.submit_between(vk::Semaphore::null(), vk::Semaphore::null(), record)
+    }
+
+    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end;
+    /// either may be null.
+    ///
+    /// # Errors
+    /// As [`Gpu::submit`].
+    pub fn submit_between<R>(
+        &self,
+        before: vk::Semaphore,
+        after: vk::Semaphore,
+        record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
+    ) -> Result<R> {
         let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
         let info =
             vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
@@ -267,16 +298,33 @@ impl Gpu {
             self.device.begin_command_buffer(cmd, &begin)?;
             let result = record(cmd);
             self.device.end_command_buffer(cmd)?;
-            let done = if result.is_ok() { self.run(cmd) } else { Ok(()) };
+            let done = if result.is_ok() { self.run(cmd, before, after) } else { Ok(()) };
             self.device.free_command_buffers(pool, &[cmd]);
             done?;
             result
         }
     }
 
-    fn run(&self, cmd: vk::CommandBuffer) -> Result<()> {
+    fn run(
+        &self,
+        cmd: vk::CommandBuffer,
+        before: vk::Semaphore,
+        after: vk::Semaphore,
+    ) -> Result<()> {
+        let semaphores = [before, after].map(|semaphore| {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)
+        });
+        let [before, after] =
+            semaphores.each_ref().map(|info| match info.semaphore == vk::Semaphore::null() {
+                true => &[][..],
+                false => std::slice::from_ref(info),
+            });
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+        let submit = [vk::SubmitInfo2::default()
+            .wait_semaphore_infos(before)
+            .command_buffer_infos(&buffers)
+            .signal_semaphore_infos(after)];
         // SAFETY: cmd is recorded; the fence is destroyed after the wait.
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
@@ -321,7 +369,7 @@ impl Gpu {
 fn create_instance(
     entry: &Entry,
     messages: Option<&Messages>,
-    surface_extensions: &[*const c_char],
+    window: Option<&WindowHandles>,
 ) -> Result<(Instance, bool)> {
     // SAFETY: the loader is alive.
     let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
@@ -330,11 +378,16 @@ fn create_instance(
     )?;
     let has_debug_utils =
         offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
-    let mut extensions = surface_extensions.to_vec();
+    let mut extensions = Vec::new();
+    if let Some(window) = window {
+        let needed = ash_window::enumerate_required_extensions(window.display)
+            .context("Vulkan does not know this window system")?;
+        extensions.extend_from_slice(needed);
+    }
     if has_debug_utils || messages.is_some() {
         extensions.push(ext::debug_utils::NAME.as_ptr());
     }
-    let mut layers: Vec<*const c_char> = Vec::new();
+    let mut layers: Vec<*const std::ffi::c_char> = Vec::new();
     let application = vk::ApplicationInfo::default()
         .application_name(c"ray tracing")
         .api_version(vk::API_VERSION_1_3);
@@ -360,6 +413,9 @@ fn create_instance(
         Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => Err(anyhow!(
             "no Vulkan driver: run ./setup to install a software driver with ray tracing, or install \
              your GPU's driver"
+        )),
+        Err(vk::Result::ERROR_EXTENSION_NOT_PRESENT) if window.is_some() => Err(anyhow!(
+            "Vulkan cannot draw to this window system: add --headless to render without a window"
         )),
         Err(error) => Err(error).context("cannot create a Vulkan instance"),
     }

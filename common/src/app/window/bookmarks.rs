@@ -1,0 +1,65 @@
+//! Places of the camera that a chapter's reader keeps, one a digit.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+
+use crate::files::write_whole;
+use crate::scene::Camera;
+
+/// Cameras by digit, kept in `target/bookmarks` from one run to the next.
+pub struct Bookmarks {
+    file: PathBuf,
+    /// Eye, target, up, field of view.
+    places: BTreeMap<usize, [f64; 10]>,
+}
+
+impl Bookmarks {
+    /// The bookmarks of a chapter; none if there is no file, or one that cannot be read.
+    pub fn open(name: &str) -> Self {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/bookmarks"));
+        Self::open_in(folder, name)
+    }
+
+    fn open_in(folder: &Path, name: &str) -> Self {
+        let file = folder.join(name).with_extension("json");
+        let places = std::fs::read(&file).ok().and_then(|b| serde_json::from_slice(&b).ok());
+        Self { file, places: places.unwrap_or_default() }
+    }
+
+    /// The camera that was stored under a digit.
+    pub fn get(&self, digit: usize) -> Option<Camera> {
+        let place = self.places.get(&digit)?;
+        let point = |at: usize| DVec3::from_slice(&place[at..at + 3]);
+        Some(Camera { eye: point(0), target: point(3), up: point(6), fov_y: place[9] })
+    }
+
+    /// Stores a camera.
+    pub fn set(&mut self, digit: usize, camera: Camera) {
+        let mut place = [camera.fov_y; 10];
+        for (part, point) in place.chunks_mut(3).zip([camera.eye, camera.target, camera.up]) {
+            part.copy_from_slice(&point.to_array());
+        }
+        self.places.insert(digit, place);
+        // Bookmarks that cannot be kept still serve this run.
+        let _ = self.file.parent().map(std::fs::create_dir_all);
+        let _ = serde_json::to_vec(&self.places).map(|bytes| write_whole(&self.file, &bytes));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_there_again_in_the_next_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let camera = Camera::new(DVec3::new(0.1, 2.0, 1e9), DVec3::splat(1.0 / 3.0), 30.0);
+        let mut bookmarks = Bookmarks::open_in(folder.path(), "02_basic");
+        assert_eq!(bookmarks.get(3), None);
+        bookmarks.set(3, camera);
+        assert_eq!(Bookmarks::open_in(folder.path(), "02_basic").get(3), Some(camera));
+        assert_eq!(Bookmarks::open_in(folder.path(), "03_any_hit").get(3), None);
+    }
+}

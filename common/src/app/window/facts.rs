@@ -1,0 +1,43 @@
+//! What the panel and the title tell of the run.
+
+/// What the panel tells of the run.
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// The sample's name.
+    pub name: String,
+    /// The device's name.
+    pub device: String,
+    /// Whether it is a driver that runs on the CPU.
+    pub software: bool,
+    /// Milliseconds of the last picture on the device.
+    pub milliseconds: f64,
+    /// The last picture's width and height.
+    pub rendered: [u32; 2],
+    /// The window's.
+    pub full: [u32; 2],
+    /// How many pictures have been accumulated, if the sample does that.
+    pub accumulated: Option<u32>,
+}
+
+impl Facts {
+    /// Primary rays a second.
+    pub fn rays(&self) -> f64 {
+        let [width, height] = self.rendered.map(f64::from);
+        if self.milliseconds > 0.0 { width * height / self.milliseconds * 1e3 } else { 0.0 }
+    }
+
+    /// The window's title.
+    pub fn title(&self) -> String {
+        let kind = if self.software { ", software" } else { "" };
+        let (name, device) = (&self.name, &self.device);
+        format!("{name} · {device}{kind} · {:.1} ms · {}", self.milliseconds, rays(self.rays()))
+    }
+}
+
+/// A rate in words.
+pub fn rays(rate: f64) -> String {
+    match rate {
+        rate if rate >= 1e9 => format!("{:.2} Grays/s", rate * 1e-9),
+        rate => format!("{:.2} Mrays/s", rate * 1e-6),
+    }
+}

@@ -1,0 +1,143 @@
+//! A sample in a window: events in, pictures and panel out.
+//!
+//! One frame is in flight, and nothing is drawn while nothing changes: a redraw is asked for by input,
+//! by the panel's animations, by a picture that is to sharpen or accumulate, and by edited shaders.
+
+mod bookmarks;
+mod facts;
+mod history;
+mod keys;
+mod lag;
+mod navigation;
+mod pace;
+mod painter;
+mod panel;
+mod reload;
+mod rows;
+mod session;
+mod style;
+mod view;
+
+use anyhow::{Context, Result, anyhow};
+use winit::application::ApplicationHandler;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::window::WindowId;
+
+use self::session::Session;
+use super::Sample;
+use super::args::Args;
+use crate::usage::Usage;
+
+/// What reaches the event loop from other threads.
+enum Wake {
+    /// A file below `shaders/` was written.
+    Saved(String),
+    /// The child has compiled the shaders, or says why it could not.
+    Compiled(Result<(), String>),
+}
+
+/// Opens a window for a sample and returns when it is closed.
+///
+/// # Errors
+/// On wrong arguments ([`Usage`]), without a display, if anything fails, or if validation had something
+/// to say.
+pub fn open<S: Sample>(name: &str, args: &Args) -> Result<()> {
+    if args.out.is_some() || args.report.is_some() {
+        let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
+        return Err(Usage(hint.to_owned()).into());
+    }
+    log_if_asked();
+    let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
+    let proxy = events.create_proxy();
+    let mut program = Program::<S> { name, args, proxy, session: None, outcome: Ok(()) };
+    events.run_app(&mut program).context("the window system failed")?;
+    program.outcome
+}
+
+/// What is wrong with the display, and what to do.
+fn no_display() -> anyhow::Error {
+    let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let asked = value("WAYLAND_DISPLAY").or_else(|| value("DISPLAY"));
+    let why = asked.map_or_else(
+        || "no display: set".to_owned(),
+        |display| format!("no display at '{display}': check"),
+    );
+    anyhow!("{why} DISPLAY or WAYLAND_DISPLAY, or add --headless to render without a window")
+}
+
+/// `RUST_LOG=common=debug` tells of every frame, `info` of the longest wait; without it all is silent.
+fn log_if_asked() {
+    use tracing_subscriber::filter::{EnvFilter, LevelFilter};
+    let filter = EnvFilter::builder().with_default_directive(LevelFilter::OFF.into());
+    let log = tracing_subscriber::fmt().with_writer(std::io::stderr);
+    // A program that has set up its own keeps it.
+    let _ = log.with_env_filter(filter.from_env_lossy()).try_init();
+}
+
+struct Program<'a, S> {
+    name: &'a str,
+    args: &'a Args,
+    proxy: EventLoopProxy<Wake>,
+    session: Option<Session<'a, S>>,
+    outcome: Result<()>,
+}
+
+impl<S: Sample> Program<'_, S> {
+    fn fail(&mut self, events: &ActiveEventLoop, error: anyhow::Error) {
+        self.outcome = Err(error);
+        events.exit();
+    }
+}
+
+impl<S: Sample> ApplicationHandler<Wake> for Program<'_, S> {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.session.is_some() {
+            return;
+        }
+        match Session::new(events, self.name, self.args, self.proxy.clone()) {
+            Ok(session) => self.session = Some(session),
+            Err(error) => self.fail(events, error),
+        }
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if let Some(session) = &mut self.session {
+            session.wake(matches!(cause, StartCause::ResumeTimeReached { .. }));
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(session) = &mut self.session else { return };
+        match event {
+            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::RedrawRequested => match session.draw() {
+                Ok(true) => {}
+                Ok(false) => events.exit(),
+                Err(error) => self.fail(events, error),
+            },
+            event => session.take(&event),
+        }
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
+        let Some(session) = &mut self.session else { return };
+        match wake {
+            Wake::Saved(path) => session.saved(&path),
+            Wake::Compiled(result) => session.compiled(result),
+        }
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let next = self.session.as_mut().and_then(Session::sleep);
+        events.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        // The surface must go before the connection to the window system does.
+        let closed = self.session.take().map_or(Ok(()), Session::close);
+        if self.outcome.is_ok() {
+            self.outcome = closed;
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! How large the next picture may be, so that the window stays responsive on any device.
+//!
+//! While something changes, pictures are as large as fifteen of them a second allow. Once nothing has
+//! changed for a moment, the picture sharpens: to full size at once if that is quick, else first to the
+//! largest size that is quick, and to full size when nobody is at the controls. A device that traces
+//! full size within the budget never sees any of this.
+
+use std::time::{Duration, Instant};
+
+use ash::vk::Extent2D;
+
+/// Milliseconds for a picture while something moves: a fifteenth of a second, less the panel's share.
+const MOVING: f64 = 40.0;
+/// Milliseconds that a still picture may take while someone is at the controls.
+const QUICK: f64 = 120.0;
+/// How long nothing must change before the picture sharpens.
+const STILL: Duration = Duration::from_millis(150);
+/// How long there must be no input before a picture that is not quick begins: nothing can interrupt it.
+const HANDS_OFF: Duration = Duration::from_millis(700);
+/// The same while the pointer rests on the panel, whose sliders are likely to be taken again.
+const HANDS_NEAR: Duration = Duration::from_secs(2);
+/// The level that a software driver starts at, before its speed is known.
+const UNKNOWN: u32 = 9;
+/// The smallest picture: a sixteenth of the width and the height.
+const LAST: u32 = 16;
+
+/// Where the user's hands are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hands {
+    /// Away from the panel.
+    #[default]
+    Off,
+    /// The pointer rests on the panel.
+    Near,
+    /// A button or a key is down.
+    On,
+}
+
+/// What to do for the next frame of the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// Render a picture of this size.
+    Render(Extent2D),
+    /// Show the last one again; the next step is due then, or when something changes.
+    Keep(Option<Instant>),
+}
+
+/// Chooses sizes from the times that earlier pictures took.
+pub struct Pace {
+    /// Milliseconds a pixel.
+    cost: Option<f64>,
+    /// The first picture after a start also compiles shaders in the driver: its time tells nothing.
+    warm: bool,
+    start: u32,
+    level: u32,
+    shown: Option<u32>,
+    changed: Instant,
+    input: Instant,
+}
+
+impl Pace {
+    /// Knows nothing yet; a software driver begins small.
+    pub fn new(software: bool, now: Instant) -> Self {
+        let start = if software { UNKNOWN } else { 0 };
+        let (cost, shown) = (None, None);
+        Self { cost, warm: false, start, level: start, shown, changed: now, input: now }
+    }
+
+    /// The picture no longer shows how things stand.
+    pub fn change(&mut self, now: Instant) {
+        self.shown = None;
+        self.changed = now;
+    }
+
+    /// Someone is at the controls.
+    pub fn input(&mut self, now: Instant) {
+        self.input = now;
+    }
+
+    /// New shaders: what was known of their speed is void.
+    pub fn restart(&mut self, now: Instant) {
+        self.warm = false;
+        self.change(now);
+    }
+
+    /// A picture of `pixels` took so many milliseconds.
+    pub fn took(&mut self, pixels: u64, milliseconds: f64) {
+        let cost = milliseconds / pixels.max(1) as f64;
+        if self.warm {
+            // The mean of the last few, so that one hiccup of the machine changes no size.
+            self.cost = Some(self.cost.map_or(cost, |before| 0.6 * before + 0.4 * cost));
+        }
+        self.warm = true;
+    }
+
+    /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are worth rendering.
+    pub fn step(&mut self, now: Instant, full: Extent2D, hands: Hands, accumulates: bool) -> Step {
+        let slow_at = match hands {
+            Hands::Off => Some(self.input + HANDS_OFF),
+            Hands::Near => Some(self.input + HANDS_NEAR),
+            Hands::On => None,
+        };
+        let slow_may_begin = slow_at.is_some_and(|at| at <= now);
+        let level = match self.shown {
+            None => {
+                self.level = self.level_within(MOVING, full, self.level);
+                self.level
+            }
+            Some(0) if accumulates && (self.is_quick(full) || slow_may_begin) => 0,
+            Some(0) if accumulates => return Step::Keep(slow_at),
+            Some(0) => return Step::Keep(None),
+            // The first picture told nothing: its like is rendered again.
+            Some(level) if self.cost.is_none() => level,
+            Some(_) if now < self.changed + STILL => {
+                return Step::Keep(Some(self.changed + STILL));
+            }
+            Some(shown) => {
+                let quick = self.level_within(QUICK, full, 0);
+                if quick < shown {
+                    quick
+                } else if slow_may_begin {
+                    0
+                } else {
+                    return Step::Keep(slow_at);
+                }
+            }
+        };
+        self.shown = Some(level);
+        Step::Render(size(full, level))
+    }
+
+    /// Full size at once, whatever it takes.
+    pub fn full(&mut self, full: Extent2D) -> Step {
+        self.shown = Some(0);
+        Step::Render(full)
+    }
+
+    /// Whether the last picture was full size and shows how things stand.
+    pub fn is_sharp(&self) -> bool {
+        self.shown == Some(0)
+    }
+
+    fn is_quick(&self, full: Extent2D) -> bool {
+        self.level_within(QUICK, full, 0) == 0
+    }
+
+    /// The largest size whose predicted time is within `budget`; one step larger than `current` only
+    /// with room to spare, so that sizes do not flicker.
+    fn level_within(&self, budget: f64, full: Extent2D, current: u32) -> u32 {
+        let Some(cost) = self.cost else { return self.start };
+        let predicted = cost * f64::from(full.width) * f64::from(full.height);
+        // A level has 1/√2 of the pixels of the one before.
+        let exact = 2.0 * (predicted / budget).log2();
+        let fits = exact.ceil().clamp(0.0, LAST.into()) as u32;
+        if fits + 1 == current && exact > f64::from(fits) - 0.4 { current } else { fits }
+    }
+}
+
+fn size(full: Extent2D, level: u32) -> Extent2D {
+    let scale = (-f64::from(level) / 4.0).exp2();
+    let side = |pixels: u32| ((f64::from(pixels) * scale).round() as u32).max(1);
+    Extent2D { width: side(full.width), height: side(full.height) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FULL: Extent2D = Extent2D { width: 1280, height: 720 };
+
+    struct Simulation {
+        pace: Pace,
+        now: Instant,
+        full_milliseconds: f64,
+    }
+
+    impl Simulation {
+        fn new(full_milliseconds: f64) -> Self {
+            let now = Instant::now();
+            Self { pace: Pace::new(true, now), now, full_milliseconds }
+        }
+
+        /// Takes a step and returns the milliseconds that it took, 0 for none.
+        fn step(&mut self, hands: Hands) -> f64 {
+            let Step::Render(size) = self.pace.step(self.now, FULL, hands, false) else {
+                self.now += Duration::from_millis(10);
+                return 0.0;
+            };
+            let pixels = u64::from(size.width) * u64::from(size.height);
+            let part = pixels as f64 / (1280.0 * 720.0);
+            self.pace.took(pixels, part * self.full_milliseconds);
+            self.now += Duration::from_secs_f64(part * self.full_milliseconds / 1e3);
+            part * self.full_milliseconds
+        }
+    }
+
+    #[test]
+    fn a_drag_stays_within_the_budget_and_then_sharpens() {
+        for full in [20.0, 100.0, 325.0, 5000.0] {
+            let mut run = Simulation::new(full);
+            for frame in 0..100 {
+                run.pace.change(run.now);
+                run.pace.input(run.now);
+                let took = run.step(Hands::On);
+                assert!(took > 0.0 && (took <= MOVING || frame < 2), "{full}: {took}");
+            }
+            // The button is still held: no slow picture begins, however long.
+            for _ in 0..200 {
+                assert!(run.step(Hands::On) <= QUICK, "{full}");
+            }
+            let released = run.now;
+            run.pace.input(released);
+            while !run.pace.is_sharp() {
+                run.step(Hands::Near);
+                assert!(run.now < released + Duration::from_secs(9), "{full} never sharpens");
+            }
+            assert_eq!(run.step(Hands::Off), 0.0, "a sharp picture is kept");
+        }
+    }
+
+    #[test]
+    fn a_fast_device_renders_full_size_from_the_first_frame() {
+        let now = Instant::now();
+        let mut pace = Pace::new(false, now);
+        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
+        pace.took(1280 * 720, 900.0);
+        pace.change(now);
+        pace.step(now, FULL, Hands::On, false);
+        pace.took(1280 * 720, 2.0);
+        pace.change(now);
+        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
+    }
+
+    #[test]
+    fn accumulation_goes_on_at_full_size() {
+        let now = Instant::now();
+        let mut pace = Pace::new(false, now);
+        for _ in 0..5 {
+            assert_eq!(pace.step(now, FULL, Hands::Off, true), Step::Render(FULL));
+            pace.took(1280 * 720, 5.0);
+        }
+        assert_eq!(pace.step(now, FULL, Hands::Off, false), Step::Keep(None));
+    }
+}

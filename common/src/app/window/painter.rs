@@ -1,0 +1,186 @@
+//! Puts the picture and the panel on the window.
+//!
+//! Both meet on a canvas. The picture is blitted to it as sRGB, so that the device converts linear
+//! floats; the panel is blended over it as plain bytes, because its colours were chosen in sRGB. The
+//! canvas is then copied, bit by bit, to the window, whose images may have either format.
+
+use anyhow::{Context as _, Result};
+use ash::vk;
+use egui::{ClippedPrimitive, TextureId, TexturesDelta};
+use egui_ash_renderer::allocator::GpuAllocator;
+use egui_ash_renderer::{DynamicRendering, Options, RenderMode, Renderer};
+
+use crate::gpu::{Acquired, Gpu, Image, Swapchain, transition};
+
+/// Draws a picture and a panel to images of one format.
+pub struct Painter {
+    panel: Renderer<GpuAllocator>,
+    canvas: Option<Image>,
+    srgb: vk::Format,
+    unorm: vk::Format,
+    filter: vk::Filter,
+    pool: vk::CommandPool,
+    unused: Vec<TextureId>,
+    gpu: Gpu,
+}
+
+impl Painter {
+    /// A painter for the images of a swapchain.
+    ///
+    /// # Errors
+    /// If the device refuses the panel's pipeline.
+    pub fn new(gpu: &Gpu, swapchain: &Swapchain) -> Result<Self> {
+        let format = DynamicRendering {
+            color_attachment_format: swapchain.unorm,
+            depth_attachment_format: None,
+            stencil_attachment_format: None,
+        };
+        let panel = Renderer::with_gpu_allocator(
+            (*gpu.allocator).clone(),
+            gpu.device.clone(),
+            RenderMode::DynamicRendering(format),
+            Options::default(),
+        )
+        .context("cannot draw the panel")?;
+        let info = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(gpu.queue_family);
+        // SAFETY: the device is alive; the pool is destroyed on drop.
+        let pool = unsafe { gpu.device.create_command_pool(&info, None)? };
+        // SAFETY: the physical device belongs to the live instance.
+        let picture = unsafe {
+            let format = vk::Format::R32G32B32A32_SFLOAT;
+            gpu.instance.get_physical_device_format_properties(gpu.physical_device, format)
+        };
+        let linear = vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
+        let smooth = picture.optimal_tiling_features.contains(linear);
+        Ok(Self {
+            panel,
+            canvas: None,
+            srgb: swapchain.srgb,
+            unorm: swapchain.unorm,
+            filter: if smooth { vk::Filter::LINEAR } else { vk::Filter::NEAREST },
+            pool,
+            unused: Vec::new(),
+            gpu: gpu.clone(),
+        })
+    }
+
+    /// Takes up new textures of the panel; to be called for every drawing, shown or not.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn textures(&mut self, mut textures: TexturesDelta) -> Result<()> {
+        for id in self.unused.drain(..) {
+            self.panel.free_texture(id)?;
+        }
+        for (id, deltas) in textures.set.drain() {
+            for delta in deltas {
+                self.panel.set_texture(self.gpu.queue, self.pool, id, &delta)?;
+            }
+        }
+        // The drawing at hand may still use what it frees.
+        self.unused.extend(textures.free.drain());
+        Ok(())
+    }
+
+    /// Draws `picture`, scaled to `extent`, and the panel to an image of the window.
+    ///
+    /// # Errors
+    /// If memory is short or the device fails.
+    pub fn paint(
+        &mut self,
+        picture: &Image,
+        extent: vk::Extent2D,
+        (triangles, scale): (&[ClippedPrimitive], f32),
+        target: Acquired,
+    ) -> Result<()> {
+        use vk::ImageLayout as Layout;
+        if self.canvas.as_ref().is_none_or(|canvas| canvas.extent != extent) {
+            self.canvas = None;
+            let canvas = Image::canvas(&self.gpu, "canvas", extent, self.srgb, self.unorm)?;
+            self.canvas = Some(canvas);
+        }
+        let canvas = self.canvas.as_ref().context("the canvas was just made")?;
+        let (gpu, panel, filter) = (&self.gpu, &mut self.panel, self.filter);
+        gpu.submit_between(target.before, target.after, |cmd| {
+            canvas.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
+            picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
+            let filter = if picture.extent == extent { vk::Filter::NEAREST } else { filter };
+            blit(gpu, cmd, picture, canvas, filter);
+            picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
+            canvas.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::COLOR_ATTACHMENT_OPTIMAL);
+            let attachments = [vk::RenderingAttachmentInfo::default()
+                .image_view(canvas.view)
+                .image_layout(Layout::COLOR_ATTACHMENT_OPTIMAL)
+                .load_op(vk::AttachmentLoadOp::LOAD)
+                .store_op(vk::AttachmentStoreOp::STORE)];
+            let info = vk::RenderingInfo::default()
+                .render_area(extent.into())
+                .layer_count(1)
+                .color_attachments(&attachments);
+            // SAFETY: the canvas is in the layout named and outlives the submission, as does the panel.
+            unsafe { gpu.device.cmd_begin_rendering(cmd, &info) };
+            let drawn = panel.cmd_draw(cmd, extent, scale, triangles);
+            // SAFETY: rendering was begun above.
+            unsafe { gpu.device.cmd_end_rendering(cmd) };
+            drawn.context("cannot draw the panel")?;
+            canvas.transition(cmd, Layout::COLOR_ATTACHMENT_OPTIMAL, Layout::TRANSFER_SRC_OPTIMAL);
+            transition(gpu, cmd, target.image, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
+            let region = vk::ImageCopy::default()
+                .src_subresource(LAYER)
+                .dst_subresource(LAYER)
+                .extent(extent.into());
+            // SAFETY: both images are in the layouts named and as large as the region.
+            unsafe {
+                gpu.device.cmd_copy_image(
+                    cmd,
+                    canvas.handle,
+                    Layout::TRANSFER_SRC_OPTIMAL,
+                    target.image,
+                    Layout::TRANSFER_DST_OPTIMAL,
+                    &[region],
+                );
+            }
+            let shown = Layout::PRESENT_SRC_KHR;
+            transition(gpu, cmd, target.image, Layout::TRANSFER_DST_OPTIMAL, shown);
+            Ok(())
+        })
+    }
+}
+
+/// The one layer that every image here has.
+const LAYER: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    mip_level: 0,
+    base_array_layer: 0,
+    layer_count: 1,
+};
+
+fn blit(gpu: &Gpu, cmd: vk::CommandBuffer, from: &Image, to: &Image, filter: vk::Filter) {
+    let corners = |extent: vk::Extent2D| {
+        let far = vk::Offset3D { x: extent.width as i32, y: extent.height as i32, z: 1 };
+        [vk::Offset3D::default(), far]
+    };
+    let regions = [vk::ImageBlit2::default()
+        .src_subresource(LAYER)
+        .src_offsets(corners(from.extent))
+        .dst_subresource(LAYER)
+        .dst_offsets(corners(to.extent))];
+    let info = vk::BlitImageInfo2::default()
+        .src_image(from.handle)
+        .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
+        .dst_image(to.handle)
+        .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
+        .regions(&regions)
+        .filter(filter);
+    // SAFETY: both images are in the layouts named and outlive the submission.
+    unsafe { gpu.device.cmd_blit_image2(cmd, &info) };
+}
+
+impl Drop for Painter {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for.
+        unsafe { self.gpu.device.destroy_command_pool(self.pool, None) };
+    }
+}

@@ -1,0 +1,387 @@
+//! The panel over the picture: what is measured, the controls, what went wrong.
+
+use std::time::{Duration, Instant};
+
+use egui::{Align, Align2, Area, Context, Id, Layout, RichText, ScrollArea, Sense, Ui};
+
+use super::facts::{Facts, rays};
+use super::history::History;
+use super::keys::{self, Ask};
+use super::navigation::Navigation;
+use super::pace::Hands;
+use super::rows::{self, Hidden, Rows};
+use super::style;
+use crate::app::Controls;
+
+/// The distance of the panel from the window's edges, and its width.
+const MARGIN: f32 = 12.0;
+const WIDTH: f32 = 292.0;
+/// How long a note stands.
+const MOMENT: Duration = Duration::from_secs(4);
+
+/// What a frame of the panel found out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// A control has changed or the camera has moved.
+    pub changed: bool,
+    /// Keys that ask something of the window, in order.
+    pub asked: Vec<Ask>,
+    /// Where the user's hands were.
+    pub hands: Hands,
+}
+
+impl Outcome {
+    /// Adds what another pass over the same frame found out.
+    pub fn merge(&mut self, other: Self) {
+        self.changed |= other.changed;
+        self.hands = other.hands;
+        for ask in other.asked {
+            if !self.asked.contains(&ask) {
+                self.asked.push(ask);
+            }
+        }
+    }
+}
+
+/// The panel's own state.
+pub struct Panel {
+    /// The camera in the hand.
+    pub navigation: Navigation,
+    /// The last device times.
+    pub history: History,
+    /// What is wrong with the shaders, until it is mended.
+    pub error: Option<String>,
+    note: Option<(String, Instant)>,
+    shown: bool,
+    help: bool,
+}
+
+impl Panel {
+    /// The panel of the chapter `name`.
+    pub fn new(name: &str) -> Self {
+        Self {
+            navigation: Navigation::new(name),
+            history: History::default(),
+            error: None,
+            note: None,
+            shown: true,
+            help: false,
+        }
+    }
+
+    /// Tells for a moment what was done, such as a file that was written.
+    pub fn tell(&mut self, note: String) {
+        self.note = Some((note, Instant::now() + MOMENT));
+    }
+
+    /// One frame: reads keys and drags, shows everything, and lets `declare` show the controls.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        facts: &Facts,
+        declare: &mut dyn FnMut(&mut Controls),
+    ) -> Outcome {
+        let context = ui.ctx().clone();
+        let mut outcome = Outcome::default();
+        let picture = ui.interact(ui.max_rect(), Id::new("picture"), Sense::drag());
+        context.input(|input| self.navigation.drag(&picture, input));
+        let mut held = context.input(|input| input.pointer.any_down());
+        // While a number is being typed, keys are its digits.
+        if !context.text_edit_focused() {
+            held |= context.input(|input| self.navigation.keys(input));
+            outcome.asked = keys::asked(&context);
+            outcome.asked.retain(|ask| !self.answer(*ask));
+        }
+        outcome.hands = match held {
+            true => Hands::On,
+            false if context.is_pointer_over_egui() => Hands::Near,
+            false => Hands::Off,
+        };
+        outcome.changed = if self.shown {
+            self.sheet(&context, facts, declare)
+        } else {
+            let mut hidden = Hidden::new(&mut self.navigation);
+            declare(&mut Controls::new(&mut hidden));
+            hidden.changed
+        };
+        if !self.shown && self.error.is_some() {
+            self.alone(&context);
+        }
+        if self.help {
+            keys::help(&context);
+        }
+        outcome
+    }
+
+    /// Does what a key asks of the panel itself; `false` if it is for the window.
+    fn answer(&mut self, ask: Ask) -> bool {
+        match ask {
+            Ask::Help => self.help = !self.help,
+            Ask::Panel => self.shown = !self.shown,
+            Ask::Leave if self.help => self.help = false,
+            _ => return false,
+        }
+        true
+    }
+
+    fn sheet(
+        &mut self,
+        context: &Context,
+        facts: &Facts,
+        declare: &mut dyn FnMut(&mut Controls),
+    ) -> bool {
+        let area = Area::new(Id::new("panel")).anchor(Align2::LEFT_TOP, [MARGIN, MARGIN]);
+        let shown = area.show(context, |ui| {
+            style::sheet().show(ui, |ui| {
+                ui.set_width(WIDTH);
+                // A window lower than the panel scrolls it.
+                let room = context.content_rect().height() - 2.0 * (MARGIN + 14.0);
+                let scroll = ScrollArea::vertical().max_height(room).show(ui, |ui| {
+                    self.measured(ui, facts);
+                    self.warning(ui);
+                    ui.separator();
+                    let changed = self.controls(ui, declare);
+                    self.footer(ui);
+                    changed
+                });
+                scroll.inner
+            })
+        });
+        shown.inner.inner
+    }
+
+    fn measured(&self, ui: &mut Ui, facts: &Facts) {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(&facts.name).heading());
+            if facts.software {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let tag = RichText::new("software driver").small().color(style::ACCENT);
+                    ui.label(tag).on_hover_text(
+                        "Traced on the CPU: a graphics card is a hundred times faster",
+                    );
+                });
+            }
+        });
+        ui.add(egui::Label::new(RichText::new(&facts.device).small().color(style::DIM)).truncate());
+        ui.add_space(2.0);
+        let [width, height] = facts.rendered;
+        let percent = 100.0 * f64::from(width) / f64::from(facts.full[0].max(1));
+        let size = match facts.rendered == facts.full {
+            true => format!("{width} × {height}"),
+            false => format!("{width} × {height}   {percent:.0} %"),
+        };
+        let mut lines = vec![
+            ("GPU time", format!("{:.1} ms", facts.milliseconds)),
+            ("primary rays", rays(facts.rays())),
+            ("picture", size),
+        ];
+        lines.extend(facts.accumulated.map(|count| ("accumulated", count.to_string())));
+        rows::grid("measured").spacing([10.0, 3.0]).show(ui, |ui| {
+            for (name, value) in lines {
+                ui.colored_label(style::DIM, name);
+                ui.label(value);
+                ui.end_row();
+            }
+        });
+        ui.add_space(2.0);
+        self.history.show(ui);
+    }
+
+    fn warning(&self, ui: &mut Ui) {
+        let Some(error) = &self.error else { return };
+        style::warning().show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            ui.label(RichText::new("The last good picture stays").small().color(style::ERROR));
+            let text = RichText::new(error).monospace();
+            ui.add(egui::Label::new(text).wrap().selectable(true));
+        });
+    }
+
+    /// The warning, where there is no panel to hold it.
+    fn alone(&self, context: &Context) {
+        let area = Area::new(Id::new("warning")).anchor(Align2::LEFT_TOP, [MARGIN, MARGIN]);
+        area.show(context, |ui| {
+            ui.set_width(WIDTH);
+            self.warning(ui);
+        });
+    }
+
+    fn controls(&mut self, ui: &mut Ui, declare: &mut dyn FnMut(&mut Controls)) -> bool {
+        let navigation = &mut self.navigation;
+        let grid = rows::grid("controls").show(ui, |ui| {
+            let mut rows = Rows { ui, navigation, changed: false };
+            declare(&mut Controls::new(&mut rows));
+            rows.changed
+        });
+        grid.inner
+    }
+
+    fn footer(&self, ui: &mut Ui) {
+        ui.separator();
+        let now = Instant::now();
+        let text = match &self.note {
+            Some((note, end)) if now < *end => {
+                ui.ctx().request_repaint_after(*end - now);
+                note
+            }
+            _ => "F1 keys · F2 picture · F5 shaders · Tab panel",
+        };
+        ui.label(RichText::new(text).small().color(style::DIM));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::accesskit::Role;
+    use egui::{Key, Modifiers, vec2};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::{NodeT, Queryable};
+    use glam::Vec3;
+
+    use super::*;
+    use crate::scene::Camera;
+
+    struct Demo {
+        panel: Panel,
+        height: f32,
+        depth: u32,
+        shadows: bool,
+        show: u32,
+        tint: Vec3,
+        camera: Camera,
+        changes: usize,
+        asked: Vec<Ask>,
+    }
+
+    impl Demo {
+        fn controls(&mut self, c: &mut Controls) {
+            c.choice("show", &mut self.show, &["picture", "normal"]);
+            c.slider("height", &mut self.height, 0.0..=10.0);
+            c.integer("depth", &mut self.depth, 0..=8);
+            c.checkbox("shadows", &mut self.shadows);
+            c.vector("tint", &mut self.tint, 0.0..=1.0);
+            c.camera(&mut self.camera);
+        }
+    }
+
+    fn harness() -> Harness<'static, Demo> {
+        let demo = Demo {
+            panel: Panel::new("test"),
+            height: 5.0,
+            depth: 1,
+            shadows: false,
+            show: 0,
+            tint: Vec3::ZERO,
+            camera: Camera::default(),
+            changes: 0,
+            asked: Vec::new(),
+        };
+        let builder = Harness::builder().with_size(vec2(960.0, 700.0));
+        builder.build_ui_state(
+            |ui, demo: &mut Demo| {
+                let mut panel = std::mem::replace(&mut demo.panel, Panel::new("test"));
+                let outcome = panel.show(ui, &Facts::default(), &mut |c| demo.controls(c));
+                demo.panel = panel;
+                demo.changes += usize::from(outcome.changed);
+                demo.asked.extend(outcome.asked);
+            },
+            demo,
+        )
+    }
+
+    #[test]
+    fn each_kind_of_control_changes_its_value() {
+        let mut harness = harness();
+        harness.run();
+        assert_eq!(harness.state().changes, 0, "nothing was touched");
+        harness.get_by_role_and_label(Role::CheckBox, "shadows").click();
+        harness.run();
+        assert!(harness.state().shadows);
+        harness.get_by_role_and_label(Role::Slider, "height").focus();
+        harness.key_press(Key::ArrowRight);
+        harness.run();
+        assert!(harness.state().height > 5.0);
+        harness.get_by_role_and_label(Role::ComboBox, "show").click();
+        harness.run();
+        harness.get_by_label("normal").click();
+        harness.run();
+        assert_eq!(harness.state().show, 1);
+        assert_eq!(harness.state().changes, 3, "each once");
+        assert_eq!(harness.state().camera, Camera::default());
+    }
+
+    #[test]
+    fn a_drag_on_the_picture_orbits_and_one_on_the_panel_does_not() {
+        let mut harness = harness();
+        harness.run();
+        for (from, moves) in [(egui::pos2(40.0, 30.0), false), (egui::pos2(600.0, 300.0), true)] {
+            harness.drag_at(from);
+            harness.run();
+            harness.hover_at(from + vec2(60.0, 0.0));
+            harness.run();
+            harness.drop_at(from + vec2(60.0, 0.0));
+            harness.run();
+            assert_eq!(harness.state().camera != Camera::default(), moves, "{from}");
+        }
+        harness.key_press(Key::Home);
+        harness.run();
+        assert_eq!(harness.state().camera, Camera::default());
+    }
+
+    #[test]
+    fn an_error_is_shown_until_it_is_mended_and_without_the_panel_too() {
+        let mut harness = harness();
+        let error = "02_basic/shade.rchit:12: 'colour' : undeclared identifier";
+        harness.state_mut().panel.error = Some(error.to_owned());
+        harness.run();
+        harness.get_by_label(error);
+        harness.key_press(Key::Tab);
+        harness.run();
+        assert!(harness.query_by_label("height").is_none(), "Tab hides the panel");
+        harness.get_by_label(error);
+        harness.state_mut().panel.error = None;
+        harness.run();
+        assert!(harness.query_by_label(error).is_none());
+    }
+
+    #[test]
+    fn keys_ask_and_the_overlay_lists_them() {
+        let mut harness = harness();
+        harness.run();
+        harness.key_press(Key::F1);
+        harness.run();
+        harness.get_by_label("reload shaders · also on save");
+        harness.key_press(Key::Escape);
+        harness.run();
+        assert!(harness.query_by_label("orbit").is_none(), "Esc closes the overlay first");
+        for key in [Key::F2, Key::F5, Key::Escape] {
+            harness.key_press_modifiers(Modifiers::NONE, key);
+            harness.run();
+        }
+        assert_eq!(harness.state().asked, [Ask::Picture, Ask::Reload, Ask::Leave]);
+    }
+
+    #[test]
+    fn what_is_only_shown_is_not_rounded() {
+        let mut harness = harness();
+        let third = 1.0 / 3.0;
+        harness.state_mut().height = third;
+        harness.state_mut().camera.eye.x = f64::from(third);
+        harness.run();
+        assert_eq!(harness.state().height, third);
+        assert_eq!(harness.state().camera.eye.x, f64::from(third));
+        assert_eq!(harness.state().changes, 0);
+    }
+
+    #[test]
+    fn every_control_has_a_row() {
+        let mut harness = harness();
+        harness.run();
+        for name in ["show", "height", "depth", "shadows", "tint x", "camera eye z"] {
+            assert!(harness.query_all_by_label(name).count() > 0, "{name}");
+        }
+        let depth = harness.get_by_role_and_label(Role::Slider, "depth");
+        assert!(depth.rect().right() < MARGIN + WIDTH + 28.0, "{:?}", depth.rect());
+        let _ = depth.accesskit_node();
+    }
+}

@@ -1,0 +1,165 @@
+//! Shaders edited while the window is open: noticed, compiled by a child process, compared.
+
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use notify::{RecommendedWatcher, RecursiveMode, Watcher};
+use winit::event_loop::EventLoopProxy;
+
+use super::Wake;
+use crate::gpu::{Bound, Reflection, shader};
+
+/// Editors save in several steps; compile once they are done.
+const DEBOUNCE: Duration = Duration::from_millis(60);
+
+/// Watches the files that a sample's shaders are made of.
+pub struct Reload {
+    stages: Vec<String>,
+    files: Vec<String>,
+    bound: Vec<Bound>,
+    due: Option<Instant>,
+    compiling: bool,
+    failed: bool,
+    proxy: EventLoopProxy<Wake>,
+    _watcher: Option<RecommendedWatcher>,
+}
+
+impl Reload {
+    /// Watches the folder of all shaders. Where the system cannot watch it, F5 still reloads.
+    pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
+        Self {
+            stages: Vec::new(),
+            files: Vec::new(),
+            bound: Vec::new(),
+            due: None,
+            compiling: false,
+            failed: false,
+            _watcher: watch(proxy.clone()).ok(),
+            proxy,
+        }
+    }
+
+    /// Takes note of the shaders in use, by path below `shaders/`.
+    ///
+    /// # Errors
+    /// If one of them does not compile any more.
+    pub fn learn(&mut self, stages: &[String]) -> Result<()> {
+        let (mut files, mut bound) = (Vec::new(), Vec::new());
+        for stage in stages {
+            // They have just been compiled, so this reads the cache.
+            let shader = shader::compile(stage)?;
+            files.extend(shader.files);
+            bound.extend(Reflection::of(&shader.spirv)?.descriptors());
+        }
+        self.stages = stages.to_vec();
+        self.stages.sort();
+        self.stages.dedup();
+        (self.files, self.bound) = (files, bound);
+        Ok(())
+    }
+
+    /// A file has changed.
+    pub fn saved(&mut self, path: &str, now: Instant) {
+        // What mends a failure may be a file that nothing included yet.
+        let matters = self.failed || self.files.iter().any(|file| file == path);
+        if matters {
+            self.due = Some(now + DEBOUNCE);
+        }
+    }
+
+    /// Asks for a compilation, whether anything has changed or not.
+    pub fn ask(&mut self, now: Instant) {
+        self.due = Some(now);
+    }
+
+    /// Begins a compilation if one is due; returns when to call again.
+    pub fn poll(&mut self, now: Instant) -> Option<Instant> {
+        let due = self.due?;
+        if self.compiling {
+            return None;
+        }
+        if now < due {
+            return Some(due);
+        }
+        (self.due, self.compiling) = (None, true);
+        let (stages, proxy) = (self.stages.clone(), self.proxy.clone());
+        std::thread::spawn(move || {
+            // A closed event loop has no use for the result.
+            let _ = proxy.send_event(Wake::Compiled(compile(&stages)));
+        });
+        None
+    }
+
+    /// Takes the child's result and returns why the new shaders cannot be used, if so.
+    pub fn compiled(&mut self, result: Result<(), String>) -> Result<(), String> {
+        self.compiling = false;
+        let result = result.and_then(|()| self.compare());
+        self.failed = result.is_err();
+        result
+    }
+
+    /// The sample could not be made from the new shaders.
+    pub fn refused(&mut self) {
+        self.failed = true;
+    }
+
+    /// Bindings are made by the program; a shader that wants others must wait for it.
+    fn compare(&self) -> Result<(), String> {
+        for stage in &self.stages {
+            let one_line = |error: anyhow::Error| format!("{error:#}");
+            let spirv = shader::compile(stage).map_err(one_line)?.spirv;
+            for new in Reflection::of(&spirv).map_err(one_line)?.descriptors() {
+                let Bound { set, binding, kind } = new;
+                let place = |old: &&Bound| (old.set, old.binding) == (set, binding);
+                let was = match self.bound.iter().find(place) {
+                    Some(old) if old.kind == kind => continue,
+                    Some(old) => format!("where the program binds {}", old.kind),
+                    None => "where the program binds nothing".to_owned(),
+                };
+                return Err(format!(
+                    "{stage}: set {set}, binding {binding} is {kind}, {was}; bindings belong to \
+                     main.rs: change both, build and start again"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
+    let folder = shader::folder();
+    let folder: PathBuf = folder.canonicalize().unwrap_or(folder);
+    let top = folder.clone();
+    let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+        let Ok(event) = event else { return };
+        // Compiling reads the files: what is only read has not changed.
+        if event.kind.is_access() {
+            return;
+        }
+        for path in event.paths.iter().filter_map(|path| path.strip_prefix(&top).ok()) {
+            let path = path.to_string_lossy().replace('\\', "/");
+            let _ = proxy.send_event(Wake::Saved(path));
+        }
+    })?;
+    watcher.watch(&folder, RecursiveMode::Recursive)?;
+    Ok(watcher)
+}
+
+/// Compiles in a child process, which leaves the result in the cache of SPIR-V.
+fn compile(stages: &[String]) -> Result<(), String> {
+    let child = std::env::current_exe().and_then(|program| {
+        let mut command = Command::new(program);
+        command.arg("--compile").args(stages).stdin(Stdio::null()).output()
+    });
+    let output = child.map_err(|error| format!("cannot start the shader compiler: {error}"))?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() {
+        return Ok(());
+    }
+    match errors.lines().find_map(|line| line.strip_prefix("error: ")) {
+        Some(error) => Err(error.to_owned()),
+        None => Err(format!("the shader compiler crashed ({})", output.status)),
+    }
+}

@@ -1,0 +1,164 @@
+//! The controls as rows of the panel: a name, and what changes its value.
+
+use egui::emath::Numeric;
+use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
+
+use super::navigation::Navigation;
+use super::style;
+use crate::app::controls::{Value, Visit};
+use crate::scene::Camera;
+
+/// The width of the column that holds names.
+const NAMES: f32 = 96.0;
+/// The width of a number beside its slider.
+const NUMBER: f32 = 54.0;
+/// The width of a row beside its name.
+const WIDGETS: f32 = 186.0;
+
+/// Shows each control as a row and moves the camera; used inside a grid of two columns.
+pub struct Rows<'a> {
+    /// Where the rows go.
+    pub ui: &'a mut Ui,
+    /// What the hand asks of the camera.
+    pub navigation: &'a mut Navigation,
+    /// Whether any value has changed.
+    pub changed: bool,
+}
+
+/// The grid that rows stand in.
+pub fn grid(id: &str) -> Grid {
+    Grid::new(id.to_owned()).num_columns(2).min_col_width(NAMES).spacing([10.0, 7.0])
+}
+
+impl Visit for Rows<'_> {
+    fn visit(&mut self, name: &str, value: Value) -> bool {
+        self.ui.colored_label(style::DIM, name);
+        let changed = widget(self.ui, name, value);
+        self.ui.end_row();
+        self.changed |= changed;
+        changed
+    }
+
+    fn camera(&mut self, camera: &mut Camera) -> bool {
+        let moved = self.navigation.apply(camera);
+        let mut degrees = camera.fov_y as f32;
+        let zoomed = self.visit("field of view", Value::Slider(&mut degrees, 1.0..=150.0));
+        if zoomed {
+            camera.fov_y = f64::from(degrees);
+        }
+        let placed = self.visit("camera eye", Value::Point(&mut camera.eye))
+            | self.visit("camera target", Value::Point(&mut camera.target));
+        self.changed |= moved;
+        moved | zoomed | placed
+    }
+}
+
+/// Moves the camera while the panel is hidden.
+pub struct Hidden<'a> {
+    /// What the hand asks of the camera.
+    pub navigation: &'a mut Navigation,
+    /// Whether the camera has moved.
+    pub changed: bool,
+}
+
+impl<'a> Hidden<'a> {
+    /// Nothing has moved yet.
+    pub fn new(navigation: &'a mut Navigation) -> Self {
+        Self { navigation, changed: false }
+    }
+}
+
+impl Visit for Hidden<'_> {
+    fn visit(&mut self, _: &str, _: Value) -> bool {
+        false
+    }
+
+    fn camera(&mut self, camera: &mut Camera) -> bool {
+        let moved = self.navigation.apply(camera);
+        self.changed |= moved;
+        moved
+    }
+}
+
+/// Shows a value and says whether it was changed.
+fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
+    // The number beside a slider has a fixed place, so that the rows end alike.
+    ui.spacing_mut().interact_size.x = NUMBER;
+    ui.spacing_mut().slider_width = WIDGETS - NUMBER - ui.spacing().item_spacing.x;
+    match value {
+        Value::Slider(number, range) => {
+            let before = *number;
+            // Three digits of the range's width, or as many as the number needs.
+            let decimals = (2.0 - (range.end() - range.start()).log10().floor()).clamp(0.0, 6.0);
+            let slider = Slider::new(number, range).fixed_decimals(decimals as usize);
+            name_it(&ui.add(shown_as_is(slider)), name);
+            *number != before
+        }
+        Value::Integer(number, range) => {
+            let before = *number;
+            name_it(&ui.add(shown_as_is(Slider::new(number, range))), name);
+            *number != before
+        }
+        Value::Checkbox(on) => {
+            let before = *on;
+            name_it(&ui.checkbox(on, ""), name);
+            *on != before
+        }
+        Value::Color(color) => {
+            let before = *color;
+            name_it(&ui.color_edit_button_rgb(color.as_mut()), name);
+            *color != before
+        }
+        Value::Choice(position, options) => {
+            let before = *position;
+            let shown = options.get(before as usize).copied().unwrap_or_default();
+            let list = ComboBox::from_id_salt(name).width(WIDGETS).selected_text(shown);
+            let response = list.show_ui(ui, |ui| {
+                for (index, option) in options.iter().enumerate() {
+                    ui.selectable_value(position, index as u32, *option);
+                }
+            });
+            name_it(&response.response, name);
+            *position != before
+        }
+        Value::Vector(vector, range) => {
+            let before = *vector;
+            let speed = (range.end() - range.start()) * 0.005;
+            three(ui, name, vector.as_mut(), |drag| drag.range(range.clone()).speed(speed));
+            *vector != before
+        }
+        Value::Point(point) => {
+            let before = *point;
+            let speed = (point.length() * 0.005).max(1e-3);
+            three(ui, name, point.as_mut(), |drag| drag.speed(speed).fixed_decimals(2));
+            *point != before
+        }
+    }
+}
+
+/// A slider that rounds and clamps what is dragged and typed, not what a script has set.
+fn shown_as_is(slider: Slider) -> Slider {
+    slider.clamping(SliderClamping::Edits)
+}
+
+/// Three numbers side by side.
+fn three<N: Numeric>(
+    ui: &mut Ui,
+    name: &str,
+    parts: &mut [N; 3],
+    shaped: impl Fn(DragValue) -> DragValue,
+) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (part, axis) in parts.iter_mut().zip(["x", "y", "z"]) {
+            let size = [(WIDGETS - 8.0) / 3.0, ui.spacing().interact_size.y];
+            let response = ui.add_sized(size, shaped(DragValue::new(part)));
+            name_it(&response, &format!("{name} {axis}"));
+        }
+    });
+}
+
+/// Tells screen readers and tests what a widget is called.
+fn name_it(response: &Response, name: &str) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
+}

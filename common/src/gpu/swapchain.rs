@@ -1,0 +1,284 @@
+//! The images of a window: acquired, drawn to, presented, and made anew when the window changes.
+
+use anyhow::{Context, Result, bail};
+use ash::{khr, vk};
+
+use super::{Gpu, WindowHandles};
+
+/// Nanoseconds to wait for an image; a hidden window may give none for as long as it is hidden.
+const PATIENCE: u64 = 100_000_000;
+
+/// 8-bit formats in sRGB, each with its sibling that holds the same bits without conversion.
+const FORMATS: [(vk::Format, vk::Format); 3] = [
+    (vk::Format::B8G8R8A8_SRGB, vk::Format::B8G8R8A8_UNORM),
+    (vk::Format::R8G8B8A8_SRGB, vk::Format::R8G8B8A8_UNORM),
+    (vk::Format::A8B8G8R8_SRGB_PACK32, vk::Format::A8B8G8R8_UNORM_PACK32),
+];
+
+/// A `VkSwapchainKHR` and its surface, destroyed on drop; drop it before its window.
+pub struct Swapchain {
+    /// The format in which a copy converts linear colour to what the window shows.
+    pub srgb: vk::Format,
+    /// The same bits without conversion.
+    pub unorm: vk::Format,
+    window: WindowHandles,
+    surfaces: khr::surface::Instance,
+    swapchains: khr::swapchain::Device,
+    surface: vk::SurfaceKHR,
+    handle: vk::SwapchainKHR,
+    extent: vk::Extent2D,
+    stale: bool,
+    images: Vec<vk::Image>,
+    /// One an image: presentation may still wait for it when another image is drawn.
+    drawn: Vec<vk::Semaphore>,
+    acquired: vk::Semaphore,
+    gpu: Gpu,
+}
+
+/// An image of the window to copy a picture to, its content undefined.
+#[derive(Clone, Copy)]
+pub struct Acquired {
+    /// The Vulkan handle.
+    pub image: vk::Image,
+    /// To wait for before the copy.
+    pub before: vk::Semaphore,
+    /// To signal after the copy.
+    pub after: vk::Semaphore,
+    index: u32,
+}
+
+impl Swapchain {
+    /// A swapchain for a window that `gpu` was made for; it has no images until [`Swapchain::fit`].
+    ///
+    /// # Errors
+    /// If the window shows no 8-bit colour.
+    pub fn new(gpu: &Gpu, window: WindowHandles) -> Result<Self> {
+        let mut swapchain = Self {
+            srgb: vk::Format::UNDEFINED,
+            unorm: vk::Format::UNDEFINED,
+            window,
+            surfaces: khr::surface::Instance::new(&gpu.entry, &gpu.instance),
+            swapchains: khr::swapchain::Device::new(&gpu.instance, &gpu.device),
+            surface: vk::SurfaceKHR::null(),
+            handle: vk::SwapchainKHR::null(),
+            extent: vk::Extent2D::default(),
+            stale: true,
+            images: Vec::new(),
+            drawn: Vec::new(),
+            acquired: vk::Semaphore::null(),
+            gpu: gpu.clone(),
+        };
+        // SAFETY: the device is alive; the semaphore is destroyed on drop.
+        swapchain.acquired = unsafe { gpu.device.create_semaphore(&Default::default(), None)? };
+        swapchain.make_surface()?;
+        let (srgb, unorm) = swapchain.format()?.1;
+        (swapchain.srgb, swapchain.unorm) = (srgb, unorm);
+        Ok(swapchain)
+    }
+
+    /// Makes the images as large as the window, if they are not, and returns their size.
+    ///
+    /// `wanted` counts where the window system leaves the size to the program. `None` while the window
+    /// has no area, as when it is minimised.
+    ///
+    /// # Errors
+    /// If the window system or the device fails.
+    pub fn fit(&mut self, wanted: vk::Extent2D) -> Result<Option<vk::Extent2D>> {
+        let capabilities = match self.capabilities() {
+            Err(vk::Result::ERROR_SURFACE_LOST_KHR) => {
+                self.make_surface()?;
+                self.capabilities()
+            }
+            other => other,
+        }
+        .context("cannot ask for the window's size")?;
+        let (least, most) = (capabilities.min_image_extent, capabilities.max_image_extent);
+        let extent = match capabilities.current_extent {
+            vk::Extent2D { width: u32::MAX, .. } => vk::Extent2D {
+                width: wanted.width.clamp(least.width, most.width),
+                height: wanted.height.clamp(least.height, most.height),
+            },
+            current => current,
+        };
+        if extent.width == 0 || extent.height == 0 {
+            return Ok(None);
+        }
+        if self.stale || extent != self.extent {
+            self.make(&capabilities, extent)?;
+        }
+        Ok(Some(extent))
+    }
+
+    /// The next image, or `None` if there is none now: draw again, after [`Swapchain::fit`].
+    ///
+    /// # Errors
+    /// If the device was lost.
+    pub fn acquire(&mut self) -> Result<Option<Acquired>> {
+        // SAFETY: `fit` has made the swapchain; no earlier acquire is pending on the semaphore, because
+        // every acquired image's work has been waited for.
+        let result = unsafe {
+            let fence = vk::Fence::null();
+            self.swapchains.acquire_next_image(self.handle, PATIENCE, self.acquired, fence)
+        };
+        match result {
+            Ok((index, suboptimal)) => {
+                self.stale |= suboptimal;
+                Ok(Some(Acquired {
+                    image: self.images[index as usize],
+                    before: self.acquired,
+                    after: self.drawn[index as usize],
+                    index,
+                }))
+            }
+            Err(vk::Result::TIMEOUT | vk::Result::NOT_READY) => Ok(None),
+            Err(error) => self.outdated(error).map(|()| None),
+        }
+    }
+
+    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`; `false` if the window has changed
+    /// and wants another.
+    ///
+    /// # Errors
+    /// If the device was lost.
+    pub fn present(&mut self, acquired: Acquired) -> Result<bool> {
+        let (wait, handles, indices) = ([acquired.after], [self.handle], [acquired.index]);
+        let info = vk::PresentInfoKHR::default()
+            .wait_semaphores(&wait)
+            .swapchains(&handles)
+            .image_indices(&indices);
+        // SAFETY: the image was acquired from this swapchain, and its semaphore is signalled.
+        match unsafe { self.swapchains.queue_present(self.gpu.queue, &info) } {
+            Ok(suboptimal) => {
+                self.stale |= suboptimal;
+                Ok(!self.stale)
+            }
+            Err(error) => self.outdated(error).map(|()| false),
+        }
+    }
+
+    fn outdated(&mut self, error: vk::Result) -> Result<()> {
+        match error {
+            vk::Result::ERROR_OUT_OF_DATE_KHR => self.stale = true,
+            vk::Result::ERROR_SURFACE_LOST_KHR => self.make_surface()?,
+            error => return Err(error).context("cannot draw to the window"),
+        }
+        Ok(())
+    }
+
+    fn capabilities(&self) -> ash::prelude::VkResult<vk::SurfaceCapabilitiesKHR> {
+        // SAFETY: the surface is alive and supported by the device, here and below.
+        unsafe {
+            self.surfaces
+                .get_physical_device_surface_capabilities(self.gpu.physical_device, self.surface)
+        }
+    }
+
+    /// The window's format and the pair that it belongs to.
+    fn format(&self) -> Result<(vk::Format, (vk::Format, vk::Format))> {
+        // SAFETY: as above.
+        let offered = unsafe {
+            self.surfaces
+                .get_physical_device_surface_formats(self.gpu.physical_device, self.surface)?
+        };
+        let has = |format: vk::Format| {
+            offered.iter().any(|offer| {
+                offer.format == format && offer.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
+            })
+        };
+        let pair = FORMATS.into_iter().find(|&(srgb, unorm)| has(srgb) || has(unorm));
+        let Some((srgb, unorm)) = pair else {
+            bail!("this window shows no 8-bit sRGB colour: add --headless to render without it");
+        };
+        Ok((if has(srgb) { srgb } else { unorm }, (srgb, unorm)))
+    }
+
+    fn make_surface(&mut self) -> Result<()> {
+        self.destroy();
+        let (entry, instance) = (&self.gpu.entry, &self.gpu.instance);
+        let WindowHandles { display, window } = self.window;
+        // SAFETY: whoever made this swapchain keeps the window alive longer.
+        self.surface =
+            unsafe { ash_window::create_surface(entry, instance, display, window, None) }
+                .context("cannot draw to the window")?;
+        self.stale = true;
+        Ok(())
+    }
+
+    fn make(
+        &mut self,
+        capabilities: &vk::SurfaceCapabilitiesKHR,
+        extent: vk::Extent2D,
+    ) -> Result<()> {
+        // A count of 0 as the most means any number.
+        let most = match capabilities.max_image_count {
+            0 => u32::MAX,
+            most => most,
+        };
+        let alpha = [vk::CompositeAlphaFlagsKHR::OPAQUE, vk::CompositeAlphaFlagsKHR::INHERIT]
+            .into_iter()
+            .find(|&flag| capabilities.supported_composite_alpha.contains(flag))
+            .unwrap_or(vk::CompositeAlphaFlagsKHR::PRE_MULTIPLIED);
+        let old = self.handle;
+        let info = vk::SwapchainCreateInfoKHR::default()
+            .surface(self.surface)
+            .min_image_count((capabilities.min_image_count + 1).min(most))
+            .image_format(self.format()?.0)
+            .image_color_space(vk::ColorSpaceKHR::SRGB_NONLINEAR)
+            .image_extent(extent)
+            .image_array_layers(1)
+            .image_usage(vk::ImageUsageFlags::TRANSFER_DST)
+            .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
+            .pre_transform(capabilities.current_transform)
+            .composite_alpha(alpha)
+            .present_mode(vk::PresentModeKHR::FIFO)
+            .clipped(true)
+            .old_swapchain(old);
+        // SAFETY: the surface is alive; the old swapchain is retired here and destroyed below, once the
+        // queue has presented its last image.
+        unsafe {
+            let handle = self
+                .swapchains
+                .create_swapchain(&info, None)
+                .with_context(|| format!("no images of {}x{}", extent.width, extent.height))?;
+            self.destroy_images()?;
+            self.handle = handle;
+            self.images = self.swapchains.get_swapchain_images(handle)?;
+            for _ in &self.images {
+                let semaphore = self.gpu.device.create_semaphore(&Default::default(), None)?;
+                self.drawn.push(semaphore);
+            }
+        }
+        self.extent = extent;
+        self.stale = false;
+        Ok(())
+    }
+
+    fn destroy_images(&mut self) -> Result<()> {
+        // SAFETY: an idle queue uses neither image nor semaphore.
+        unsafe {
+            self.gpu.device.queue_wait_idle(self.gpu.queue)?;
+            for semaphore in self.drawn.drain(..) {
+                self.gpu.device.destroy_semaphore(semaphore, None);
+            }
+            self.swapchains.destroy_swapchain(self.handle, None);
+        }
+        self.handle = vk::SwapchainKHR::null();
+        Ok(())
+    }
+
+    fn destroy(&mut self) {
+        // A lost device is no reason to keep the window.
+        let _ = self.destroy_images();
+        // SAFETY: the surface's swapchain is gone.
+        unsafe { self.surfaces.destroy_surface(self.surface, None) };
+        self.surface = vk::SurfaceKHR::null();
+    }
+}
+
+impl Drop for Swapchain {
+    fn drop(&mut self) {
+        self.destroy();
+        // SAFETY: the queue is idle.
+        unsafe { self.gpu.device.destroy_semaphore(self.acquired, None) };
+    }
+}

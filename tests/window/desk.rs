@@ -1,0 +1,263 @@
+//! An X server without a screen, a sample's window on it, and a hand that types and drags.
+
+use std::io::{BufRead, BufReader, IoSlice, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use image::{Rgb, RgbImage};
+use tempfile::TempDir;
+use x11rb::connection::{Connection, RequestConnection};
+use x11rb::protocol::xproto::{
+    self, AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, EventMask, ImageFormat,
+    InputFocus, MapState,
+};
+use x11rb::rust_connection::RustConnection;
+
+use crate::run;
+
+/// How long anything may take before a test fails.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A sample in a window of its own server; both end with it.
+pub struct Desk {
+    /// The current folder of the sample, where its pictures go.
+    pub folder: TempDir,
+    sample: Option<Child>,
+    server: Child,
+    x: RustConnection,
+    root: u32,
+    window: u32,
+}
+
+/// Calls `look` until it finds something.
+///
+/// # Panics
+/// If it takes too long: with `what`.
+pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited {PATIENCE:?} for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+impl Desk {
+    /// Opens a sample with arguments and environment, and waits until its window shows a picture.
+    pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
+        let (server, display) = server();
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut command: Command = run::command(name);
+        command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
+        command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        command.envs(environment.iter().copied()).stderr(Stdio::piped());
+        let sample = command.spawn().expect("the sample starts");
+        let (x, screen) = RustConnection::connect(Some(&display)).expect("the server answers");
+        let root = x.setup().roots[screen].root;
+        let mut desk = Self { folder, sample: Some(sample), server, x, root, window: 0 };
+        desk.window = wait("a window", || desk.find_window());
+        desk.focus();
+        wait("a picture", || {
+            let shown = desk.shown();
+            let (width, height) = shown.dimensions();
+            (shown.get_pixel(width - 1, 0) != shown.get_pixel(width - 1, height - 1)).then_some(())
+        });
+        desk
+    }
+
+    fn find_window(&mut self) -> Option<u32> {
+        let sample = self.sample.as_mut().expect("the sample runs");
+        if sample.try_wait().expect("its state is known").is_some() {
+            panic!("it has ended instead of opening a window: {}", self.errors());
+        }
+        let tree = self.x.query_tree(self.root).unwrap().reply().unwrap();
+        tree.children.into_iter().find(|&window| {
+            let Ok(attributes) = self.x.get_window_attributes(window).unwrap().reply() else {
+                return false;
+            };
+            attributes.map_state == MapState::VIEWABLE && !self.title(window).is_empty()
+        })
+    }
+
+    fn title(&self, window: u32) -> String {
+        let (name, string) = (AtomEnum::WM_NAME, AtomEnum::ANY);
+        let cookie = self.x.get_property(false, window, name, string, 0, 1024).unwrap();
+        cookie.reply().map_or_else(|_| String::new(), |p| String::from_utf8_lossy(&p.value).into())
+    }
+
+    fn errors(&mut self) -> String {
+        let mut text = String::new();
+        let stderr = self.sample.as_mut().and_then(|sample| sample.stderr.as_mut());
+        stderr.expect("piped").read_to_string(&mut text).expect("it is text");
+        text
+    }
+
+    /// Without a window manager, nobody else gives the window the keyboard.
+    fn focus(&self) {
+        self.x.set_input_focus(InputFocus::POINTER_ROOT, self.window, x11rb::CURRENT_TIME).unwrap();
+        self.x.sync();
+    }
+
+    /// What the window shows.
+    pub fn shown(&self) -> RgbImage {
+        let size = self.x.get_geometry(self.window).unwrap().reply().unwrap();
+        let (width, height) = (size.width, size.height);
+        let format = ImageFormat::Z_PIXMAP;
+        let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).unwrap();
+        // A window that is resized at this very moment has no such image: try again later.
+        let Ok(image) = image.reply() else { return RgbImage::new(width.into(), height.into()) };
+        let pixels = image.data.chunks_exact(4).map(|bgrx| Rgb([bgrx[2], bgrx[1], bgrx[0]]));
+        let mut shown = RgbImage::new(width.into(), height.into());
+        shown.pixels_mut().zip(pixels).for_each(|(to, from)| *to = from);
+        shown
+    }
+
+    /// Presses F2 and returns the picture that the sample writes, and its file.
+    pub fn picture(&self) -> (RgbImage, PathBuf) {
+        let pictures = || {
+            let files = self.folder.path().read_dir().expect("the folder is there");
+            files
+                .map(|file| file.expect("it can be listed").path())
+                .filter(|path| path.extension().is_some_and(|extension| extension == "png"))
+        };
+        let before: Vec<PathBuf> = pictures().collect();
+        self.key(KEY_F2);
+        let file = wait("a written picture", || pictures().find(|path| !before.contains(path)));
+        (image::open(&file).expect("a whole PNG").to_rgb8(), file)
+    }
+
+    /// Presses and releases a key, by its symbol.
+    pub fn key(&self, symbol: u32) {
+        let setup = self.x.setup();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let map = self.x.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
+        let symbols = map.keysyms.chunks(map.keysyms_per_keycode.into());
+        let index = symbols.into_iter().position(|row| row.first() == Some(&symbol));
+        let code = first + index.expect("the keyboard has the key") as u8;
+        self.fake(xproto::KEY_PRESS_EVENT, code, 0, 0);
+        self.fake(xproto::KEY_RELEASE_EVENT, code, 0, 0);
+    }
+
+    /// Moves the pointer to a place of the window.
+    pub fn point(&self, x: i16, y: i16) {
+        let cookie = self.x.translate_coordinates(self.window, self.root, x, y).unwrap();
+        let at = cookie.reply().expect("the window is there");
+        self.fake(xproto::MOTION_NOTIFY_EVENT, 0, at.dst_x, at.dst_y);
+    }
+
+    /// Presses or releases the left button.
+    pub fn button(&self, down: bool) {
+        let event = if down { xproto::BUTTON_PRESS_EVENT } else { xproto::BUTTON_RELEASE_EVENT };
+        self.fake(event, 1, 0, 0);
+    }
+
+    /// Drags from one place to another, in steps as small as a hand's.
+    pub fn drag(&self, from: (i16, i16), to: (i16, i16), steps: i16) {
+        self.point(from.0, from.1);
+        self.button(true);
+        for step in 1..=steps {
+            let part = f32::from(step) / f32::from(steps);
+            let between = |a: i16, b: i16| a + (f32::from(b - a) * part).round() as i16;
+            self.point(between(from.0, to.0), between(from.1, to.1));
+            std::thread::sleep(Duration::from_millis(8));
+        }
+        self.button(false);
+    }
+
+    /// One `FakeInput` of the extension XTEST, as the server sees a real device's.
+    fn fake(&self, event: u8, detail: u8, x: i16, y: i16) {
+        let extension = self.x.extension_information("XTEST").unwrap().expect("Xvfb has XTEST");
+        let mut request = [0; 36];
+        (request[0], request[1], request[4], request[5]) =
+            (extension.major_opcode, 2, event, detail);
+        request[2..4].copy_from_slice(&9u16.to_ne_bytes());
+        request[24..26].copy_from_slice(&x.to_ne_bytes());
+        request[26..28].copy_from_slice(&y.to_ne_bytes());
+        self.x.send_request_without_reply(&[IoSlice::new(&request)], Vec::new()).unwrap();
+        self.x.sync();
+    }
+
+    /// Gives the window another size.
+    pub fn resize(&self, width: u32, height: u32) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.x.configure_window(self.window, &size).unwrap();
+        self.x.sync();
+    }
+
+    /// Takes the window off the screen, as a window manager does that minimises it, or brings it back.
+    pub fn map(&self, mapped: bool) {
+        match mapped {
+            true => drop(self.x.map_window(self.window).unwrap()),
+            false => drop(self.x.unmap_window(self.window).unwrap()),
+        }
+        self.x.sync();
+        if mapped {
+            wait("the window", || self.x.get_window_attributes(self.window).ok()?.reply().ok());
+            self.focus();
+        }
+    }
+
+    /// Presses the button that closes the window, as a window manager tells it.
+    pub fn close(&self) {
+        let atom = |name: &[u8]| self.x.intern_atom(false, name).unwrap().reply().unwrap().atom;
+        let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
+        let data = [delete, x11rb::CURRENT_TIME, 0, 0, 0];
+        let event = ClientMessageEvent::new(32, self.window, protocols, data);
+        self.x.send_event(false, self.window, EventMask::NO_EVENT, event).unwrap();
+        self.x.sync();
+    }
+
+    /// Waits until the sample has ended, and returns how, and what it said.
+    pub fn end(mut self) -> Output {
+        let sample = self.sample.as_mut().expect("the sample runs");
+        wait("the end", || sample.try_wait().expect("its state is known"));
+        let sample = self.sample.take().expect("the sample runs");
+        sample.wait_with_output().expect("its words can be read")
+    }
+}
+
+impl Drop for Desk {
+    fn drop(&mut self) {
+        for child in self.sample.iter_mut().chain([&mut self.server]) {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
+
+trait Sync {
+    /// Returns once the server has done everything that was asked of it.
+    fn sync(&self);
+}
+
+impl Sync for RustConnection {
+    fn sync(&self) {
+        self.get_input_focus().unwrap().reply().expect("the server answers");
+    }
+}
+
+/// Starts an X server on a free display.
+fn server() -> (Child, String) {
+    let mut command = Command::new("Xvfb");
+    command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
+    let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup"));
+    let mut number = String::new();
+    let output = child.stdout.take().expect("piped");
+    BufReader::new(output).read_line(&mut number).expect("Xvfb tells its display");
+    (child, format!(":{}", number.trim()))
+}
+
+/// F1.
+pub const KEY_F1: u32 = 0xffbe;
+/// F2.
+pub const KEY_F2: u32 = 0xffbf;
+/// Escape.
+pub const KEY_ESCAPE: u32 = 0xff1b;
+/// Tab.
+pub const KEY_TAB: u32 = 0xff09;
+/// Home.
+pub const KEY_HOME: u32 = 0xff50;

@@ -1,0 +1,237 @@
+//! The window, as its user has it: on an X server, with a keyboard and a mouse.
+//!
+//! Xvfb has no window manager, so a window is minimised here by taking it off the screen, which is what
+//! a window manager does.
+#![cfg(unix)]
+
+mod desk;
+#[path = "../run/mod.rs"]
+mod run;
+
+use std::path::Path;
+use std::process::Output;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use image::{Rgb, RgbImage};
+
+use desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_TAB, wait};
+
+/// The slider "sun azimuth" in the panel, from end to end.
+const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
+/// The right edge of the panel.
+const PANEL: u32 = 340;
+/// The panel's background where it tells of an error.
+const ERROR: Rgb<u8> = Rgb([58, 24, 24]);
+
+/// One window at a time: two would share the processor, and their times would be of no use.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The sample has ended well and in silence: no error, no validation message.
+fn ended_well(output: Output) {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && errors.is_empty(), "{}: {errors}", output.status);
+}
+
+/// Whether every pixel right of the panel is the same but for rounding.
+fn same(a: &RgbImage, b: &RgbImage) -> bool {
+    let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1);
+    let mut pixels = a.enumerate_pixels().zip(b.pixels());
+    a.dimensions() == b.dimensions() && pixels.all(|((x, _, a), b)| x < PANEL || near(a, b))
+}
+
+fn tells_error(desk: &Desk) -> bool {
+    desk.shown().pixels().filter(|pixel| **pixel == ERROR).count() > 500
+}
+
+#[test]
+fn a_window_shows_the_picture_and_answers_mouse_and_keys() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--validate", "--size", "640x420"], &[]);
+    let (first, file) = desk.picture();
+    assert!(file.ends_with("02_basic-001.png"), "{}", file.display());
+    // The same numbers as the picture's: the window converts to sRGB just once.
+    wait("the picture in the window", || same(&desk.shown(), &first).then_some(()));
+
+    desk.drag(SLIDER[0], SLIDER[1], 20);
+    let (moved, _) = desk.picture();
+    assert!(!same(&first, &moved), "the slider changes nothing");
+    desk.drag(SLIDER[1], (SLIDER[1].0 - 40, SLIDER[1].1), 10);
+    desk.drag((500, 300), (400, 260), 10);
+    let (turned, _) = desk.picture();
+    assert!(!same(&moved, &turned), "a drag on the picture turns nothing");
+
+    wait("the picture in the window", || same(&desk.shown(), &turned).then_some(()));
+    desk.key(KEY_F1);
+    wait("the help", || (!same(&desk.shown(), &turned)).then_some(()));
+    desk.key(KEY_ESCAPE);
+    wait("no help", || same(&desk.shown(), &turned).then_some(()));
+    let with_panel = *desk.shown().get_pixel(60, 60);
+    desk.key(KEY_TAB);
+    wait("no panel", || (*desk.shown().get_pixel(60, 60) != with_panel).then_some(()));
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
+}
+
+#[test]
+fn a_window_can_be_resized_minimised_and_closed() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--validate", "--size", "480x300"], &[]);
+    for (width, height) in [(700, 360), (361, 500), (1, 1), (640, 400)] {
+        desk.resize(width, height);
+        let sized = || Some(desk.picture().0).filter(|image| image.dimensions() == (width, height));
+        let picture = wait("a picture of the new size", sized);
+        wait("the picture in the window", || same(&desk.shown(), &picture).then_some(()));
+    }
+    let (before, _) = desk.picture();
+    desk.map(false);
+    desk.map(true);
+    wait("the picture in the window", || same(&desk.shown(), &before).then_some(()));
+    desk.close();
+    ended_well(desk.end());
+}
+
+#[test]
+fn home_brings_the_camera_back() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--size", "480x300"], &[]);
+    let (first, _) = desk.picture();
+    desk.drag((440, 150), (470, 250), 8);
+    assert!(!same(&desk.picture().0, &first));
+    desk.key(KEY_HOME);
+    wait("the first picture", || same(&desk.picture().0, &first).then_some(()));
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
+}
+
+#[test]
+fn frames_are_counted_and_controls_can_be_set() {
+    let _alone = alone();
+    let arguments = ["--validate", "--size", "480x300", "--frames", "40", "--set", "show=normal"];
+    let desk = Desk::open("02_basic", &arguments, &[]);
+    ended_well(desk.end());
+}
+
+#[test]
+fn dragging_a_slider_never_freezes_the_panel() {
+    let _alone = alone();
+    let log = [("RUST_LOG", Path::new("common=info")), ("NO_COLOR", Path::new("1"))];
+    let desk = Desk::open("02_basic", &["--size", "1280x720"], &log);
+    for _ in 0..2 {
+        desk.drag(SLIDER[0], SLIDER[1], 100);
+        desk.drag(SLIDER[1], SLIDER[0], 100);
+    }
+    desk.key(KEY_ESCAPE);
+    let output = desk.end();
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    let longest = log
+        .split("longest wait for a frame ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next()?.parse::<u32>().ok());
+    let longest = longest.unwrap_or_else(|| panic!("no figure in the log: {log}"));
+    println!("longest wait for a frame: {longest} ms");
+    assert!(longest < 250, "{longest} ms from input to picture");
+}
+
+#[test]
+fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    for folder in ["common", "02_basic"] {
+        let (from, to) = (run::root().join("shaders").join(folder), copy.path().join(folder));
+        std::fs::create_dir(&to).expect("a folder");
+        for file in from.read_dir().expect("shaders").map(|file| file.expect("a shader").path()) {
+            std::fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("a copy");
+        }
+    }
+    let sky = copy.path().join("02_basic/sky.rmiss");
+    let good = std::fs::read_to_string(&sky).expect("the sky");
+    let end = good.rfind('}').expect("a body");
+    let edited = |line: &str| format!("{}{line}\n}}\n", &good[..end]);
+    let edit = |text: &str| std::fs::write(&sky, text).expect("an edit");
+    let arguments = ["--validate", "--size", "640x420", "--set", "sun azimuth=100"];
+    let desk = Desk::open("02_basic", &arguments, &[("SHADERS", copy.path())]);
+    let (first, _) = desk.picture();
+
+    edit(&edited("    payload = nonsense;"));
+    wait("the error", || tells_error(&desk).then_some(()));
+    assert!(same(&desk.picture().0, &first), "the last good picture stays");
+
+    edit(&edited("    payload = vec4(1.0, 0.0, 0.0, 1.0);"));
+    wait("no error", || (!tells_error(&desk)).then_some(()));
+    let (red, _) = desk.picture();
+    let (width, _) = red.dimensions();
+    assert_eq!(red.get_pixel(width - 1, 0), &Rgb([255, 0, 0]), "the sky is red");
+
+    let unbound = good.replace(
+        "void main",
+        "layout(set = 0, binding = 7, rgba32f) uniform image2D \
+                                extra;\nvoid main",
+    );
+    let end = unbound.rfind('}').expect("a body");
+    edit(&format!("{}    imageStore(extra, ivec2(0), payload);\n}}\n", &unbound[..end]));
+    wait("the refusal", || tells_error(&desk).then_some(()));
+    assert!(same(&desk.picture().0, &red), "the last good picture stays");
+
+    let push = copy.path().join("02_basic/push.glsl");
+    let layout = std::fs::read_to_string(&push).expect("the push constants");
+    edit(&good);
+    wait("no error", || (!tells_error(&desk)).then_some(()));
+    // The value that was set outlives every reload.
+    wait("the first picture", || same(&desk.picture().0, &first).then_some(()));
+    std::fs::write(&push, layout.replace("uint show", "uint less;\n    uint show"))
+        .expect("an edit");
+    wait("the refusal", || tells_error(&desk).then_some(()));
+    desk.close();
+    ended_well(desk.end());
+}
+
+#[test]
+fn without_a_display_one_line_offers_headless() {
+    let without = |name: &str| {
+        let mut command = run::command(name);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        command
+    };
+    let (code, line) = run::refusal(without("02_basic").output().expect("it starts"));
+    let expected = "error: no display: set DISPLAY or WAYLAND_DISPLAY, or add --headless to render \
+                    without a window";
+    assert_eq!((code, line.as_str()), (1, expected));
+    let wrong = without("02_basic").env("DISPLAY", ":98765").output().expect("it starts");
+    let (code, line) = run::refusal(wrong);
+    assert!(code == 1 && line.contains("':98765'") && line.contains("--headless"), "{line}");
+    let (code, line) = run::refused("02_basic", &["--out", "a.png"]);
+    assert!(code == 2 && line.contains("--headless"), "{line}");
+}
+
+/// `UPDATE=1 cargo test --test window` makes the picture of the window that the README shows.
+#[test]
+fn the_readme_shows_this_window() {
+    let _alone = alone();
+    let file = run::root().join("docs/images/window.png");
+    if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
+        let desk = Desk::open("02_basic", &["--size", "1280x720"], &[]);
+        // There and back, until the plot is full.
+        for _ in 0..2 {
+            desk.drag((800, 500), (1100, 540), 240);
+            desk.drag((1100, 540), (800, 500), 240);
+        }
+        desk.key(KEY_HOME);
+        let (picture, _) = desk.picture();
+        desk.point(1100, 690);
+        desk.key(KEY_F1);
+        wait("the help", || (!same(&desk.shown(), &picture)).then_some(()));
+        // The note of the written picture makes way for what stands there at rest.
+        std::thread::sleep(std::time::Duration::from_secs(5));
+        desk.shown().save(&file).expect("the picture can be written");
+        desk.key(KEY_ESCAPE);
+        desk.key(KEY_ESCAPE);
+        ended_well(desk.end());
+    }
+    let shown = image::open(&file).unwrap_or_else(|error| {
+        panic!("no {}: {error}; UPDATE=1 cargo test --test window writes it", file.display())
+    });
+    assert_eq!((shown.width(), shown.height()), (1280, 720));
+}
