@@ -1,0 +1,73 @@
+// Where a ray may start that leaves a triangle: a point above it that no rounding puts below.
+//
+// The hit's own point, origin + t·direction, is off by as much as t is, and t grows with the distance.
+// The same point from the triangle's corners is off by the rounding of the corners' coordinates alone.
+// (Waechter and Binder, Ray Tracing Gems, chapter 6; NVIDIA's self-intersection avoidance, 2024.)
+//
+// How far may it be from the plane that the next ray is tested against? Below u = 2^-24 is the error of
+// one rounding, relative; L, T the instance's matrix and translation, W the inverse; |x| takes every
+// entry's absolute value. Four things are rounded:
+//
+// 1. The point in the mesh's space, a + (w1·e1 + w2·e2): three roundings of the edges' part, one of
+//    the sum. Wrong weights only shift the point within the plane. u·(|p| + 3·(|e1| + |e2|)), times |L|.
+// 2. The point in the world, L·p + T: a sum of four terms. 4u·(|L||p| + |T|); and u·|L·p + T| when the
+//    offset is added.
+// 3. The next ray, which the device takes back into the mesh's space. Its inverse is not ours to know:
+//    by cofactors in 32 bits it is off by 18u·|W|, which costs 18u·|L||W||L||p|; its product is a sum
+//    of four, and so was its translation: 7u·|L||W|·(|world| + |T|).
+// 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths:
+//    u·r·(37 + 16·r²/|e1 × e2|), r the longest edge. Slivers suffer. (For the test of Woop, Benthin
+//    and Wald, JCGT 2:1, 2013; common/src/reference/bound.rs has the steps.)
+//
+// 1 to 3 are vectors, and what counts of them is the part along the plane's normal.
+
+const float ROUNDING = 5.9604645e-8;
+
+struct HitPoint {
+    vec3 position;   // on the triangle, in the world
+    vec3 normal;     // of the triangle, not of its shading: unit, on the side that the ray came from
+    float error;     // how far off the plane a ray's origin must be to be on that side for sure
+};
+
+mat3 absolute(mat3 m) {
+    return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
+}
+
+// For a closest hit shader: the built-in variables say the rest.
+HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 weights) {
+    uvec3 corner = instance.triangles.at[triangle];
+    vec3 a = instance.vertices.at[corner.x].position;
+    vec3 e1 = instance.vertices.at[corner.y].position - a;
+    vec3 e2 = instance.vertices.at[corner.z].position - a;
+    precise vec3 point = a + (weights.x * e1 + weights.y * e2);
+    precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
+
+    mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));
+    mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
+    vec3 shift = abs(gl_ObjectToWorldEXT[3]);
+    vec3 reach = linear * abs(point);
+    vec3 straying = linear * (abs(point) + 3.0 * (abs(e1) + abs(e2)))
+        + 4.0 * (reach + shift) + abs(world)
+        + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
+
+    vec3 across = mat3(gl_ObjectToWorldEXT) * e1;
+    vec3 along = mat3(gl_ObjectToWorldEXT) * e2;
+    float longest = max(max(length(across), length(along)), length(along - across));
+    float area = length(cross(across, along));
+    float test = longest * (37.0 + 16.0 * longest * longest / area);
+
+    HitPoint hit;
+    hit.position = world;
+    // Front and back are the mesh's own, so a mirroring instance does not exchange them.
+    hit.normal = normalize(vec3(cross(e1, e2) * gl_WorldToObjectEXT));
+    if (gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT) {
+        hit.normal = -hit.normal;
+    }
+    hit.error = ROUNDING * (dot(abs(hit.normal), straying) + test);
+    return hit;
+}
+
+// The nearest point above the hit where a ray may start.
+vec3 origin_above(HitPoint hit) {
+    return hit.position + hit.error * hit.normal;
+}
