@@ -30,6 +30,7 @@ struct Demo {
     light_size: f32,
     light_samples: u32,
     shadow_rays: u32,
+    smooth_terminator: bool,
     show: u32,
 }
 
@@ -41,6 +42,7 @@ common::shader_struct! {
         light: Light,
         light_samples: u32,
         shadow_rays: u32,
+        smooth_terminator: u32,
         show: u32,
     }
 }
@@ -73,19 +75,21 @@ impl Sample for Demo {
             pipeline,
             sbt,
             camera,
-            sun: Sun { azimuth: 278.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
+            sun: Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
             lamp: PointLight::default(),
             light: 0,
             light_size: 0.0,
             light_samples: 16,
             shadow_rays: 0,
+            smooth_terminator: true,
             show: 0,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
+        let views =
+            ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
         c.choice("show", &mut self.show, &views);
         c.choice("light", &mut self.light, &["directional", "point"]);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
@@ -94,6 +98,7 @@ impl Sample for Demo {
         c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("light samples", &mut self.light_samples, 1..=64);
         c.choice("shadow rays", &mut self.shadow_rays, &["first hit", "nearest hit", "off"]);
+        c.checkbox("smooth terminator", &mut self.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -109,6 +114,7 @@ impl Sample for Demo {
             },
             light_samples: self.light_samples,
             shadow_rays: self.shadow_rays,
+            smooth_terminator: self.smooth_terminator.into(),
             show: self.show,
         };
         let descriptors = [

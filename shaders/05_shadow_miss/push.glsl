@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push {
     Light light;
     uint light_samples;   // shadow rays a hit, where the light has a size
     uint shadow_rays;
+    uint smooth_terminator;
     uint show;
 } push;
 

@@ -43,7 +43,7 @@ bool is_lit(vec3 origin, vec3 to_light) {
 
 // ANCHOR: visibility
 // What part of the light is seen from above a surface, 0 to 1; one ray if the light is a mere point.
-float visibility(vec3 origin, vec3 geometric_normal) {
+float visibility(vec3 origin, vec3 up) {
     if (push.shadow_rays == SHADOW_OFF) {
         return 1.0;
     }
@@ -55,7 +55,7 @@ float visibility(vec3 origin, vec3 geometric_normal) {
         vec2 point = soft ? disk_point(i, count, turn) : vec2(0.0);
         vec3 to_light = towards_light(push.light, origin, point);
         // What is below the surface, the surface itself hides.
-        if (dot(geometric_normal, to_light) > 0.0 && is_lit(origin, to_light)) {
+        if (dot(up, to_light) > 0.0 && is_lit(origin, to_light)) {
             seen++;
         }
     }
@@ -85,7 +85,13 @@ void main() {
     // ANCHOR: light
     HitPoint hit = hit_point(instance, triangle, weights);
     vec3 origin = origin_above(hit);
-    float visible = visibility(origin, hit.normal);
+    vec3 up = hit.normal;
+    if (push.smooth_terminator != 0) {
+        vec3 lift = lift_to_smooth(instance, triangle, weights);
+        origin += lift;
+        up = lift == vec3(0.0) ? up : normal;
+    }
+    float visible = visibility(origin, up);
     vec3 light = normalize(towards_light(push.light, origin, vec2(0.0)));
     vec3 color = material.emission + base * ambient(normal);
     color += visible * arriving_light(push.light, origin)

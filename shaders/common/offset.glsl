@@ -71,3 +71,27 @@ HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 weights) {
 vec3 origin_above(HitPoint hit) {
     return hit.position + hit.error * hit.normal;
 }
+
+// ANCHOR: lift
+// From the flat triangle to the round surface that its normals pretend: the mean of the point's
+// projections onto the planes through the corners, across their normals, where those lie above it.
+// A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
+// the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
+vec3 lift_to_smooth(InstanceRecord instance, uint triangle, vec2 weights) {
+    uvec3 corner = instance.triangles.at[triangle];
+    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    Vertex corners[3];
+    vec3 point = vec3(0.0);
+    for (uint k = 0; k < 3; k++) {
+        corners[k] = instance.vertices.at[corner[k]];
+        point += w[k] * corners[k].position;
+    }
+    float side = gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? -1.0 : 1.0;
+    vec3 lift = vec3(0.0);
+    for (uint k = 0; k < 3; k++) {
+        vec3 normal = side * corners[k].normal;
+        lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
+    }
+    return mat3(gl_ObjectToWorldEXT) * lift;
+}
+// ANCHOR_END: lift
