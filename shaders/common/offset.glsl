@@ -15,9 +15,10 @@
 // 3. The next ray, which the device takes back into the mesh's space. Its inverse is not ours to know:
 //    by cofactors in 32 bits it is off by 18u·|W|, which costs 18u·|L||W||L||p|; its product is a sum
 //    of four, and so was its translation: 7u·|L||W|·(|world| + |T|).
-// 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths:
-//    u·r·(37 + 16·r²/|e1 × e2|), r the longest edge. Slivers suffer. (For the test of Woop, Benthin
-//    and Wald, JCGT 2:1, 2013; common/src/reference/bound.rs has the steps.)
+// 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
+//    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
+//    quotient, r the longest edge (common/src/reference/bound.rs has the steps), and for the rounded
+//    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room.
 //
 // 1 to 3 are vectors, and what counts of them is the part along the plane's normal.
 
@@ -54,7 +55,7 @@ HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 weights) {
     vec3 along = mat3(gl_ObjectToWorldEXT) * e2;
     float longest = max(max(length(across), length(along)), length(along - across));
     float area = length(cross(across, along));
-    float test = longest * (37.0 + 16.0 * longest * longest / area);
+    float test = longest * (37.0 + 2.0 * longest * longest / area);
 
     HitPoint hit;
     hit.position = world;
