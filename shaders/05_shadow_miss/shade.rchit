@@ -42,19 +42,20 @@ bool is_lit(vec3 origin, vec3 to_light) {
 // ANCHOR_END: shadow
 
 // ANCHOR: visibility
-// What part of the light is seen from above a surface, 0 to 1; one ray if the light is a mere point.
+// What part of the light is seen, 0 to 1, by a surface whose normal is `up`. One ray tells if the light
+// has no size.
 float visibility(vec3 origin, vec3 up) {
     if (push.shadow_rays == SHADOW_OFF) {
         return 1.0;
     }
     bool soft = push.light.size > 0.0;
     uint count = soft ? push.light_samples : 1;
-    vec2 turn = random(gl_LaunchIDEXT.xy, 0, 0, DIMENSION_LIGHT).xy;
+    vec2 start = random(gl_LaunchIDEXT.xy, 0, 0, DIMENSION_LIGHT).xy;
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
-        vec2 point = soft ? disk_point(i, count, turn) : vec2(0.0);
+        vec2 point = soft ? disk_point(i, count, start) : vec2(0.0);
         vec3 to_light = towards_light(push.light, origin, point);
-        // What is below the surface, the surface itself hides.
+        // What is below the surface, the surface itself hides; that needs no ray.
         if (dot(up, to_light) > 0.0 && is_lit(origin, to_light)) {
             seen++;
         }

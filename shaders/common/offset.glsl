@@ -2,7 +2,7 @@
 //
 // The hit's own point, origin + t·direction, is off by as much as t is, and t grows with the distance.
 // The same point from the triangle's corners is off by the rounding of the corners' coordinates alone.
-// (Waechter and Binder, Ray Tracing Gems, chapter 6; NVIDIA's self-intersection avoidance, 2024.)
+// (Waechter and Binder, Ray Tracing Gems, chapter 6; NVIDIA's self-intersection avoidance, 2023.)
 //
 // How far may it be from the plane that the next ray is tested against? Below u = 2^-24 is the error of
 // one rounding, relative; L, T the instance's matrix and translation, W the inverse; |x| takes every
@@ -12,9 +12,10 @@
 //    the sum. Wrong weights only shift the point within the plane. u·(|p| + 3·(|e1| + |e2|)), times |L|.
 // 2. The point in the world, L·p + T: a sum of four terms. 4u·(|L||p| + |T|); and u·|L·p + T| when the
 //    offset is added.
-// 3. The next ray, which the device takes back into the mesh's space. Its inverse is not ours to know:
-//    by cofactors in 32 bits it is off by 18u·|W|, which costs 18u·|L||W||L||p|; its product is a sum
-//    of four, and so was its translation: 7u·|L||W|·(|world| + |T|).
+// 3. The next ray, which the device takes back into the mesh's space by an inverse of its own. If that
+//    came from cofactors in 32 bits that do not cancel, it is off by 18u·|W|, which costs
+//    18u·|L||W||L||p|; product and translation are sums of four terms: 7u·|L||W|·(|world| + |T|).
+//    (common/src/reference/transform.rs has the steps, and matrices whose cofactors cancel.)
 // 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
 //    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
 //    quotient, r the longest edge (common/src/reference/bound.rs has the steps), and for the rounded
@@ -34,6 +35,7 @@ mat3 absolute(mat3 m) {
     return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
 }
 
+// ANCHOR: hit_point
 // For a closest hit shader: the built-in variables say the rest.
 HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 weights) {
     uvec3 corner = instance.triangles.at[triangle];
@@ -54,24 +56,22 @@ HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 weights) {
     vec3 across = mat3(gl_ObjectToWorldEXT) * e1;
     vec3 along = mat3(gl_ObjectToWorldEXT) * e2;
     float longest = max(max(length(across), length(along)), length(along - across));
-    float area = length(cross(across, along));
+    float area = length(cross(across, along));    // twice the triangle's
     float test = longest * (37.0 + 2.0 * longest * longest / area);
 
     HitPoint hit;
     hit.position = world;
-    // Front and back are the mesh's own, so a mirroring instance does not exchange them.
     hit.normal = normalize(vec3(cross(e1, e2) * gl_WorldToObjectEXT));
-    if (gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT) {
-        hit.normal = -hit.normal;
-    }
+    hit.normal = faceforward(hit.normal, gl_WorldRayDirectionEXT, hit.normal);
     hit.error = ROUNDING * (dot(abs(hit.normal), straying) + test);
     return hit;
 }
 
-// The nearest point above the hit where a ray may start.
+// The lowest point above the hit where a ray may start.
 vec3 origin_above(HitPoint hit) {
     return hit.position + hit.error * hit.normal;
 }
+// ANCHOR_END: hit_point
 
 // ANCHOR: lift
 // From the flat triangle to the round surface that its normals pretend: the mean of the point's
@@ -87,10 +87,10 @@ vec3 lift_to_smooth(InstanceRecord instance, uint triangle, vec2 weights) {
         corners[k] = instance.vertices.at[corner[k]];
         point += w[k] * corners[k].position;
     }
-    float side = gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? -1.0 : 1.0;
     vec3 lift = vec3(0.0);
     for (uint k = 0; k < 3; k++) {
-        vec3 normal = side * corners[k].normal;
+        vec3 normal = corners[k].normal;
+        normal = faceforward(normal, gl_ObjectRayDirectionEXT, normal);
         lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
     }
     return mat3(gl_ObjectToWorldEXT) * lift;
