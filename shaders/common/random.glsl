@@ -13,3 +13,14 @@ uvec4 hash(uvec4 v) {
 float to_unit(uint bits) {
     return float(bits >> 8u) * (1.0 / 16777216.0);
 }
+
+// ANCHOR: random
+// What a number is for. Each purpose has numbers of its own, so that dropping one shifts no other.
+const uint DIMENSION_LIGHT = 0;
+
+// Four numbers in [0, 1) that belong to a pixel, one of its samples, a bounce and a purpose.
+vec4 random(uvec2 pixel, uint sample_index, uint bounce, uint dimension) {
+    uvec4 bits = hash(uvec4(pixel.x | pixel.y << 16u, sample_index, bounce, dimension));
+    return vec4(to_unit(bits.x), to_unit(bits.y), to_unit(bits.z), to_unit(bits.w));
+}
+// ANCHOR_END: random

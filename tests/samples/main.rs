@@ -5,3 +5,4 @@ mod basic;
 mod foundation;
 #[path = "../run/mod.rs"]
 mod run;
+mod shadow_miss;

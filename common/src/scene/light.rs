@@ -39,6 +39,48 @@ impl Sun {
     }
 }
 
+/// A light that shines from one place equally in all directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLight {
+    /// Where it is, in the world.
+    pub position: Vec3,
+    /// Linear RGB intensity: what arrives at distance 1, a quarter of it at distance 2.
+    pub intensity: Vec3,
+}
+
+common::shader_struct! {
+    /// A light of either kind, with a size, as shaders get it (`shaders/common/light.glsl`).
+    pub struct Light {
+        /// Directional: unit vector towards the light. Point: its position.
+        pub place: Vec3,
+        /// 0 directional, 1 point.
+        pub kind: u32,
+        /// Linear RGB. Directional: radiance. Point: intensity.
+        pub strength: Vec3,
+        /// Radius of the disk that shines, around `place`; 0 casts hard shadows.
+        pub size: f32,
+    }
+}
+
+impl Light {
+    /// The sun as a disk: `size` is its radius as seen from distance 1, the true sun's 0.0047.
+    pub fn directional(sun: &Sun, size: f32) -> Self {
+        let DirectionalLight { direction, radiance } = sun.light();
+        Self { place: direction, kind: 0, strength: radiance, size }
+    }
+
+    /// A lamp as a disk that faces whoever looks at it; `size` is its radius in the world.
+    pub fn point(lamp: &PointLight, size: f32) -> Self {
+        Self { place: lamp.position, kind: 1, strength: lamp.intensity, size }
+    }
+}
+
+impl Default for PointLight {
+    fn default() -> Self {
+        Self { position: Vec3::new(-1.5, 3.2, 0.5), intensity: Vec3::new(36.0, 29.0, 20.0) }
+    }
+}
+
 impl Default for Sun {
     fn default() -> Self {
         Self { azimuth: 300.0, elevation: 42.0, radiance: Vec3::new(2.6, 2.4, 2.1) }

@@ -15,7 +15,7 @@ mod world;
 
 pub use camera::{Camera, CameraBasis};
 pub use chess::assets;
-pub use light::{DirectionalLight, Sun};
+pub use light::{DirectionalLight, Light, PointLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};
 pub use obj::Model;

@@ -1,0 +1,129 @@
+//! 05 · Shadow miss: a second miss shader answers one question, "does this ray reach the light?".
+//!
+//! New since 02_basic: the miss shader `shadow.rmiss` with a payload of one bool, the ray flags of a
+//! shadow ray, an origin that its own surface cannot shadow, point lights, and soft shadows.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable,
+};
+use common::scene::{
+    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup};
+use glam::Vec3;
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipeline: RayTracingPipeline,
+    sbt: ShaderBindingTable,
+    camera: Camera,
+    sun: Sun,
+    lamp: PointLight,
+    light: u32,
+    light_size: f32,
+    light_samples: u32,
+    shadow_rays: u32,
+    smooth_terminator: bool,
+    show: u32,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: Light,
+        light_samples: u32,
+        shadow_rays: u32,
+        smooth_terminator: u32,
+        show: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(Scene::chess)?;
+        let camera = scene.camera;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        // ANCHOR: pipeline
+        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+            .raygen("camera.rgen")
+            .miss("sky.rmiss")
+            .miss("shadow.rmiss")
+            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+            .recursion(2)
+            .binding(Binding::AccelerationStructure)
+            .binding(Binding::StorageImage)
+            .textures(&scene.textures)
+            .push_constants::<Push>()
+            .build(gpu)?;
+        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        // ANCHOR_END: pipeline
+        Ok(Self {
+            scene,
+            pipeline,
+            sbt,
+            camera,
+            sun: Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
+            lamp: PointLight::default(),
+            light: 0,
+            light_size: 0.0,
+            light_samples: 16,
+            shadow_rays: 0,
+            smooth_terminator: true,
+            show: 0,
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        let views =
+            ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
+        c.choice("show", &mut self.show, &views);
+        c.choice("light", &mut self.light, &["directional", "point"]);
+        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
+        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
+        c.slider("light size", &mut self.light_size, 0.0..=1.0);
+        c.integer("light samples", &mut self.light_samples, 1..=64);
+        c.choice("shadow rays", &mut self.shadow_rays, &["first hit", "nearest hit", "off"]);
+        c.checkbox("smooth terminator", &mut self.smooth_terminator);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: match self.light {
+                0 => Light::directional(&self.sun, self.light_size),
+                _ => Light::point(&self.lamp, self.light_size),
+            },
+            light_samples: self.light_samples,
+            shadow_rays: self.shadow_rays,
+            smooth_terminator: self.smooth_terminator.into(),
+            show: self.show,
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
+        self.sbt.trace(frame.cmd, frame.image.extent);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+}
