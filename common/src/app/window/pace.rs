@@ -83,14 +83,14 @@ impl Pace {
         self.change(now);
     }
 
-    /// A picture of `pixels` took so many milliseconds.
-    pub fn took(&mut self, pixels: u64, milliseconds: f64) {
+    /// A picture of `pixels` took so many milliseconds; returns whether that tells anything.
+    pub fn took(&mut self, pixels: u64, milliseconds: f64) -> bool {
         let cost = milliseconds / pixels.max(1) as f64;
         if self.warm {
             // The mean of the last few, so that one hiccup of the machine changes no size.
             self.cost = Some(self.cost.map_or(cost, |before| 0.6 * before + 0.4 * cost));
         }
-        self.warm = true;
+        std::mem::replace(&mut self.warm, true)
     }
 
     /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are worth rendering.

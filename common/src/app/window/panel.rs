@@ -130,12 +130,14 @@ impl Panel {
         facts: &Facts,
         declare: &mut dyn FnMut(&mut Controls),
     ) -> bool {
+        // A window lower than the panel scrolls it.
+        let room = context.content_rect().height() - 2.0 * (MARGIN + 14.0);
         let area = Area::new(Id::new("panel")).anchor(Align2::LEFT_TOP, [MARGIN, MARGIN]);
         let shown = area.show(context, |ui| {
+            // Else it would be held to the height that it had before an error or a control came.
+            ui.set_max_height(context.content_rect().height());
             style::sheet().show(ui, |ui| {
                 ui.set_width(WIDTH);
-                // A window lower than the panel scrolls it.
-                let room = context.content_rect().height() - 2.0 * (MARGIN + 14.0);
                 let scroll = ScrollArea::vertical().max_height(room).show(ui, |ui| {
                     self.measured(ui, facts);
                     self.warning(ui);
@@ -342,6 +344,21 @@ mod tests {
         harness.state_mut().panel.error = None;
         harness.run();
         assert!(harness.query_by_label(error).is_none());
+    }
+
+    #[test]
+    fn the_panel_grows_with_what_it_holds_as_far_as_the_window_does() {
+        let mut harness = harness();
+        harness.run();
+        let footer = |harness: &Harness<Demo>| {
+            let hint = "F1 keys · F2 picture · F5 shaders · Tab panel";
+            harness.query_by_label(hint).map(|node| node.rect().bottom())
+        };
+        let before = footer(&harness).expect("the footer shows");
+        harness.state_mut().panel.error = Some("wrong\n".repeat(8));
+        harness.run();
+        let after = footer(&harness).expect("the footer shows");
+        assert!(after > before + 80.0 && after < 700.0 - MARGIN, "{before} {after}");
     }
 
     #[test]

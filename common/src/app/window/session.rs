@@ -264,11 +264,13 @@ impl<'a, S: Sample> Session<'a, S> {
         let now = Instant::now();
         self.view.facts(&mut self.facts);
         let picture_at = match *stepped {
-            Stepped::New { milliseconds, full } => {
+            Stepped::New { milliseconds, full, telling } => {
                 let [width, height] = self.facts.rendered;
                 let pixels = |[width, height]: [u32; 2]| f64::from(width) * f64::from(height);
                 let part = pixels(self.facts.rendered) / pixels(self.facts.full);
-                self.panel.history.add(milliseconds / part, full);
+                if telling {
+                    self.panel.history.add(milliseconds / part, full);
+                }
                 tracing::debug!("{width}x{height}: {milliseconds:.1} ms");
                 Some(now)
             }

@@ -35,6 +35,8 @@ pub enum Stepped {
         milliseconds: f64,
         /// Whether it is full size.
         full: bool,
+        /// Whether that was the time of tracing alone: the first picture also compiles.
+        telling: bool,
     },
     /// The last picture still shows how things stand; something may be due then.
     Kept(Option<Instant>),
@@ -102,11 +104,11 @@ impl<S: Sample> View<S> {
             Step::Render(extent) => extent,
             Step::Keep(until) => return Ok(Stepped::Kept(until)),
         };
-        self.render(extent)?;
-        Ok(Stepped::New { milliseconds: self.milliseconds, full: extent == full })
+        let telling = self.render(extent)?;
+        Ok(Stepped::New { milliseconds: self.milliseconds, full: extent == full, telling })
     }
 
-    fn render(&mut self, extent: vk::Extent2D) -> Result<()> {
+    fn render(&mut self, extent: vk::Extent2D) -> Result<bool> {
         let resized = self.image.extent != extent;
         if resized {
             self.image = Image::storage(&self.gpu, "picture", extent)?;
@@ -127,8 +129,8 @@ impl<S: Sample> View<S> {
             0.0 => start.elapsed().as_secs_f64() * 1e3,
             milliseconds => milliseconds,
         };
-        self.pace.took(u64::from(extent.width) * u64::from(extent.height), self.milliseconds);
-        Ok(())
+        let pixels = u64::from(extent.width) * u64::from(extent.height);
+        Ok(self.pace.took(pixels, self.milliseconds))
     }
 
     /// Adds what is known of the last picture.
