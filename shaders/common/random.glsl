@@ -1,11 +1,12 @@
 // Random numbers without state: the same key gives the same number, whoever asks and when.
 
 // A hash of four numbers to four (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d).
+// One component after the other: each takes what the ones before it have become.
 uvec4 hash(uvec4 v) {
     v = v * 1664525u + 1013904223u;
-    v += v.yzxy * v.wxyz;
+    v.x += v.y * v.w; v.y += v.z * v.x; v.z += v.x * v.y; v.w += v.y * v.z;
     v ^= v >> 16u;
-    v += v.yzxy * v.wxyz;
+    v.x += v.y * v.w; v.y += v.z * v.x; v.z += v.x * v.y; v.w += v.y * v.z;
     return v;
 }
 

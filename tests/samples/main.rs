@@ -3,6 +3,7 @@
 mod any_hit;
 mod basic;
 mod foundation;
+mod jitter_camera;
 #[path = "../run/mod.rs"]
 mod run;
 mod shadow_miss;

@@ -1,0 +1,179 @@
+//! 04 · Jitter camera: many rays a pixel, one a frame, each through another point of it.
+//!
+//! New since 02_basic: the sequence that places the rays, the filter that weighs the pixel's
+//! neighbourhood, and an image that keeps the mean of all frames since anything changed.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{
+    Binding, Buffer, Descriptor, Gpu, HitGroup, Image, RayTracingPipeline, Requirements,
+    ShaderBindingTable, barrier,
+};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup};
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+/// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
+const PIECES: usize = 1024;
+/// From here on `show` is data, which has no mean.
+const SHOW_HIT: u32 = 3;
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipeline: RayTracingPipeline,
+    sbt: ShaderBindingTable,
+    camera: Camera,
+    sun: Sun,
+    show: u32,
+    sequence: u32,
+    scrambling: u32,
+    filter: u32,
+    seed: u32,
+    accumulate: bool,
+    means: Image,
+    offsets: Buffer,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DirectionalLight,
+        show: u32,
+        sequence: u32,
+        scrambling: u32,
+        pixel_filter: u32,
+        seed: u32,
+        frame: u32,
+        accumulated: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(Scene::chess)?;
+        let camera = scene.camera;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        // ANCHOR: pipeline
+        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+            .raygen("camera.rgen")
+            .miss("sky.rmiss")
+            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+            .recursion(1)
+            .binding(Binding::AccelerationStructure)
+            .binding(Binding::StorageImage)
+            .binding(Binding::StorageImage)
+            .binding(Binding::StorageBuffer)
+            .textures(&scene.textures)
+            .push_constants::<Push>()
+            .build(gpu)?;
+        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        // ANCHOR_END: pipeline
+        Ok(Self {
+            scene,
+            pipeline,
+            sbt,
+            camera,
+            sun: Sun::default(),
+            show: 0,
+            sequence: 4,
+            scrambling: 2,
+            filter: 2,
+            seed: 0,
+            accumulate: true,
+            means: Image::storage(gpu, "means", vk::Extent2D { width: 1, height: 1 })?,
+            offsets: offsets(gpu)?,
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        let views = ["picture", "normal", "triangle", "hit", "ray direction"];
+        c.choice("show", &mut self.show, &views);
+        let sequences = ["centre", "random", "Halton", "R2", "Sobol"];
+        c.choice("sequence", &mut self.sequence, &sequences);
+        c.choice("scrambling", &mut self.scrambling, &["none", "rotation", "Owen"]);
+        c.choice("filter", &mut self.filter, &["box", "tent", "Blackman-Harris"]);
+        c.integer("seed", &mut self.seed, 0..=1000);
+        c.checkbox("accumulate", &mut self.accumulate);
+        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
+        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: means
+        if self.means.extent != frame.image.extent {
+            self.means = Image::storage(frame.gpu, "means", frame.image.extent)?;
+        }
+        // The frame before may still write its means when this one begins to read them.
+        barrier::trace_to_trace(frame.gpu, frame.cmd);
+        let accumulates = self.accumulate && self.show < SHOW_HIT;
+        // ANCHOR_END: means
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: self.sun.light(),
+            show: self.show,
+            sequence: self.sequence,
+            scrambling: self.scrambling,
+            pixel_filter: self.filter,
+            seed: self.seed,
+            frame: frame.index,
+            accumulated: if accumulates { frame.index } else { 0 },
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+            Descriptor::StorageImage(&self.means),
+            Descriptor::StorageBuffer(&self.offsets),
+        ];
+        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
+        self.sbt.trace(frame.cmd, frame.image.extent);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+}
+
+// ANCHOR: offsets
+/// The offsets, in pixels, below which a given part of the Blackman-Harris filter lies.
+///
+/// The filter is the window of Harris 1978 with four terms and a width of three pixels. Its integral is
+/// a sum of sines with no inverse in closed form, so it is found by bisection, once, in f64.
+fn offsets(gpu: &Gpu) -> Result<Buffer> {
+    const WIDTH: f64 = 3.0;
+    const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
+    let below = |offset: f64| {
+        let waves = (1..4).map(|k| {
+            let turn = std::f64::consts::TAU * f64::from(k);
+            TERMS[k as usize] / TERMS[0] * (turn * offset / WIDTH).sin() / turn
+        });
+        0.5 + offset / WIDTH + waves.sum::<f64>()
+    };
+    let inverse = |part: f64| {
+        let (mut low, mut high) = (-WIDTH / 2.0, WIDTH / 2.0);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + high);
+            if below(middle) < part { low = middle } else { high = middle }
+        }
+        high as f32
+    };
+    let offsets: Vec<f32> =
+        (0..=PIECES).map(|piece| inverse(piece as f64 / PIECES as f64)).collect();
+    Buffer::with_data(gpu, "offsets", &offsets, vk::BufferUsageFlags::STORAGE_BUFFER)
+}
+// ANCHOR_END: offsets
