@@ -4,6 +4,7 @@ mod any_hit;
 mod basic;
 mod foundation;
 mod jitter_camera;
+mod multi_closest_hit;
+mod shadow_miss;
 #[path = "../run/mod.rs"]
 mod run;
-mod shadow_miss;

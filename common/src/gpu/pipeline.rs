@@ -82,6 +82,7 @@ pub struct PipelineBuilder<'a> {
     bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
     push: Option<StructLayout>,
+    hit_data: Option<StructLayout>,
     constants: Vec<(u32, u32)>,
     recursion: u32,
 }
@@ -119,6 +120,7 @@ impl RayTracingPipeline {
             bindings: Vec::new(),
             textures: None,
             push: None,
+            hit_data: None,
             constants: Vec::new(),
             recursion: 1,
         }
@@ -263,6 +265,12 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Declares the data of hit records, checked against the `shaderRecordEXT` block of the same name.
+    pub fn hit_data<T: ShaderStruct>(mut self) -> Self {
+        self.hit_data = Some(T::LAYOUT);
+        self
+    }
+
     /// Sets the specialization constant `id` in every stage that has it.
     pub fn constant(mut self, id: u32, value: u32) -> Self {
         self.constants.push((id, value));
@@ -309,7 +317,8 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &self.callable {
             groups.push(general(stages.add(shader)?));
         }
-        let shared = [gpu.shared_structs(), self.push.into_iter().collect()].concat();
+        let own = self.push.into_iter().chain(self.hit_data).collect();
+        let shared = [gpu.shared_structs(), own].concat();
         for shader in &stages.shaders {
             Reflection::of(&shader.spirv)?.check(&shader.path, &shared)?;
         }

@@ -29,6 +29,9 @@ pub struct Instance {
     pub transform: Affine3A,
     /// The material, by position in the model.
     pub material: usize,
+    /// The first hit record of the shader binding table that is its own, below 2^24:
+    /// `instanceShaderBindingTableRecordOffset`.
+    pub record_offset: u32,
 }
 
 impl Scene {
@@ -43,6 +46,7 @@ impl Scene {
                 mesh,
                 transform: Affine3A::IDENTITY,
                 material: model.meshes[mesh].material,
+                record_offset: 0,
             })
             .collect();
         let mut scene = Self { model, instances, camera: Camera::default() };

@@ -1,0 +1,32 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "look.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+// The nearest hit: normal, material and light give the colour.
+void main() {
+    // ANCHOR: fetch
+    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
+    uint triangle = instance.original.at[gl_PrimitiveID];
+    Surface surface = surface_at(instance, triangle, weights);
+    MaterialRecord material = push.scene.materials.at[instance.material];
+    // ANCHOR_END: fetch
+    vec3 normal = world_normal(surface.normal);
+    vec3 view = -gl_WorldRayDirectionEXT;
+
+    vec3 base = look.tint * material.base_color;
+    if (material.base_texture >= 0) {
+        base *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+    }
+    vec3 light = push.light.direction;
+    vec3 color = material.emission + base * ambient(normal);
+    color += push.light.radiance
+        * reflect_light(base, material.specular, material.shininess, normal, view, light);
+
+    payload = answer(GROUP_PLAIN, color);
+}
