@@ -1,0 +1,64 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "lighting.glsl"
+
+hitAttributeEXT vec3 outward;
+
+// ANCHOR: point
+// The hit again, from the shape and not from the ray: on the sphere or the wall as nearly as rounding
+// allows, wherever the ray came from. And how far above it a ray must start that leaves it.
+//
+// Sphere, center + r·outward. A unit vector is off by 6u in length, product and sum round: 7u·r + u·|p|.
+// The next ray's test finds f exactly but for u·r and then, for the roots to have one sign, needs
+// 6u·r (c) or 17u·r (the foot: 11u·r along the ray, 4u·r across, 2u·r of root and sum): 24u·r in all.
+// Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
+// difference is never wrong. Then the instance's transform, as for triangles (common/offset.glsl).
+HitPoint shape_point(uint id, vec3 normal) {
+    precise vec3 point;
+    vec3 own;
+    if (gl_HitKindEXT == KIND_SPHERE) {
+        Sphere sphere = push.shapes.spheres.at[id];
+        point = sphere.center + sphere.radius * outward;
+        own = abs(point) + vec3(24.0 * sphere.radius);
+    } else {
+        Box box = push.shapes.boxes.at[id];
+        point = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
+        point = mix(point, box.low, lessThan(outward, vec3(0.0)));
+        point = mix(point, box.high, greaterThan(outward, vec3(0.0)));
+        point = clamp(point, box.low, box.high);
+        own = vec3(0.0);
+    }
+    precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
+
+    mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));
+    mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
+    vec3 shift = abs(gl_ObjectToWorldEXT[3]);
+    vec3 reach = linear * abs(point);
+    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+        + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
+
+    HitPoint hit;
+    hit.position = world;
+    hit.normal = normal;
+    hit.error = ROUNDING * dot(abs(normal), straying);
+    return hit;
+}
+// ANCHOR_END: point
+
+// The nearest hit is a sphere or a box: the intersection shader has left its normal.
+void main() {
+    // ANCHOR: fetch
+    bool sphere = gl_HitKindEXT == KIND_SPHERE;
+    uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
+                     : push.shapes.box_ids.at[gl_PrimitiveID];
+    uint number = sphere ? push.shapes.spheres.at[id].material : push.shapes.boxes.at[id].material;
+    MaterialRecord material = push.scene.materials.at[number];
+    // ANCHOR_END: fetch
+    vec3 normal = normalize(vec3(outward * gl_WorldToObjectEXT));
+    normal = faceforward(normal, gl_WorldRayDirectionEXT, normal);
+    show_surface(id, material, material.base_color, normal, origin_above(shape_point(id, normal)), normal);
+}
