@@ -35,11 +35,7 @@ impl Outcome {
     pub fn merge(&mut self, other: Self) {
         self.changed |= other.changed;
         self.hands = other.hands;
-        for ask in other.asked {
-            if !self.asked.contains(&ask) {
-                self.asked.push(ask);
-            }
-        }
+        self.asked.extend(other.asked);
     }
 }
 
@@ -371,6 +367,13 @@ mod tests {
         harness.key_press(Key::Escape);
         harness.run();
         assert!(harness.query_by_label("orbit").is_none(), "Esc closes the overlay first");
+        // Two presses of a slow frame count as two: the overlay closes, then the window.
+        harness.key_press(Key::F1);
+        harness.run();
+        harness.key_press(Key::Escape);
+        harness.key_press(Key::Escape);
+        harness.run();
+        assert_eq!(std::mem::take(&mut harness.state_mut().asked), [Ask::Leave]);
         for key in [Key::F2, Key::F5, Key::Escape] {
             harness.key_press_modifiers(Modifiers::NONE, key);
             harness.run();
