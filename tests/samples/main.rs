@@ -6,6 +6,6 @@ mod foundation;
 mod intersection;
 mod jitter_camera;
 mod multi_closest_hit;
-mod shadow_miss;
 #[path = "../run/mod.rs"]
 mod run;
+mod shadow_miss;
