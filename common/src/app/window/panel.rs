@@ -154,9 +154,7 @@ impl Panel {
             if facts.software {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let tag = RichText::new("software driver").small().color(style::ACCENT);
-                    ui.label(tag).on_hover_text(
-                        "Traced on the CPU: a graphics card is a hundred times faster",
-                    );
+                    ui.label(tag).on_hover_text("Traced on the CPU: a graphics card is far faster");
                 });
             }
         });
