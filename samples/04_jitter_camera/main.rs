@@ -121,6 +121,7 @@ impl Sample for Demo {
         }
         // The frame before may still write its means when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
+        let accumulates = self.accumulate && self.show < SHOW_HIT;
         // ANCHOR_END: means
         // ANCHOR: trace
         let push = Push {
@@ -133,7 +134,7 @@ impl Sample for Demo {
             pixel_filter: self.filter,
             seed: self.seed,
             frame: frame.index,
-            accumulated: if self.accumulates() { frame.index } else { 0 },
+            accumulated: if accumulates { frame.index } else { 0 },
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
@@ -146,12 +147,6 @@ impl Sample for Demo {
         // ANCHOR_END: trace
         Ok(())
     }
-
-    // ANCHOR: accumulates
-    fn accumulates(&self) -> bool {
-        self.accumulate && self.show < SHOW_HIT
-    }
-    // ANCHOR_END: accumulates
 }
 
 // ANCHOR: offsets

@@ -236,10 +236,11 @@ pub fn materials() -> impl Iterator<Item = Material> {
 fn unit(shape: u32, purpose: u32) -> [f64; 4] {
     let mut v = [shape, purpose, 0, 0]
         .map(|word: u32| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
-    // One component after the other: each takes what the ones before it have become.
     let stir = |v: &mut [u32; 4]| {
-        for (i, (a, b)) in [(1, 3), (2, 0), (0, 1), (1, 2)].into_iter().enumerate() {
-            v[i] = v[i].wrapping_add(v[a].wrapping_mul(v[b]));
+        let old = *v;
+        let [x, y, z, w] = old;
+        for ((word, a), b) in v.iter_mut().zip([y, z, x, y]).zip([w, x, y, z]) {
+            *word = word.wrapping_add(a.wrapping_mul(b));
         }
     };
     stir(&mut v);

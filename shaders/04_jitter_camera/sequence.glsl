@@ -14,6 +14,9 @@ const uint SCRAMBLING_NONE = 0;
 const uint SCRAMBLING_ROTATION = 1;
 const uint SCRAMBLING_OWEN = 2;
 
+// What a random number is for: the place within the pixel.
+const uint DIMENSION_PIXEL = 1;
+
 // ANCHOR: halton
 // The digits of i in base 3, mirrored at the point: 1 is 0.1, 2 is 0.2, 3 is 0.01.
 uint mirrored_base_3(uint i) {

@@ -15,9 +15,7 @@ void main() {
     if (push.show == SHOW_NORMAL) {
         Surface surface = surface_at(instance, triangle, weights);
         vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-        vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
-        face = faceforward(face, gl_WorldRayDirectionEXT, face);
-        normal = faceforward(normal, -face, normal);
+        normal = faceforward(normal, gl_WorldRayDirectionEXT, normal);
         payload = vec4(0.5 + 0.5 * normal, 1.0);
     }
     if (push.show == SHOW_TRIANGLE) {

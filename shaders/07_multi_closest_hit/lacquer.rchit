@@ -8,7 +8,7 @@
 
 // Lacquer: a deep coat with gold dust in it.
 void main() {
-    vec3 normal = world_normal(surface_at_hit());
+    vec3 normal = world_normal(surface_at_hit().normal);
     // ANCHOR: dust
     vec3 p = object_position();
     vec3 q = 20.0 * look.scale * p;

@@ -34,11 +34,9 @@ float pixel_width(vec3 normal) {
 }
 
 // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
-// Which side is seen, the triangle says: near an outline its smooth normal may look away.
-vec3 world_normal(Surface surface) {
-    vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
-    return faceforward(normal, -faceforward(face, gl_WorldRayDirectionEXT, face), normal);
+vec3 world_normal(vec3 normal) {
+    normal = normalize(vec3(normal * gl_WorldToObjectEXT));
+    return faceforward(normal, gl_WorldRayDirectionEXT, normal);
 }
 
 // A base colour under a clear coat, which mirrors the sky the more, the flatter one looks at it

@@ -8,7 +8,7 @@
 
 // White marble: veins where noise passes zero, in clouds of grey.
 void main() {
-    vec3 normal = world_normal(surface_at_hit());
+    vec3 normal = world_normal(surface_at_hit().normal);
     // ANCHOR: veins
     vec3 p = look.scale * object_position();
     float width = look.scale * pixel_width(normal);

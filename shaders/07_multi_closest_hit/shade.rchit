@@ -16,7 +16,7 @@ void main() {
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
     // ANCHOR_END: fetch
-    vec3 normal = world_normal(surface);
+    vec3 normal = world_normal(surface.normal);
     vec3 view = -gl_WorldRayDirectionEXT;
 
     vec3 base = look.tint * material.base_color;

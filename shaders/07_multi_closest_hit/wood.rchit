@@ -8,7 +8,7 @@
 
 // Wood: the rings of a trunk, cut by the surface. Each square of the board is cut from its own.
 void main() {
-    vec3 normal = world_normal(surface_at_hit());
+    vec3 normal = world_normal(surface_at_hit().normal);
     vec3 p = object_position();
     // ANCHOR: rings
     // Inside the frame lie squares of one unit; the frame is four boards, mitred at the corners.

@@ -18,7 +18,6 @@ float to_unit(uint bits) {
 // ANCHOR: random
 // What a number is for. Each purpose has numbers of its own, so that dropping one shifts no other.
 const uint DIMENSION_LIGHT = 0;
-const uint DIMENSION_PIXEL = 1;
 
 // Four numbers in [0, 1) that belong to a pixel, one of its samples, a bounce and a purpose.
 vec4 random(uvec2 pixel, uint sample_index, uint bounce, uint dimension) {

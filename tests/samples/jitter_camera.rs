@@ -130,7 +130,7 @@ fn each_box_of_a_scrambled_net_holds_one_point() {
 #[test]
 fn in_floats_the_multiples_of_r2_run_out_of_digits() {
     let mut places: Vec<u32> =
-        (100_000..101_024).map(|i| (i as f32 * 0.754_877_7).fract().to_bits()).collect();
+        (100_000..101_024).map(|i| (i as f32 * 0.754_877_67).fract().to_bits()).collect();
     places.sort_unstable();
     places.dedup();
     println!("{} places of 1024 in floats", places.len());

@@ -20,7 +20,7 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size)]
     pub size: vk::Extent2D,
 
-    /// Frames to render; the last one is the picture. A window closes after so many, if given
+    /// Frames to render; the last one is the picture, and a window closes after it
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
 
@@ -116,6 +116,6 @@ fn assignment(text: &str) -> Result<(String, String), String> {
         Some((name, value)) if !name.trim().is_empty() => {
             Ok((name.trim().to_owned(), value.trim().to_owned()))
         }
-        _ => Err("a setting is a name and a value, such as \"sun elevation=30\"".to_owned()),
+        _ => Err("a setting is a name and a value, such as \"light elevation=30\"".to_owned()),
     }
 }

@@ -86,11 +86,8 @@ impl Means {
     }
 }
 
-/// A frame of a pixel, given its number and the mean so far.
-type Input = fn(u32, f32) -> f32;
-
-/// What makes life hard for a mean.
-fn inputs() -> Vec<(&'static str, Input)> {
+/// Frames of a pixel, given their number and the mean so far: what makes life hard for a mean.
+fn inputs() -> Vec<(&'static str, fn(u32, f32) -> f32)> {
     vec![
         ("0.1, always", |_, _| 0.1),
         ("an edge: 0 or 1 at random", |i, _| (super::points::hash([i, 0, 0, 0])[0] & 1) as f32),

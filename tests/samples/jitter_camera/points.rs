@@ -20,7 +20,7 @@ pub enum Scrambling {
     Owen,
 }
 
-/// What a random number is for: the place within the pixel. As in `shaders/common/random.glsl`.
+/// What a random number is for: the place within the pixel.
 const DIMENSION_PIXEL: u32 = 1;
 
 /// Where the ray of frame `i` goes through a pixel, in [0, 1)².

@@ -51,11 +51,11 @@ const WINDOW: [(&str, &str); 5] = [
     ("Esc", "quit"),
 ];
 
-/// What the keys pressed since the last frame ask; a key pressed twice asks twice.
+/// What the keys pressed since the last frame ask.
 pub fn asked(context: &Context) -> Vec<Ask> {
     context.input(|input| {
-        let presses = |&(key, ask)| std::iter::repeat_n(ask, input.num_presses(key));
-        ASKS.iter().flat_map(presses).collect()
+        let pressed = ASKS.iter().filter(|(key, _)| input.key_pressed(*key));
+        pressed.map(|(_, ask)| *ask).collect()
     })
 }
 
