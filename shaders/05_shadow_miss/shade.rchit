@@ -76,9 +76,7 @@ void main() {
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     vec3 view = -gl_WorldRayDirectionEXT;
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
-    HitPoint hit = hit_point(instance, triangle, weights);
-    normal = faceforward(normal, -hit.normal, normal);
+    normal = faceforward(normal, -view, normal);
     // ANCHOR_END: normal
 
     vec3 base = material.base_color;
@@ -86,10 +84,11 @@ void main() {
         base *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
     // ANCHOR: light
+    HitPoint hit = hit_point(instance, triangle, weights);
     vec3 origin = origin_above(hit);
     vec3 up = hit.normal;
     if (push.smooth_terminator != 0) {
-        vec3 lift = lift_to_smooth(hit, instance, triangle, weights);
+        vec3 lift = lift_to_smooth(instance, triangle, weights);
         origin += lift;
         up = lift == vec3(0.0) ? up : normal;
     }

@@ -78,7 +78,7 @@ vec3 origin_above(HitPoint hit) {
 // projections onto the planes through the corners, across their normals, where those lie above it.
 // A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
 // the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
-vec3 lift_to_smooth(HitPoint hit, InstanceRecord instance, uint triangle, vec2 weights) {
+vec3 lift_to_smooth(InstanceRecord instance, uint triangle, vec2 weights) {
     uvec3 corner = instance.triangles.at[triangle];
     vec3 w = vec3(1.0 - weights.x - weights.y, weights);
     Vertex corners[3];
@@ -87,11 +87,10 @@ vec3 lift_to_smooth(HitPoint hit, InstanceRecord instance, uint triangle, vec2 w
         corners[k] = instance.vertices.at[corner[k]];
         point += w[k] * corners[k].position;
     }
-    vec3 up = hit.normal * mat3(gl_ObjectToWorldEXT);
     vec3 lift = vec3(0.0);
     for (uint k = 0; k < 3; k++) {
         vec3 normal = corners[k].normal;
-        normal = faceforward(normal, -up, normal);
+        normal = faceforward(normal, gl_ObjectRayDirectionEXT, normal);
         lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
     }
     return mat3(gl_ObjectToWorldEXT) * lift;

@@ -39,7 +39,6 @@ struct SceneAddresses {
 
 struct Surface {
     vec3 normal;          // object space, interpolated, not normalised
-    vec3 face;            // the triangle's own normal, likewise
     vec2 uv;
 };
 
@@ -54,7 +53,6 @@ Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
     vec3 w = vec3(1.0 - weights.x - weights.y, weights);
     Surface surface;
     surface.normal = w.x * a.normal + w.y * b.normal + w.z * c.normal;
-    surface.face = cross(b.position - a.position, c.position - a.position);
     surface.uv = w.x * a.uv + w.y * b.uv + w.z * c.uv;
     return surface;
 }

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // Each test binary uses a part of it.
 
 pub mod exact;
-pub mod plot;
+pub mod leaving;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

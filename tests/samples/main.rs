@@ -2,10 +2,8 @@
 
 mod any_hit;
 mod basic;
-mod foundation;
-mod intersection;
-mod jitter_camera;
-mod multi_closest_hit;
+mod infinite_plane;
+mod reflection;
 #[path = "../run/mod.rs"]
 mod run;
 mod shadow_miss;

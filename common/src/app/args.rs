@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use ash::vk;
 use clap::Parser;
-use clap::builder::NonEmptyStringValueParser;
 
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
 #[derive(Clone, Debug, Parser)]
-#[command(disable_version_flag = true, about = "Renders one chapter")]
+#[command(disable_version_flag = true)]
 pub struct Args {
     /// Render without a window, write what is asked for, and exit
     #[arg(long)]
@@ -20,19 +19,15 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size)]
     pub size: vk::Extent2D,
 
-    /// Frames to render; the last one is the picture. A window closes after so many, if given
+    /// Frames to render headless; the last one is the picture
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
 
-    /// Whether --frames was given: without it, a window stays open
-    #[arg(skip)]
-    pub frames_given: bool,
-
-    /// Write the last frame (with --headless; in a window, F2 writes one): .png (8-bit sRGB) or .exr (linear, unclamped)
+    /// Write the last frame: .png (8-bit sRGB) or .exr (linear, unclamped)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// With --headless, write device, times, stages and messages as JSON; - is standard output
+    /// Write device, times, stages and messages as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 
@@ -49,7 +44,7 @@ pub struct Args {
     pub list_controls: bool,
 
     /// Use this device: a number of --list-devices or a part of its name
-    #[arg(long, value_name = "N|NAME", value_parser = NonEmptyStringValueParser::new(), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N|NAME")]
     pub device: Option<String>,
 
     /// Print the devices and what each lacks
@@ -64,10 +59,6 @@ pub struct Args {
     #[arg(long, value_name = "FILE.obj")]
     pub scene: Option<PathBuf>,
 
-    /// Compile these shaders and exit: how a window tries an edit, as a compiler may abort on one
-    #[arg(long, hide = true, num_args = 1.., value_name = "PATH")]
-    pub compile: Vec<String>,
-
     /// Build acceleration structures in the model's order instead of a spatial one
     #[arg(long)]
     pub unordered: bool,
@@ -81,13 +72,9 @@ impl Args {
     /// # Errors
     /// One line that says what is wrong and where to look.
     pub fn parse_for(name: &'static str) -> Result<Self, Usage> {
-        use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
+        use clap::{CommandFactory, FromArgMatches};
         let command = Self::command().name(name);
-        let matches = command.try_get_matches().and_then(|matches| {
-            let mut args = Self::from_arg_matches(&matches)?;
-            args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
-            Ok(args)
-        });
+        let matches = command.try_get_matches().and_then(|m| Self::from_arg_matches(&m));
         matches.map_err(|error| {
             if !error.use_stderr() {
                 error.exit();
@@ -116,6 +103,6 @@ fn assignment(text: &str) -> Result<(String, String), String> {
         Some((name, value)) if !name.trim().is_empty() => {
             Ok((name.trim().to_owned(), value.trim().to_owned()))
         }
-        _ => Err("a setting is a name and a value, such as \"sun elevation=30\"".to_owned()),
+        _ => Err("a setting is a name and a value, such as \"light elevation=30\"".to_owned()),
     }
 }

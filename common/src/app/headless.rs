@@ -4,16 +4,13 @@ use std::io::IsTerminal;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use ash::vk;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::Args;
-use super::{
-    Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls, output,
-};
-use crate::files;
-use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
+use super::{Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls};
+use crate::gpu::{Gpu, GpuOptions, Image, Timer, barrier};
 use crate::usage::Usage;
 
 /// How long a run may take before it shows its progress.
@@ -25,13 +22,17 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// On wrong arguments ([`Usage`]), if anything fails, or if validation had something to say.
 pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let start = Instant::now();
-    check_files(args)?;
+    // What would be refused after the work is refused before it.
+    args.out.as_deref().map(Format::of).transpose()?;
+    for file in [&args.out, &args.report].into_iter().flatten() {
+        check_writable(file)?;
+    }
     let comparison = args.compare.as_deref().map(compare::parse).transpose()?;
     let gpu = Gpu::new(&GpuOptions {
         requirements: S::requirements(),
         device: args.device.as_deref(),
         validate: args.validate,
-        window: None,
+        surface_extensions: Vec::new(),
     })?;
     check_size(&gpu, args.size)?;
     let setup = Setup::new(args);
@@ -43,7 +44,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_controls {
         for control in controls::list(|c| sample.controls(c)) {
             let controls::Listed { name, kind, possible, value } = control;
-            output::print(&format!("{name}\t{kind}\t{possible}\t{value}\n"))?;
+            println!("{name}\t{kind}\t{possible}\t{value}");
         }
         return Ok(());
     }
@@ -85,7 +86,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     }
     drop(progress);
     if let (Some(comparison), false) = (&comparison, args.report == Some("-".into())) {
-        output::print(&format!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table()))?;
+        print!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table());
     }
 
     if let Some(out) = &args.out {
@@ -112,53 +113,43 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             stages: statistics.stages,
             groups: statistics.groups,
             bytes_allocated: gpu.allocated_bytes(),
-            validation_messages: gpu.validation().all(),
+            validation_messages: gpu.validation_messages(),
             comparison,
             chapter: sample.report()?,
         }
         .save(path)?;
     }
-    // Messages about what was never destroyed come when the device is.
-    let validation = gpu.validation();
-    drop((sample, image, timer, gpu));
-    check_validation(&validation)
+    check_validation(&gpu)
 }
 
 /// Fails if validation has said anything.
 ///
 /// # Errors
 /// With the number of messages and the first.
-pub fn check_validation(validation: &Messages) -> Result<()> {
-    match validation.all().as_slice() {
+pub fn check_validation(gpu: &Gpu) -> Result<()> {
+    match gpu.validation_messages().as_slice() {
         [] => Ok(()),
         messages => bail!("{} validation messages; the first: {}", messages.len(), messages[0]),
     }
 }
 
-/// Refuses before the work what would be refused after it: a picture or report that cannot be written,
-/// or one file for both.
-///
-/// # Errors
-/// With the file, and why.
-pub fn check_files(args: &Args) -> Result<()> {
-    args.out.as_deref().map(Format::of).transpose()?;
-    let report = args.report.as_deref().filter(|path| *path != Path::new("-"));
-    for file in [args.out.as_deref(), report].into_iter().flatten() {
-        files::check_writable(file)?;
+fn check_writable(file: &Path) -> Result<()> {
+    if file == Path::new("-") {
+        return Ok(());
     }
-    match (&args.out, report) {
-        (Some(out), Some(report)) if files::same(out, report) => {
-            Err(Usage(format!("--out and --report both name '{}'", report.display())).into())
-        }
-        _ => Ok(()),
+    let folder = match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if file.is_dir() {
+        bail!("cannot write '{}': it is a folder", file.display());
     }
+    tempfile::NamedTempFile::new_in(folder)
+        .map(drop)
+        .with_context(|| format!("cannot write '{}'", file.display()))
 }
 
-/// Fails if a picture is larger than the device allows.
-///
-/// # Errors
-/// With what it allows.
-pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
+fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
     let side = gpu.limits.max_image_dimension;
     let rays = u64::from(gpu.limits.max_ray_dispatch_invocation_count);
     let fits = size.width <= side

@@ -4,10 +4,8 @@ mod args;
 pub mod compare;
 pub mod controls;
 mod headless;
-pub mod output;
 mod picture;
 mod report;
-mod window;
 
 use std::cell::Cell;
 use std::path::PathBuf;
@@ -18,7 +16,7 @@ use ash::vk;
 
 pub use args::Args;
 pub use controls::Controls;
-pub use headless::{check_files, headless};
+pub use headless::headless;
 pub use picture::{Format, Picture};
 pub use report::{Milliseconds, Report};
 
@@ -50,13 +48,6 @@ pub trait Sample: Sized {
     /// # Errors
     /// If something has to be rebuilt and cannot be.
     fn render(&mut self, frame: &Frame) -> Result<()>;
-
-    /// Whether further frames of an unchanged view improve the picture, as with accumulation.
-    ///
-    /// Without it, a window at rest renders nothing.
-    fn accumulates(&self) -> bool {
-        false
-    }
 
     /// What the chapter itself has to tell after the last frame; part of `--report`.
     ///
@@ -133,7 +124,7 @@ pub fn run<S: Sample>(name: &'static str) -> ExitCode {
 pub fn finish(result: Result<()>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
-    output::complain(&format!("error: {line}"));
+    eprintln!("error: {line}");
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
@@ -141,16 +132,10 @@ fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
     }
-    for shader in &args.compile {
-        compile_shader(shader)?;
-    }
-    if !args.compile.is_empty() {
-        return Ok(());
-    }
     if args.headless || args.list_controls || args.compare.is_some() {
         return headless::<S>(name, args);
     }
-    window::open::<S>(name, args)
+    Err(Usage("no window yet: add --headless".to_owned()).into())
 }
 
 /// Prints every device with its driver, and what it lacks.
@@ -159,7 +144,7 @@ fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
 /// If there is no Vulkan.
 pub fn list_devices(requirements: &Requirements) -> Result<()> {
     for line in gpu::device_lines(requirements)? {
-        output::print(&format!("{line}\n"))?;
+        println!("{line}");
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! What a run found out about itself, as JSON: for scripts, tests and the tables on the pages.
 
+use std::io::Write;
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde::Serialize;
 
 use super::compare::Comparison;
-use super::output;
 use crate::files::write_whole;
 
 /// The report of one run.
@@ -80,7 +80,7 @@ impl Report {
         let mut text = serde_json::to_string_pretty(self)?;
         text.push('\n');
         if path == Path::new("-") {
-            output::print(&text)
+            std::io::stdout().write_all(text.as_bytes()).context("cannot write to standard output")
         } else {
             write_whole(path, text.as_bytes())
         }

@@ -56,19 +56,6 @@ pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE), (TRACE, both));
 }
 
-/// Earlier traces are done with the shader binding table before a transfer changes it.
-pub fn trace_to_table_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    // Nothing was written that the transfer would have to see: waiting is enough.
-    memory(gpu, cmd, (TRACE, Access::NONE), (Stage::ALL_TRANSFER, Access::TRANSFER_WRITE));
-}
-
-/// A transfer's change of the shader binding table becomes visible to traces, to the device that
-/// reads handles as well as to shaders that read a record's data.
-pub fn table_update_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    let written = (Stage::ALL_TRANSFER, Access::TRANSFER_WRITE);
-    memory(gpu, cmd, written, (TRACE, Access::SHADER_READ));
-}
-
 /// Whatever shaders wrote becomes visible to a copy.
 pub fn before_readback(gpu: &Gpu, cmd: vk::CommandBuffer) {
     let writers = Stage::ALL_COMMANDS;

@@ -113,12 +113,6 @@ impl Buffer {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
-            // The offset in memory is aligned; that the memory's own address is, no rule promises.
-            anyhow::ensure!(
-                buffer.address.is_multiple_of(alignment),
-                "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
-                buffer.address
-            );
         }
         gpu.name_object(handle, name);
         Ok(buffer)

@@ -4,7 +4,7 @@
 //! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
-use std::ffi::{CStr, CString};
+use std::ffi::{CStr, CString, c_char};
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,10 +13,8 @@ use std::time::Duration;
 use anyhow::{Context as _, Result, anyhow};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
-use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
 use super::device::{self, Candidate};
-use super::layout::StructLayout;
 use super::limits::Limits;
 use super::requirements::Requirements;
 use super::validation::{self, Messages};
@@ -30,17 +28,8 @@ pub struct GpuOptions<'a> {
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
-    /// The window to draw to, if any: the device must have a queue that can.
-    pub window: Option<WindowHandles>,
-}
-
-/// A window as its system knows it. It must outlive whatever is made from it.
-#[derive(Clone, Copy)]
-pub struct WindowHandles {
-    /// The connection to the window system.
-    pub display: RawDisplayHandle,
-    /// The window.
-    pub window: RawWindowHandle,
+    /// Instance extensions of the window system.
+    pub surface_extensions: Vec<*const c_char>,
 }
 
 /// A shared handle to the device and all that belongs to it.
@@ -71,14 +60,11 @@ pub struct GpuContext {
     pub name: String,
     /// Its driver, in its maker's words.
     pub driver: String,
-    /// Whether it is a driver that runs on the CPU.
-    pub software: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
-    shared_structs: Mutex<Vec<StructLayout>>,
     command_pool: Mutex<vk::CommandPool>,
     debug: Option<Debug>,
 }
@@ -100,7 +86,7 @@ pub struct Statistics {
 
 struct Debug {
     names: ext::debug_utils::Device,
-    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Arc<Messages>)>,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Box<Messages>)>,
 }
 
 impl Deref for Gpu {
@@ -135,13 +121,11 @@ pub fn load() -> Result<Entry> {
 /// If there is no Vulkan.
 pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
     let entry = load()?;
-    let (instance, _) = create_instance(&entry, None, None)?;
+    let (instance, _) = create_instance(&entry, None, &[])?;
     let candidates = device::candidates(&instance, wanted);
     // SAFETY: nothing has been made from this instance.
     unsafe { instance.destroy_instance(None) };
-    let candidates = candidates?;
-    device::ensure_some(&candidates)?;
-    Ok(candidates.iter().map(Candidate::line).collect())
+    Ok(candidates?.iter().map(Candidate::line).collect())
 }
 
 impl Gpu {
@@ -153,14 +137,9 @@ impl Gpu {
         let entry = load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
-            create_instance(&entry, messages.as_deref(), options.window.as_ref())?;
-        let chosen = device::candidates(&instance, &options.requirements).and_then(|mut found| {
-            if let Some(window) = &options.window {
-                device::require_presentation(&entry, &instance, window, &mut found)?;
-            }
-            device::choose(found, options.device)
-        });
-        let chosen = match chosen {
+            create_instance(&entry, messages.as_deref(), &options.surface_extensions)?;
+        let candidates = device::candidates(&instance, &options.requirements)?;
+        let chosen = match device::choose(candidates, options.device) {
             Ok(chosen) => chosen,
             Err(error) => {
                 // SAFETY: nothing else has been made from this instance.
@@ -177,7 +156,7 @@ impl Gpu {
         instance: Instance,
         chosen: &Candidate,
         requirements: &Requirements,
-        messages: Option<Arc<Messages>>,
+        messages: Option<Box<Messages>>,
         has_debug_utils: bool,
     ) -> Result<Self> {
         let physical_device = chosen.handle;
@@ -219,7 +198,7 @@ impl Gpu {
                 Some(messages) => {
                     let utils = ext::debug_utils::Instance::new(&entry, &instance);
                     let info = messages.messenger_info();
-                    // SAFETY: the user data is kept beside the messenger.
+                    // SAFETY: the user data is the box kept beside the messenger.
                     let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
                     Some((utils, handle, messages))
                 }
@@ -233,13 +212,11 @@ impl Gpu {
             acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
-            limits: Limits::of(&instance, physical_device, queue_family),
+            limits: Limits::of(&instance, physical_device),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
-            software: chosen.kind == vk::PhysicalDeviceType::CPU,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
-            shared_structs: Mutex::default(),
             command_pool: Mutex::new(command_pool),
             device,
             instance,
@@ -262,10 +239,10 @@ impl Gpu {
         let _ = unsafe { debug.names.set_debug_utils_object_name(&info) };
     }
 
-    /// What validation says, now and after the device is gone: a leak is said last.
-    pub fn validation(&self) -> Arc<Messages> {
+    /// What validation has said so far; empty where it is off.
+    pub fn validation_messages(&self) -> Vec<String> {
         let messenger = self.debug.as_ref().and_then(|debug| debug.messenger.as_ref());
-        messenger.map_or_else(Arc::default, |(_, _, messages)| messages.clone())
+        messenger.map_or_else(Vec::new, |(_, _, messages)| messages.all())
     }
 
     /// Records commands with `record`, submits them, and waits until the device has done them.
@@ -273,20 +250,6 @@ impl Gpu {
     /// # Errors
     /// If recording or the device fails.
     pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
-        self.submit_between(vk::Semaphore::null(), vk::Semaphore::null(), record)
-    }
-
-    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end;
-    /// either may be null.
-    ///
-    /// # Errors
-    /// As [`Gpu::submit`].
-    pub fn submit_between<R>(
-        &self,
-        before: vk::Semaphore,
-        after: vk::Semaphore,
-        record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
-    ) -> Result<R> {
         let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
         let info =
             vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
@@ -298,33 +261,16 @@ impl Gpu {
             self.device.begin_command_buffer(cmd, &begin)?;
             let result = record(cmd);
             self.device.end_command_buffer(cmd)?;
-            let done = if result.is_ok() { self.run(cmd, before, after) } else { Ok(()) };
+            let done = if result.is_ok() { self.run(cmd) } else { Ok(()) };
             self.device.free_command_buffers(pool, &[cmd]);
             done?;
             result
         }
     }
 
-    fn run(
-        &self,
-        cmd: vk::CommandBuffer,
-        before: vk::Semaphore,
-        after: vk::Semaphore,
-    ) -> Result<()> {
-        let semaphores = [before, after].map(|semaphore| {
-            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)
-        });
-        let [before, after] =
-            semaphores.each_ref().map(|info| match info.semaphore == vk::Semaphore::null() {
-                true => &[][..],
-                false => std::slice::from_ref(info),
-            });
+    fn run(&self, cmd: vk::CommandBuffer) -> Result<()> {
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default()
-            .wait_semaphore_infos(before)
-            .command_buffer_infos(&buffers)
-            .signal_semaphore_infos(after)];
+        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
         // SAFETY: cmd is recorded; the fence is destroyed after the wait.
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
@@ -335,19 +281,6 @@ impl Gpu {
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }
-    }
-
-    /// Declares structures that shaders find by address: every pipeline made from now on is held to
-    /// them, as a wrong offset there makes a driver follow a wrong address.
-    pub fn share_structs(&self, layouts: &[StructLayout]) {
-        let mut shared = self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner);
-        shared.retain(|known| layouts.iter().all(|layout| layout.name != known.name));
-        shared.extend_from_slice(layouts);
-    }
-
-    /// What [`Gpu::share_structs`] has declared so far.
-    pub(super) fn shared_structs(&self) -> Vec<StructLayout> {
-        self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What has been built so far.
@@ -369,25 +302,17 @@ impl Gpu {
 fn create_instance(
     entry: &Entry,
     messages: Option<&Messages>,
-    window: Option<&WindowHandles>,
+    surface_extensions: &[*const c_char],
 ) -> Result<(Instance, bool)> {
     // SAFETY: the loader is alive.
-    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
-        "the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's \
-             driver",
-    )?;
+    let offered = unsafe { entry.enumerate_instance_extension_properties(None)? };
     let has_debug_utils =
         offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
-    let mut extensions = Vec::new();
-    if let Some(window) = window {
-        let needed = ash_window::enumerate_required_extensions(window.display)
-            .context("Vulkan does not know this window system")?;
-        extensions.extend_from_slice(needed);
-    }
+    let mut extensions = surface_extensions.to_vec();
     if has_debug_utils || messages.is_some() {
         extensions.push(ext::debug_utils::NAME.as_ptr());
     }
-    let mut layers: Vec<*const std::ffi::c_char> = Vec::new();
+    let mut layers: Vec<*const c_char> = Vec::new();
     let application = vk::ApplicationInfo::default()
         .application_name(c"ray tracing")
         .api_version(vk::API_VERSION_1_3);
@@ -413,9 +338,6 @@ fn create_instance(
         Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => Err(anyhow!(
             "no Vulkan driver: run ./setup to install a software driver with ray tracing, or install \
              your GPU's driver"
-        )),
-        Err(vk::Result::ERROR_EXTENSION_NOT_PRESENT) if window.is_some() => Err(anyhow!(
-            "Vulkan cannot draw to this window system: add --headless to render without a window"
         )),
         Err(error) => Err(error).context("cannot create a Vulkan instance"),
     }

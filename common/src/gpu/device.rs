@@ -2,10 +2,9 @@
 
 use std::ffi::CStr;
 
-use anyhow::{Context, Result, bail, ensure};
-use ash::{Entry, Instance, khr, vk};
+use anyhow::{Result, bail};
+use ash::{Instance, vk};
 
-use super::context::WindowHandles;
 use super::requirements::{Features, Requirements};
 use crate::usage::Usage;
 
@@ -23,8 +22,6 @@ pub struct Candidate {
     pub kind: vk::PhysicalDeviceType,
     /// A queue family with compute (and so with ray tracing), graphics where there is one.
     pub queue_family: Option<u32>,
-    /// Whether that family has graphics.
-    pub graphics: bool,
     /// What this device lacks for the sample at hand; empty if it will do.
     pub missing: Vec<String>,
 }
@@ -56,11 +53,7 @@ fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
 /// If Vulkan cannot enumerate devices.
 pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let handles = match unsafe { instance.enumerate_physical_devices() } {
-        // What loaders say where drivers are installed, but none of them finds its device.
-        Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
-        handles => handles.context("cannot list the Vulkan devices")?,
-    };
+    let handles = unsafe { instance.enumerate_physical_devices()? };
     handles
         .into_iter()
         .enumerate()
@@ -86,7 +79,6 @@ fn judge(
         driver: String::new(),
         kind: properties.device_type,
         queue_family: None,
-        graphics: false,
         missing: Vec::new(),
     };
     let version = properties.api_version;
@@ -120,52 +112,11 @@ fn judge(
         |flags| families.iter().position(|f| f.queue_flags.contains(flags)).map(|i| i as u32);
     // The window's panel needs graphics; a headless run does with compute, as data-centre GPUs have it.
     let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
-    candidate.graphics = graphics.is_some();
     candidate.queue_family = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
     if candidate.queue_family.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }
     Ok(candidate)
-}
-
-const INSTALL: &str =
-    "run ./setup to install a software driver with ray tracing, or update your GPU's driver";
-
-/// Fails if there is no device at all.
-///
-/// # Errors
-/// Then, with what to install.
-pub fn ensure_some(candidates: &[Candidate]) -> Result<()> {
-    ensure!(!candidates.is_empty(), "no Vulkan device, though there is a driver: {INSTALL}");
-    Ok(())
-}
-
-/// Adds to what each device lacks a queue that can draw and present to a window.
-///
-/// # Errors
-/// If the window takes no Vulkan surface.
-pub fn require_presentation(
-    entry: &Entry,
-    instance: &Instance,
-    window: &WindowHandles,
-    candidates: &mut [Candidate],
-) -> Result<()> {
-    let surfaces = khr::surface::Instance::new(entry, instance);
-    // SAFETY: the window outlives this call, at whose end the surface is destroyed.
-    unsafe {
-        let surface =
-            ash_window::create_surface(entry, instance, window.display, window.window, None)?;
-        for candidate in candidates {
-            let Some(family) = candidate.queue_family else { continue };
-            let presents =
-                surfaces.get_physical_device_surface_support(candidate.handle, family, surface);
-            if !candidate.graphics || !presents.unwrap_or(false) {
-                candidate.missing.push("a queue that draws to this window".to_owned());
-            }
-        }
-        surfaces.destroy_surface(surface, None);
-    }
-    Ok(())
 }
 
 /// Picks the device that `asked` names by number or part of its name, else the best suitable one.
@@ -174,7 +125,11 @@ pub fn require_presentation(
 /// If none fits: one line that lists every device and what it lacks, and what to install.
 pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
     let list = |all: &[Candidate]| all.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
-    ensure_some(&candidates)?;
+    const INSTALL: &str =
+        "run ./setup to install a software driver with ray tracing, or update your GPU's driver";
+    if candidates.is_empty() {
+        bail!("no Vulkan device: {INSTALL}");
+    }
     if let Some(asked) = asked {
         let matches = |candidate: &Candidate| match asked.parse::<usize>() {
             Ok(number) => candidate.index == number,
@@ -222,7 +177,6 @@ mod tests {
             driver: "driver 1.0".to_owned(),
             kind,
             queue_family: Some(0),
-            graphics: true,
             missing: missing.iter().map(|&m| m.to_owned()).collect(),
         }
     }

@@ -30,8 +30,7 @@ impl Image {
         let usage = vk::ImageUsageFlags::STORAGE
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
-        let format = vk::Format::R32G32B32A32_SFLOAT;
-        let image = Self::new(gpu, name, extent, format, format, usage)?;
+        let image = Self::new(gpu, name, extent, vk::Format::R32G32B32A32_SFLOAT, usage)?;
         gpu.submit(|cmd| {
             image.transition(cmd, vk::ImageLayout::UNDEFINED, vk::ImageLayout::GENERAL);
             let range = whole();
@@ -71,7 +70,7 @@ impl Image {
         );
         let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-        let image = Self::new(gpu, name, extent, format, format, usage)?;
+        let image = Self::new(gpu, name, extent, format, usage)?;
         let staging = Buffer::with_data(gpu, name, texels, vk::BufferUsageFlags::TRANSFER_SRC)?;
         gpu.submit(|cmd| {
             use vk::ImageLayout as Layout;
@@ -93,32 +92,11 @@ impl Image {
         Ok(image)
     }
 
-    /// An image that a picture is copied to, drawn over, and copied from; its layout is undefined.
-    ///
-    /// Copies see it in `format`, drawing in `view_format`, of the same size: so a picture can be
-    /// converted to sRGB and a panel blended over it in sRGB, where its colours were chosen.
-    ///
-    /// # Errors
-    /// If a side is 0 or above the device's limit, or memory is short.
-    pub fn canvas(
-        gpu: &Gpu,
-        name: &str,
-        extent: vk::Extent2D,
-        format: vk::Format,
-        view_format: vk::Format,
-    ) -> Result<Self> {
-        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT
-            | vk::ImageUsageFlags::TRANSFER_SRC
-            | vk::ImageUsageFlags::TRANSFER_DST;
-        Self::new(gpu, name, extent, format, view_format, usage)
-    }
-
     fn new(
         gpu: &Gpu,
         name: &str,
         extent: vk::Extent2D,
         format: vk::Format,
-        view_format: vk::Format,
         usage: vk::ImageUsageFlags,
     ) -> Result<Self> {
         let (width, height) = (extent.width, extent.height);
@@ -128,12 +106,7 @@ impl Image {
             "{width}x{height} is not a size that {} can do: each side must be 1 to {limit}",
             gpu.name
         );
-        let flags = match view_format == format {
-            true => vk::ImageCreateFlags::empty(),
-            false => vk::ImageCreateFlags::MUTABLE_FORMAT,
-        };
         let info = vk::ImageCreateInfo::default()
-            .flags(flags)
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
             .extent(vk::Extent3D { width, height, depth: 1 })
@@ -163,7 +136,7 @@ impl Image {
         let info = vk::ImageViewCreateInfo::default()
             .image(handle)
             .view_type(vk::ImageViewType::TYPE_2D)
-            .format(view_format)
+            .format(format)
             .subresource_range(whole());
         // SAFETY: the allocation was made for this image and is freed after it.
         unsafe {
@@ -178,7 +151,18 @@ impl Image {
 
     /// Changes the layout; everything before is done, and visible to everything after.
     pub fn transition(&self, cmd: vk::CommandBuffer, from: vk::ImageLayout, to: vk::ImageLayout) {
-        transition(&self.gpu, cmd, self.handle, from, to);
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .image(self.handle)
+            .subresource_range(whole())
+            .old_layout(from)
+            .new_layout(to)
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+        let dependency = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: cmd is being recorded on this device.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
     }
 
     /// The pixels of a storage image, four floats each, rows from the top.
@@ -211,12 +195,7 @@ impl Image {
             barrier::after_readback(&self.gpu, cmd);
             Ok(())
         })?;
-        let mut pixels = Vec::new();
-        pixels.try_reserve_exact(bytes as usize / 16).context("no memory to read the picture")?;
-        pixels.extend(
-            staging.mapped_bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>),
-        );
-        Ok(pixels)
+        Ok(bytemuck::pod_collect_to_vec(staging.mapped_bytes()))
     }
 
     fn copy_region(&self) -> vk::BufferImageCopy {
@@ -228,29 +207,6 @@ impl Image {
             )
             .image_extent(self.extent.into())
     }
-}
-
-/// Changes the layout of any image of one level; everything before is done, and visible to
-/// everything after.
-pub fn transition(
-    gpu: &Gpu,
-    cmd: vk::CommandBuffer,
-    image: vk::Image,
-    from: vk::ImageLayout,
-    to: vk::ImageLayout,
-) {
-    let barriers = [vk::ImageMemoryBarrier2::default()
-        .image(image)
-        .subresource_range(whole())
-        .old_layout(from)
-        .new_layout(to)
-        .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-        .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-        .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-        .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
-    let dependency = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-    // SAFETY: cmd is being recorded on this device.
-    unsafe { gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
 }
 
 /// The one mip level and layer that every image here has.

@@ -71,17 +71,6 @@ macro_rules! shader_struct {
     };
 }
 
-/// A descriptor as a shader declares it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Bound {
-    /// The set.
-    pub set: u32,
-    /// The binding.
-    pub binding: u32,
-    /// What is there, in words.
-    pub kind: &'static str,
-}
-
 /// What a shader module says of its structures.
 pub struct Reflection {
     module: Module,
@@ -129,10 +118,6 @@ impl Reflection {
                     None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
                 }
             }
-            // Of an array, the second element is elsewhere if the sizes differ.
-            if let Some(stride) = self.stride(&name).filter(|stride| *stride != layout.size) {
-                bail!("{path}: {name} takes {stride} bytes in the shader, {} in Rust", layout.size);
-            }
             if members.len() < layout.fields.len() {
                 let missing = layout
                     .fields
@@ -146,27 +131,17 @@ impl Reflection {
         Ok(())
     }
 
-    /// Every descriptor that the module declares, by set and binding.
-    pub fn descriptors(&self) -> Vec<Bound> {
-        let globals = &self.module.types_global_values;
-        let by_id = |id: u32| globals.iter().find(|i| i.result_id == Some(id));
-        let variables = globals.iter().filter(|i| i.class.opcode == Op::Variable);
-        let mut found: Vec<_> = variables
-            .filter_map(|variable| {
-                let id = variable.result_id?;
-                let pointer = by_id(variable.result_type?)?;
-                let Some(Operand::IdRef(pointee)) = pointer.operands.get(1) else { return None };
-                Some(Bound {
-                    set: self.decoration(id, Decoration::DescriptorSet)?,
-                    binding: self.decoration(id, Decoration::Binding)?,
-                    kind: match by_id(*pointee)?.class.opcode {
-                        Op::TypeAccelerationStructureKHR => "an acceleration structure",
-                        Op::TypeImage => "an image",
-                        Op::TypeSampledImage => "a texture",
-                        Op::TypeArray | Op::TypeRuntimeArray => "an array",
-                        _ => "a buffer",
-                    },
-                })
+    /// Every descriptor: set, binding, variable name; sorted.
+    pub fn descriptors(&self) -> Vec<(u32, u32, String)> {
+        let mut found: Vec<_> = self
+            .module
+            .types_global_values
+            .iter()
+            .filter(|instruction| instruction.class.opcode == Op::Variable)
+            .filter_map(|instruction| {
+                let id = instruction.result_id?;
+                let set = self.decoration(id, Decoration::DescriptorSet)?;
+                Some((set, self.decoration(id, Decoration::Binding)?, self.debug_name(id, None)))
             })
             .collect();
         found.sort();
@@ -199,18 +174,6 @@ impl Reflection {
             ] if *of == id && *n == member => Some(*offset as usize),
             _ => None,
         })
-    }
-
-    /// The bytes from one element to the next in an array of the structure `name`, if there is one.
-    fn stride(&self, name: &str) -> Option<usize> {
-        let arrays = self.module.types_global_values.iter();
-        let mut arrays = arrays.filter(|i| {
-            let is_array = matches!(i.class.opcode, Op::TypeArray | Op::TypeRuntimeArray);
-            is_array
-                && matches!(i.operands[..], [Operand::IdRef(of), ..] if self.debug_name(of, None) == name)
-        });
-        let array = arrays.next()?.result_id?;
-        self.decoration(array, Decoration::ArrayStride).map(|stride| stride as usize)
     }
 
     fn decoration(&self, id: u32, wanted: Decoration) -> Option<u32> {

@@ -29,13 +29,11 @@ pub struct Limits {
     pub max_push_constants_size: u32,
     /// Nanoseconds a tick of a timestamp; 0 where the queue has none.
     pub timestamp_period: f32,
-    /// The bits of a timestamp that count.
-    pub timestamp_mask: u64,
 }
 
 impl Limits {
-    /// Reads the limits of a device that has the ray tracing extensions, and of a queue family.
-    pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice, family: u32) -> Self {
+    /// Reads the limits of a device that has the ray tracing extensions.
+    pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice) -> Self {
         let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
         let mut acceleration = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
         let mut properties = vk::PhysicalDeviceProperties2::default()
@@ -44,10 +42,7 @@ impl Limits {
         // SAFETY: the device belongs to the live instance and has both extensions.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
         let core = properties.properties.limits;
-        // SAFETY: as above.
-        let families =
-            unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
-        let bits = families[family as usize].timestamp_valid_bits;
+        let timestamps = core.timestamp_compute_and_graphics == vk::TRUE;
         Self {
             shader_group_handle_size: pipeline.shader_group_handle_size.into(),
             shader_group_handle_alignment: pipeline.shader_group_handle_alignment.into(),
@@ -62,8 +57,7 @@ impl Limits {
             max_primitive_count: acceleration.max_primitive_count,
             max_image_dimension: core.max_image_dimension2_d,
             max_push_constants_size: core.max_push_constants_size,
-            timestamp_period: if bits > 0 { core.timestamp_period } else { 0.0 },
-            timestamp_mask: u64::MAX.checked_shr(64 - bits).unwrap_or(0),
+            timestamp_period: if timestamps { core.timestamp_period } else { 0.0 },
         }
     }
 }

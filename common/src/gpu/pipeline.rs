@@ -82,7 +82,6 @@ pub struct PipelineBuilder<'a> {
     bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
     push: Option<StructLayout>,
-    hit_data: Option<StructLayout>,
     constants: Vec<(u32, u32)>,
     recursion: u32,
 }
@@ -120,7 +119,6 @@ impl RayTracingPipeline {
             bindings: Vec::new(),
             textures: None,
             push: None,
-            hit_data: None,
             constants: Vec::new(),
             recursion: 1,
         }
@@ -265,12 +263,6 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// Declares the data of hit records, checked against the `shaderRecordEXT` block of the same name.
-    pub fn hit_data<T: ShaderStruct>(mut self) -> Self {
-        self.hit_data = Some(T::LAYOUT);
-        self
-    }
-
     /// Sets the specialization constant `id` in every stage that has it.
     pub fn constant(mut self, id: u32, value: u32) -> Self {
         self.constants.push((id, value));
@@ -317,10 +309,8 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &self.callable {
             groups.push(general(stages.add(shader)?));
         }
-        let own = self.push.into_iter().chain(self.hit_data).collect();
-        let shared = [gpu.shared_structs(), own].concat();
         for shader in &stages.shaders {
-            Reflection::of(&shader.spirv)?.check(&shader.path, &shared)?;
+            Reflection::of(&shader.spirv)?.check(&shader.path, self.push.as_slice())?;
         }
         let mut pipeline = RayTracingPipeline {
             handle: vk::Pipeline::null(),

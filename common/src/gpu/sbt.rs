@@ -9,7 +9,7 @@
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
-use super::{Buffer, Gpu, Limits, RayTracingPipeline, barrier};
+use super::{Buffer, Gpu, Limits, RayTracingPipeline};
 
 /// Where a region lies in the table's buffer, in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -164,12 +164,11 @@ impl ShaderBindingTable {
         Ok(Self { layout, regions, buffer, gpu: gpu.clone() })
     }
 
-    /// Replaces the data of one hit record for the traces recorded into `cmd` from here on; its group
-    /// stays.
+    /// Replaces the data of one hit record; its group stays.
     ///
     /// # Errors
-    /// If there is no such record, or the data is longer than the record or not whole `u32`s.
-    pub fn write_hit_data(&self, cmd: vk::CommandBuffer, record: usize, data: &[u8]) -> Result<()> {
+    /// If there is no such record, or the data is longer than the record.
+    pub fn write_hit_data(&self, record: usize, data: &[u8]) -> Result<()> {
         let Region { offset, stride, size } = self.layout.regions[2];
         let handle = self.gpu.limits.shader_group_handle_size;
         let start = record as u64 * stride;
@@ -184,16 +183,7 @@ impl ShaderBindingTable {
             data.len(),
             stride - handle
         );
-        ensure!(data.len().is_multiple_of(4), "{} bytes are no whole number of u32", data.len());
-        barrier::trace_to_table_update(&self.gpu, cmd);
-        // SAFETY: cmd is being recorded; the table outlives the submission and has room for the data,
-        // whose length and place are multiples of 4 and which a record's largest stride keeps short.
-        unsafe {
-            let at = offset + start + handle;
-            self.gpu.device.cmd_update_buffer(cmd, self.buffer.handle, at, data);
-        }
-        barrier::table_update_to_trace(&self.gpu, cmd);
-        Ok(())
+        self.buffer.write(offset + start + handle, data)
     }
 
     /// Records one ray per pixel of `extent`, from the raygen group.

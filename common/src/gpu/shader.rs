@@ -48,13 +48,13 @@ pub fn compile(path: &str) -> Result<Shader> {
     let mut source = Source::default();
     source.splice(path, 0)?;
     let cached = cache_file(path, &source.text);
-    let spirv = match fs::read(&cached).ok().and_then(|bytes| unsealed(&bytes)) {
+    let spirv = match read_words(&cached) {
         Some(words) => words,
         None => {
             let words = to_spirv(path, &source.text, glslang_stage)?;
             // A cache that cannot be written costs time at the next start, nothing else.
             let _ = cached.parent().map(fs::create_dir_all);
-            let _ = crate::files::write_whole(&cached, &sealed(&words));
+            let _ = crate::files::write_whole(&cached, bytemuck::cast_slice(&words));
             words
         }
     };
@@ -97,11 +97,8 @@ impl Source {
         let inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
         ensure!(inside, "shader '{path}' is not below {}", folder().display());
         let file = folder().join(path);
-        let failed = || format!("cannot read the shader '{}'", file.display());
-        // A pipe by that name would keep the reader waiting.
-        let metadata = fs::metadata(&file).with_context(failed)?;
-        ensure!(metadata.is_file(), "{}: it is not a file", failed());
-        let text = fs::read_to_string(&file).with_context(failed)?;
+        let text = fs::read_to_string(&file)
+            .with_context(|| format!("cannot read the shader '{}'", file.display()))?;
         self.files.push(path.to_owned());
         for (index, line) in text.lines().enumerate() {
             let number = index + 1;
@@ -165,83 +162,19 @@ fn first_message(path: &str, error: &GlslangError) -> String {
     let Some(message) = log.lines().find_map(|line| line.strip_prefix("ERROR: ")) else {
         return format!("shader '{path}' does not compile: {}", log.trim().replace('\n', "; "));
     };
-    let message = message.trim_end().replace("'' :  ", "");
-    // Before the first `#line`, glslang calls the file 0; some messages have no place at all.
-    let placed = match message.strip_prefix("0:") {
-        Some(rest) => format!("{path}:{rest}"),
-        None if has_place(&message) => message,
-        None => format!("{path}: {message}"),
-    };
-    format!("shader does not compile: {placed}")
-}
-
-/// Whether a message begins with `file:line:`.
-fn has_place(message: &str) -> bool {
-    let mut parts = message.splitn(3, ':').skip(1);
-    parts.next().is_some_and(|line| line.parse::<u32>().is_ok()) && parts.next().is_some()
+    format!("shader does not compile: {}", message.trim_end())
 }
 
 fn cache_file(path: &str, text: &str) -> PathBuf {
     let mut hasher = DefaultHasher::new();
     (env!("CARGO_PKG_VERSION"), path, text).hash(&mut hasher);
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv"));
-    folder.join(format!("{:016x}.words", hasher.finish()))
+    folder.join(format!("{:016x}.spv", hasher.finish()))
 }
 
-/// A module as the cache keeps it: its words, then a hash of them, for a driver may crash on words
-/// that a full disk or another program has damaged.
-fn sealed(words: &[u32]) -> Vec<u8> {
-    let bytes: &[u8] = bytemuck::cast_slice(words);
-    [bytes, &seal(bytes)].concat()
-}
-
-/// The words of a file of the cache; `None` if it is missing or damaged.
-fn unsealed(bytes: &[u8]) -> Option<Vec<u32>> {
-    let (words, end) = bytes.split_last_chunk()?;
-    (words.len().is_multiple_of(4) && seal(words) == *end)
-        .then(|| bytemuck::pod_collect_to_vec(words))
-}
-
-fn seal(bytes: &[u8]) -> [u8; 8] {
-    let mut hasher = DefaultHasher::new();
-    bytes.hash(&mut hasher);
-    hasher.finish().to_le_bytes()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_cache_notices_damage() {
-        let words = [0x0723_0203, 0x0001_0600, 0, 42, 0];
-        let whole = sealed(&words);
-        assert_eq!(unsealed(&whole).unwrap(), words);
-        for length in 0..whole.len() {
-            assert!(unsealed(&whole[..length]).is_none(), "cut off after {length} bytes");
-        }
-        for at in 0..whole.len() {
-            let mut wrong = whole.clone();
-            wrong[at] ^= 1;
-            assert!(unsealed(&wrong).is_none(), "byte {at} is wrong");
-        }
-    }
-
-    #[test]
-    fn every_message_names_its_file() {
-        let message = |text: &str| {
-            let error = to_spirv("a/b.rmiss", text, ShaderStage::Miss).err().unwrap();
-            let message = error.to_string();
-            message.strip_prefix("shader does not compile: ").unwrap().to_owned()
-        };
-        let version = "#version 460\n#extension GL_EXT_ray_tracing : require\n";
-        let google = "#extension GL_GOOGLE_include_directive : require\n#line 7 \"c.glsl\"\n";
-        assert_eq!(
-            message(&format!("{version}void main( {{\n")),
-            "a/b.rmiss:3: syntax error, unexpected LEFT_BRACE, expecting RIGHT_PAREN"
-        );
-        assert!(message(&format!("{version}{google}\nx")).starts_with("c.glsl:8: syntax error"));
-        assert!(message("").starts_with("a/b.rmiss: "));
-        assert!(message(version).starts_with("a/b.rmiss: "));
-    }
+fn read_words(file: &Path) -> Option<Vec<u32>> {
+    const MAGIC: u32 = 0x0723_0203;
+    let bytes = fs::read(file).ok()?;
+    let words: Vec<u32> = bytemuck::pod_collect_to_vec(bytes.get(..bytes.len() / 4 * 4)?);
+    (words.len() > 5 && words[0] == MAGIC).then_some(words)
 }

@@ -22,13 +22,9 @@ impl TextureTable {
     ///
     /// # Errors
     /// If the device has no room for so many.
-    pub fn new(gpu: &Gpu, mut images: Vec<Image>) -> Result<Self> {
-        // Neither an array of no textures is allowed nor a slot that was never filled.
-        if images.is_empty() {
-            let texel = vk::Extent2D { width: 1, height: 1 };
-            images.push(Image::texture(gpu, "no texture", texel, &[255; 4], false)?);
-        }
-        let count = images.len() as u32;
+    pub fn new(gpu: &Gpu, images: Vec<Image>) -> Result<Self> {
+        // An array of no textures is not allowed; one slot that nothing reads is.
+        let count = images.len().max(1) as u32;
         let bindings = [vk::DescriptorSetLayoutBinding::default()
             .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
             .descriptor_count(count)
@@ -70,12 +66,14 @@ impl TextureTable {
                     .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
             })
             .collect();
-        let write = vk::WriteDescriptorSet::default()
-            .dst_set(table.set)
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-            .image_info(&infos);
-        // SAFETY: the set is not in use; the images live beside it.
-        unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
+        if !infos.is_empty() {
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(table.set)
+                .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+                .image_info(&infos);
+            // SAFETY: the set is not in use; the images live beside it.
+            unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
+        }
         gpu.name_object(table.set, "texture table");
         Ok(table)
     }

@@ -53,8 +53,7 @@ impl Timer {
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
         // SAFETY: both queries were written by a submission that is done.
         unsafe { self.gpu.device.get_query_pool_results(self.pool, 0, &mut stamps, flags)? };
-        // Some queues count in fewer than 64 bits, and start again from 0.
-        let ticks = stamps[1].wrapping_sub(stamps[0]) & self.gpu.limits.timestamp_mask;
+        let ticks = stamps[1].wrapping_sub(stamps[0]);
         Ok(ticks as f64 * f64::from(self.gpu.limits.timestamp_period) * 1e-6)
     }
 }

@@ -2,8 +2,7 @@
 
 use std::collections::HashSet;
 use std::ffi::{CStr, c_void};
-use std::io::Write;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use anyhow::{Result, bail};
 use ash::{Entry, ext, vk};
@@ -34,7 +33,7 @@ impl Messages {
     ///
     /// # Errors
     /// If the layer is not installed, with what to install.
-    pub fn new(entry: &Entry) -> Result<Arc<Self>> {
+    pub fn new(entry: &Entry) -> Result<Box<Self>> {
         // SAFETY: the entry was loaded from a Vulkan loader and is alive.
         let layers = unsafe { entry.enumerate_instance_layer_properties()? };
         let Some(layer) = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(LAYER))
@@ -45,7 +44,7 @@ impl Messages {
                 LAYER.to_string_lossy()
             );
         };
-        Ok(Arc::new(Self { layer_version: layer.spec_version, ..Self::default() }))
+        Ok(Box::new(Self { layer_version: layer.spec_version, ..Self::default() }))
     }
 
     /// A messenger that reports to `self`, to chain into instance creation or to create alone.
@@ -75,8 +74,7 @@ impl Messages {
         let message = format!("{severity}: {text}");
         let mut seen = self.seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if seen.insert(id) {
-            // A panic may not leave a callback, and `eprintln!` panics where nobody listens.
-            let _ = writeln!(std::io::stderr(), "{message}");
+            eprintln!("{message}");
         }
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(message);
     }
@@ -95,7 +93,7 @@ unsafe extern "system" fn on_message(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT,
     messages: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: the layer passes valid data, and the user data outlives the messenger.
+    // SAFETY: the layer passes valid data, and the user data is the box that outlives the messenger.
     let (data, messages) = unsafe { (&*data, &*messages.cast::<Messages>()) };
     let text = |pointer: *const std::ffi::c_char| {
         if pointer.is_null() {

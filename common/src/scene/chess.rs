@@ -36,8 +36,7 @@ impl Scene {
         ] {
             let mesh = mesh(&model, name)?;
             let transform = Affine3A::from_translation(at);
-            let material = model.meshes[mesh].material;
-            instances.push(Instance { mesh, transform, material, record_offset: 0 });
+            instances.push(Instance { mesh, transform, material: model.meshes[mesh].material });
         }
         place_pieces(&model, POSITION, &mut instances)?;
         let camera = Camera::new(DVec3::new(-5.6, 4.8, 9.2), DVec3::new(0.35, 0.3, -0.2), 37.0);
@@ -69,7 +68,6 @@ fn place_pieces(model: &Model, position: &str, instances: &mut Vec<Instance>) ->
                 mesh,
                 transform: Affine3A { matrix3: turn, translation: at },
                 material: if is_white { white } else { black },
-                record_offset: 0,
             });
             file += 1;
         }

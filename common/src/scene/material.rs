@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail, ensure};
 use glam::Vec3;
 
-use super::text::{Folder, Limits, Named, Text, name, numbers, quoted, uncommented};
+use super::obj_check::{Folder, Limits, Named, Text, name, numbers, quoted, uncommented};
 use super::texture::{Role, TextureFiles};
 
 /// How a surface looks, in the terms of an MTL file.

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::{CameraBasis, DirectionalLight, Material, Vertex};
-use crate::gpu::{Address, ShaderStruct, StructLayout};
+use super::Material;
+use crate::gpu::Address;
 
 common::shader_struct! {
     /// Where a shader finds the mesh and the material of an instance.
@@ -52,16 +52,6 @@ common::shader_struct! {
         pub materials: Address,
     }
 }
-
-/// Every structure of a scene that shaders know under the same name.
-pub const SHARED_STRUCTS: [StructLayout; 6] = [
-    CameraBasis::LAYOUT,
-    DirectionalLight::LAYOUT,
-    SceneAddresses::LAYOUT,
-    InstanceRecord::LAYOUT,
-    MaterialRecord::LAYOUT,
-    Vertex::LAYOUT,
-];
 
 impl From<&Material> for MaterialRecord {
     fn from(material: &Material) -> Self {

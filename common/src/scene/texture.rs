@@ -8,7 +8,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder};
 
-use super::text::{Limits, Named, open};
+use super::obj_check::{Limits, Named, open};
 
 /// An image of 8 bits a channel.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::{InstanceRecord, MaterialRecord, Mesh, SHARED_STRUCTS, Scene, SceneAddresses, Vertex};
+use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
     AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
 };
@@ -51,9 +51,8 @@ impl SceneOnGpu {
     /// Uploads a scene and builds its acceleration structures.
     ///
     /// # Errors
-    /// If memory is short, or an instance's index or record offset takes more than 24 bits.
+    /// If memory is short, or there are more instances than an instance's 24-bit index can number.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
-        gpu.share_structs(&SHARED_STRUCTS);
         let textures = scene.model.textures.iter().map(|texture| {
             let extent = vk::Extent2D { width: texture.width, height: texture.height };
             Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
@@ -79,8 +78,6 @@ impl SceneOnGpu {
     ) -> Result<Self> {
         let Scene { model, instances, .. } = scene;
         ensure!(instances.len() < 1 << 24, "{} instances are too many", instances.len());
-        let offset = instances.iter().map(|instance| instance.record_offset).max().unwrap_or(0);
-        ensure!(offset < 1 << 24, "a record offset of {offset} takes more than 24 bits");
         let mut buffers = Vec::new();
         let mut blas = Vec::new();
         let mut meshes = Vec::new();
@@ -114,10 +111,7 @@ impl SceneOnGpu {
                 transform: transform(&instance.transform),
                 // The custom index stays the scene's, whatever the order of the build.
                 instance_custom_index_and_mask: vk::Packed24_8::new(index, 0xff),
-                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
-                    instance.record_offset,
-                    0,
-                ),
+                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(0, 0),
                 acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
                     device_handle: blas[instance.mesh].address,
                 },

@@ -2,13 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use glam::{Affine3A, DVec3, Vec3};
 
-use super::{Camera, Mesh, Model, obj};
-
-/// The farthest coordinate: intersection multiplies two of them and adds up a few such products.
-const REACH: f32 = 1e18;
+use super::{Camera, Model, obj};
 
 /// Meshes, materials and textures with their placements.
 pub struct Scene {
@@ -29,16 +26,13 @@ pub struct Instance {
     pub transform: Affine3A,
     /// The material, by position in the model.
     pub material: usize,
-    /// The first hit record of the shader binding table that is its own, below 2^24:
-    /// `instanceShaderBindingTableRecordOffset`.
-    pub record_offset: u32,
 }
 
 impl Scene {
     /// Opens an OBJ file: each mesh once, where the file puts it, seen whole.
     ///
     /// # Errors
-    /// If the file is missing or wrong, with file and line, or reaches too far.
+    /// If the file is missing or wrong, with file and line.
     pub fn open(path: &Path) -> Result<Self> {
         let model = obj::load(path)?;
         let instances = (0..model.meshes.len())
@@ -46,19 +40,9 @@ impl Scene {
                 mesh,
                 transform: Affine3A::IDENTITY,
                 material: model.meshes[mesh].material,
-                record_offset: 0,
             })
             .collect();
         let mut scene = Self { model, instances, camera: Camera::default() };
-        let corners = scene.model.meshes.iter().map(Mesh::bounds);
-        let reach = corners
-            .fold(0f32, |reach, (low, high)| reach.max(low.abs().max(high.abs()).max_element()));
-        ensure!(
-            reach <= REACH,
-            "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of two coordinates \
-             overflow in 32 bits",
-            path.display()
-        );
         scene.camera = scene.camera_on_all();
         Ok(scene)
     }
