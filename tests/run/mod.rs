@@ -2,6 +2,7 @@
 #![allow(dead_code)] // Each test binary uses a part of it.
 
 pub mod exact;
+pub mod leaving;
 pub mod plot;
 
 use std::path::{Path, PathBuf};

@@ -6,6 +6,7 @@ mod foundation;
 mod intersection;
 mod jitter_camera;
 mod multi_closest_hit;
+mod reflection;
 #[path = "../run/mod.rs"]
 mod run;
 mod shadow_miss;

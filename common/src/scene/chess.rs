@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use glam::{Affine3A, DVec3, Mat3A, Vec3, Vec3A};
 
-use super::{Camera, Instance, Model, Scene, obj};
+use super::{Camera, Instance, Material, Model, Scene, obj};
 
 /// Morphy's game at the Paris opera, 1858, before White's tenth move.
 const POSITION: &str = "rn2kb1r/p3qppp/2p2n2/1p2p1B1/2B1P3/1QN5/PPP2PPP/R3K2R";
@@ -43,6 +43,35 @@ impl Scene {
         let camera = Camera::new(DVec3::new(-5.6, 4.8, 9.2), DVec3::new(0.35, 0.3, -0.2), 37.0);
         Ok(Self { model, instances, camera })
     }
+
+    // ANCHOR: metal
+    /// The chess set with kings and queens of metal, White's of gold and Black's of silver, from low down.
+    ///
+    /// What metals reflect, in linear RGB: Akenine-Möller et al., Real-Time Rendering, 4th ed., table 9.2.
+    ///
+    /// # Errors
+    /// If the project's own model is missing or wrong.
+    pub fn chess_of_metal() -> Result<Self> {
+        let mut scene = Self::chess()?;
+        let Model { meshes, materials, .. } = &mut scene.model;
+        let (gold, silver) = (Vec3::new(1.0, 0.782, 0.344), Vec3::new(0.972, 0.96, 0.915));
+        for (wood, metal, specular) in [("white", "gold", gold), ("black", "silver", silver)] {
+            let like = materials.iter().position(|material| material.name == wood);
+            let like = like.with_context(|| format!("the chess set has no material '{wood}'"))?;
+            for instance in &mut scene.instances {
+                let is_royal = matches!(meshes[instance.mesh].name.as_str(), "king" | "queen");
+                if is_royal && instance.material == like {
+                    instance.material = materials.len();
+                }
+            }
+            // Light that enters a metal is lost: it has no colour but that of its reflections.
+            let (name, base_color) = (metal.to_owned(), Vec3::ZERO);
+            materials.push(Material { name, base_color, specular, ..materials[like].clone() });
+        }
+        scene.camera = Camera::new(DVec3::new(-8.2, 2.9, 5.2), DVec3::new(-0.2, 0.35, 0.8), 32.0);
+        Ok(scene)
+    }
+    // ANCHOR_END: metal
 }
 
 /// Adds the pieces of a position: capitals are white, ranks from the eighth down.

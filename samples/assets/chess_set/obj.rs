@@ -99,7 +99,7 @@ pub fn materials(fretwork: &str) -> String {
             [diffuse, specular].map(|c| format!("{} {} {}", c[0], c[1], c[2]));
         let _ = writeln!(
             text,
-            "\nnewmtl {name}\nKd {diffuse}\nKs {specular}\nNs {exponent}\nd 1\nillum 2"
+            "\nnewmtl {name}\nKd {diffuse}\nKs {specular}\nNs {exponent}\nd 1\nillum 3"
         );
     }
     let _ = writeln!(
