@@ -2,6 +2,7 @@
 //
 // A start below the surface hits it again: acne. A start too far above it is beyond what stands close
 // by: leaks. For closest hit shaders, after common/offset.glsl: that has the hit.
+#include "common/start.glsl"
 
 const uint ORIGIN_NOTHING = 0;
 const uint ORIGIN_TMIN = 1;
@@ -19,11 +20,6 @@ struct Departure {
     vec3 to_a;       // from there to the first corner
     vec3 e1;         // from the first corner to the others
     vec3 e2;
-};
-
-struct Start {
-    vec3 origin;
-    float tmin;      // a length, however long the direction is
 };
 
 // ANCHOR: departure

@@ -3,6 +3,7 @@
 mod any_hit;
 mod basic;
 mod foundation;
+mod infinite_plane;
 mod intersection;
 mod jitter_camera;
 mod multi_closest_hit;

@@ -1,0 +1,6 @@
+// Where a ray starts.
+
+struct Start {
+    vec3 origin;
+    float tmin;      // a length, however long the direction is
+};
