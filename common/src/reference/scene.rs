@@ -26,7 +26,8 @@ struct Item {
     triangle: Triangle,
 }
 
-/// The triangles of all instances in world space, under one hierarchy.
+/// The triangles of all instances in world space, under one hierarchy an instance: boxes grow with
+/// the matrix, and one that stretches a thousandfold must not make all others useless.
 ///
 /// Vertices are transformed in f64 from the f32 of matrix and mesh, which rounds 2^29 times more
 /// finely than the GPU: what it leaves is part of the bounds.
@@ -36,18 +37,14 @@ pub struct Scene {
     /// Index of the first item of each instance, and the number of items at the end.
     starts: Vec<usize>,
     items: Vec<Item>,
-    bvh: Bvh,
+    bvhs: Vec<Bvh>,
 }
 
 impl Scene {
     /// Builds the scene; the order of the instances is that of `gl_InstanceID`.
     pub fn new(instances: impl IntoIterator<Item = Instance>) -> Self {
-        let mut scene = Self {
-            transforms: Vec::new(),
-            starts: vec![0],
-            items: Vec::new(),
-            bvh: Bvh::default(),
-        };
+        let mut scene =
+            Self { transforms: Vec::new(), starts: vec![0], items: Vec::new(), bvhs: Vec::new() };
         for Instance { transform, triangles } in instances {
             let instance = scene.transforms.len() as u32;
             for (vertices, primitive) in triangles.into_iter().zip(0..) {
@@ -58,10 +55,11 @@ impl Scene {
             scene.starts.push(scene.items.len());
             scene.transforms.push(transform);
         }
-        let boxes: Vec<_> = (scene.items.iter())
-            .map(|Item { triangle: [a, b, c], .. }| (a.min(*b).min(*c), a.max(*b).max(*c)))
-            .collect();
-        scene.bvh = Bvh::new(&boxes);
+        let bound =
+            |Item { triangle: [a, b, c], .. }: &Item| (a.min(*b).min(*c), a.max(*b).max(*c));
+        let boxes: Vec<_> = scene.items.iter().map(bound).collect();
+        scene.bvhs =
+            scene.starts.windows(2).map(|ends| Bvh::new(&boxes[ends[0]..ends[1]])).collect();
         scene
     }
 
@@ -92,18 +90,22 @@ impl Scene {
     pub fn closest_hit(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
         let shear = Shear::new(ray);
         let mut closest: Option<Hit> = None;
-        self.bvh.traverse(ray, self.pad(ray), |index| {
-            let item = &self.items[index as usize];
-            if shear.is_inside(&item.triangle) {
-                let hit = self.hit(&shear, item);
-                let key = |hit: &Hit| (hit.t, hit.instance, hit.primitive);
-                let nearer = closest.as_ref().is_none_or(|closest| key(&hit) < key(closest));
-                if nearer && ray.contains(hit.t) && accept(&hit) {
-                    closest = Some(hit);
+        for (instance, bvh) in self.bvhs.iter().enumerate() {
+            let items = &self.items[self.starts[instance]..];
+            let shorter = Ray { tmax: closest.map_or(ray.tmax, |hit| hit.t), ..*ray };
+            bvh.traverse(&shorter, self.pad(ray, instance), |index| {
+                let item = &items[index as usize];
+                if shear.is_inside(&item.triangle) {
+                    let hit = self.hit(&shear, item);
+                    let key = |hit: &Hit| (hit.t, hit.instance, hit.primitive);
+                    let nearer = closest.as_ref().is_none_or(|closest| key(&hit) < key(closest));
+                    if nearer && ray.contains(hit.t) && accept(&hit) {
+                        closest = Some(hit);
+                    }
                 }
-            }
-            closest.map_or(ray.tmax, |hit| hit.t)
-        });
+                closest.map_or(ray.tmax, |hit| hit.t)
+            });
+        }
         closest
     }
 
@@ -144,10 +146,13 @@ impl Scene {
     fn collect(&self, ray: &Ray, test: impl Fn(&Shear, &Item) -> Option<Hit>) -> Vec<Hit> {
         let shear = Shear::new(ray);
         let mut hits = Vec::new();
-        self.bvh.traverse(ray, self.pad(ray), |index| {
-            hits.extend(test(&shear, &self.items[index as usize]));
-            ray.tmax
-        });
+        for (instance, bvh) in self.bvhs.iter().enumerate() {
+            let items = &self.items[self.starts[instance]..];
+            bvh.traverse(ray, self.pad(ray, instance), |index| {
+                hits.extend(test(&shear, &items[index as usize]));
+                ray.tmax
+            });
+        }
         hits.sort_by(|p, q| {
             let order = (p.instance, p.primitive).cmp(&(q.instance, q.primitive));
             p.t.total_cmp(&q.t).then(order)
@@ -168,20 +173,19 @@ impl Scene {
         }
     }
 
-    /// How much boxes grow, so that no triangle is left out whose moved copy the ray touches.
+    /// How much an instance's boxes grow, so that no triangle is left out whose moved copy the ray
+    /// touches.
     ///
     /// The module [`bound`](super::bound) lets a ray stray by u·H·(..) and vertices move by 13u·R',
     /// in the world `13u·‖L‖‖L^-1‖·R`; twice that leaves room for the rounded products.
-    fn pad(&self, ray: &Ray) -> f64 {
-        let Some((low, high)) = self.bvh.extent() else { return 0.0 };
+    fn pad(&self, ray: &Ray, instance: usize) -> f64 {
+        let Some((low, high)) = self.bvhs[instance].extent() else { return 0.0 };
+        let transform = &self.transforms[instance];
         let reach = (low - ray.origin).abs().max((high - ray.origin).abs());
-        let pads = self.transforms.iter().map(|transform| {
-            let [x, y, z] = transform.inverse.to_cols_array_2d().map(DVec3::from_array);
-            let shrink = (x.length_squared() + y.length_squared() + z.length_squared()).sqrt();
-            let vertices = 13.0 * U * transform.stretch * shrink * reach.length();
-            transform.stray(ray.origin, reach).length() + vertices
-        });
-        2.0 * pads.fold(0.0, f64::max)
+        let [x, y, z] = transform.inverse.to_cols_array_2d().map(DVec3::from_array);
+        let shrink = (x.length_squared() + y.length_squared() + z.length_squared()).sqrt();
+        let vertices = 13.0 * U * transform.stretch * shrink * reach.length();
+        2.0 * (transform.stray(ray.origin, reach).length() + vertices)
     }
 }
 
