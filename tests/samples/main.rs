@@ -4,6 +4,7 @@ mod any_hit;
 mod basic;
 mod foundation;
 mod infinite_plane;
+mod instancing;
 mod intersection;
 mod jitter_camera;
 mod multi_closest_hit;
