@@ -80,6 +80,9 @@ void main() {
     HitPoint hit = hit_point(instance, triangle, weights);
     normal = faceforward(normal, -hit.normal, normal);
     // ANCHOR_END: normal
+    // Taken down before a shadow ray is traced: afterwards the software driver takes these for that
+    // ray's own.
+    vec4 identity = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
 
     vec3 base = material.base_color;
     if (material.base_texture >= 0) {
@@ -108,7 +111,7 @@ void main() {
         payload.rgb = false_color(triangle);
     }
     if (push.show == SHOW_HIT) {
-        payload = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
+        payload = identity;
     }
     if (push.show == SHOW_DIRECTION) {
         payload = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);

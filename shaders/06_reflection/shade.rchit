@@ -104,6 +104,9 @@ void main() {
     HitPoint hit = hit_point(instance, triangle, weights);
     normal = faceforward(normal, -hit.normal, normal);
     // ANCHOR_END: normal
+    // Taken down before a shadow ray is traced: afterwards the software driver takes these for that
+    // ray's own.
+    vec4 identity = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
 
     vec3 base = material.base_color;
     if (material.base_texture >= 0) {
@@ -140,7 +143,7 @@ void main() {
         seen.rgb = false_color(triangle);
     }
     if (push.show == SHOW_HIT) {
-        seen = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
+        seen = identity;
     }
     if (push.show == SHOW_DIRECTION) {
         seen = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);

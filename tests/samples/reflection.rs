@@ -57,6 +57,16 @@ fn a_loop_and_recursion_give_the_same_picture() {
 }
 
 #[test]
+fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
+    for method in ["method=iterative", "method=recursive"] {
+        let [off, traced] = ["off", "first hit"].map(|rays| {
+            picture(SIZE, &["show=hit", "bounce=1", method, &format!("shadow rays={rays}")])
+        });
+        assert_eq!(bits(&off), bits(&traced), "{method}");
+    }
+}
+
+#[test]
 fn a_depth_beyond_the_device_s_limit_is_refused() {
     let (code, line) = refused(NAME, &["--headless", "--set", "depth=9"]);
     assert_eq!(code, 2);

@@ -247,6 +247,13 @@ fn ending_at_the_first_hit_changes_nothing() {
     }
 }
 
+#[test]
+fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
+    let [off, traced] =
+        ["off", "first hit"].map(|rays| picture(&["show=hit", &format!("shadow rays={rays}")]));
+    assert_eq!(bits(&off), bits(&traced));
+}
+
 /// Whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
 fn is_on_a_square(&[x, y, z, lit]: &[f32; 4]) -> bool {
     lit >= 0.0 && y.abs() < 1e-4 && x.abs() < 3.99 && z.abs() < 3.99
