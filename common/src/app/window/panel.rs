@@ -13,7 +13,7 @@ use super::rows::{self, Hidden, Rows};
 use super::style;
 use crate::app::Controls;
 
-/// The distance of the panel from the window's edges, and its width.
+/// The distance of the panel from the window's edges, and its width where no name is long.
 const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
 /// How long a note stands.
@@ -50,6 +50,7 @@ pub struct Panel {
     note: Option<(String, Instant)>,
     shown: bool,
     help: bool,
+    width: f32,
 }
 
 impl Panel {
@@ -62,6 +63,7 @@ impl Panel {
             note: None,
             shown: true,
             help: false,
+            width: WIDTH,
         }
     }
 
@@ -133,7 +135,7 @@ impl Panel {
             // Else it would be held to the height that it had before an error or a control came.
             ui.set_max_height(context.content_rect().height());
             style::sheet().show(ui, |ui| {
-                ui.set_width(WIDTH);
+                ui.set_width(self.width);
                 let scroll = ScrollArea::vertical().max_height(room).show(ui, |ui| {
                     self.measured(ui, facts);
                     self.warning(ui);
@@ -209,6 +211,8 @@ impl Panel {
             declare(&mut Controls::new(&mut rows));
             rows.changed
         });
+        // What stands above the rows ends where they do.
+        self.width = grid.response.rect.width().max(WIDTH);
         grid.inner
     }
 

@@ -88,9 +88,8 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
     match value {
         Value::Slider(number, range) => {
             let before = *number;
-            // Three digits of the range's width, or as many as the number needs.
-            let decimals = (2.0 - (range.end() - range.start()).log10().floor()).clamp(0.0, 6.0);
-            let slider = Slider::new(number, range).fixed_decimals(decimals as usize);
+            let decimals = decimals(before, range.end() - range.start());
+            let slider = Slider::new(number, range).fixed_decimals(decimals);
             name_it(&ui.add(shown_as_is(slider)), name);
             *number != before
         }
@@ -136,6 +135,14 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
     }
 }
 
+/// How many decimals a number is shown with: three digits of the range's width, and two of the number's
+/// own, or a small one would read as 0.
+fn decimals(number: f32, width: f32) -> usize {
+    let exponent = |value: f32| value.abs().log10().floor();
+    let own = if number == 0.0 { 0.0 } else { 1.0 - exponent(number) };
+    own.max(2.0 - exponent(width)).clamp(0.0, 6.0) as usize
+}
+
 /// A slider that rounds and clamps what is dragged and typed, not what a script has set.
 fn shown_as_is(slider: Slider) -> Slider {
     slider.clamping(SliderClamping::Edits)
@@ -161,4 +168,19 @@ fn three<N: Numeric>(
 /// Tells screen readers and tests what a widget is called.
 fn name_it(response: &Response, name: &str) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_number_does_not_read_as_zero() {
+        assert_eq!(decimals(20.0, 90.0), 1);
+        assert_eq!(decimals(0.0, 1.0), 2);
+        assert_eq!(decimals(0.4, 1.0), 2);
+        assert_eq!(decimals(1.0 / 512.0, 1.0), 4);
+        assert_eq!(decimals(2.5, 2e6), 1);
+        assert_eq!(decimals(-1e-30, 1.0), 6);
+    }
 }
