@@ -29,7 +29,7 @@ bool is_lit(vec3 origin, vec3 to_light) {
         tlas,
         flags,
         push.shadow_mask,           // cull mask: instances that share a bit
-        0,                          // sbtRecordOffset: no hit shader runs
+        0,                          // sbtRecordOffset: the record whose any-hit shader may be asked
         1,                          // sbtRecordStride: one record a geometry
         1,                          // missIndex: shadow.rmiss
         origin,
@@ -51,7 +51,8 @@ float visibility(vec3 origin, vec3 up) {
     }
     bool soft = push.light.size > 0.0;
     uint count = soft ? push.light_samples : 1;
-    vec2 start = random(gl_LaunchIDEXT.xy, 0, 0, DIMENSION_LIGHT).xy;
+    uvec2 pixel = gl_LaunchIDEXT.xy + uvec2(push.first_column, 0);
+    vec2 start = random(pixel, 0, 0, DIMENSION_LIGHT).xy;
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, start) : vec2(0.0);

@@ -358,7 +358,11 @@ fn far_away_only_camera_relative_coordinates_keep_the_picture() {
 
 #[test]
 fn both_coordinates_side_by_side_are_the_two_pictures() {
-    let show = |coordinates: &str| picture(&["far=1000000", &format!("coordinates={coordinates}")]);
+    // A soft light, or its random numbers would not tell the pixels apart.
+    let sets = ["far=1000000", "light size=0.1", "light samples=2"];
+    let show = |coordinates: &str| {
+        picture(&[&sets[..], &[&format!("coordinates={coordinates}")]].concat())
+    };
     let [both, world, relative] = ["both", "world", "camera-relative"].map(show);
     for (index, pixel) in both.pixels.iter().enumerate() {
         let half = if index % 120 < 60 { &world } else { &relative };
