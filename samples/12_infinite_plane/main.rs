@@ -208,6 +208,8 @@ impl Sample for Demo {
         c.checkbox("smooth terminator", &mut self.smooth_terminator);
         c.choice("method", &mut self.method, &["iterative", "recursive"]);
         let deepest = if self.method == METHOD_RECURSIVE { self.deepest } else { MAX_DEPTH };
+        // What a loop may do can be too deep for this device's recursion.
+        self.depth = self.depth.min(deepest);
         c.integer("depth", &mut self.depth, 0..=deepest);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         let rules = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
