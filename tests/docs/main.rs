@@ -5,6 +5,7 @@ mod fixture;
 mod stale;
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use fixture::{Fixture, run};
@@ -81,8 +82,12 @@ fn files_of_windows_are_the_same_book() {
 #[test]
 fn a_program_that_is_not_built_is_named_with_its_cure() {
     let fixture = Fixture::new();
-    let lonely = fixture.path(&format!(".alone{}", std::env::consts::EXE_SUFFIX));
-    fs::copy(env!("CARGO_BIN_EXE_chapters"), &lonely).expect("a copy of the tool");
+    // Linked, not copied: while another test starts a program, a file just written may count as busy.
+    let tool = Path::new(env!("CARGO_BIN_EXE_chapters"));
+    let apart =
+        tempfile::tempdir_in(tool.parent().expect("its folder")).expect("a folder beside it");
+    let lonely = apart.path().join("alone").with_extension(std::env::consts::EXE_EXTENSION);
+    fs::hard_link(tool, &lonely).expect("another name of the tool");
     let outcome = run(Command::new(lonely).arg("check").arg("--root").arg(fixture.path("")));
     assert_eq!(outcome.code, 1);
     let line = outcome.out.lines().next().unwrap_or_default();
