@@ -4,6 +4,8 @@
 // `t`, behind the origin as well as before it; the answer is whether it does.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
+#include "error_free.glsl"
+
 const uint PLANE_POV = 0;
 const uint PLANE_POINT = 1;
 const uint PLANE_CUT_OFF = 2;
@@ -51,49 +53,7 @@ bool plane_cut_off(Plane plane, vec3 o, vec3 d, out float t) {
 }
 // ANCHOR_END: cut_off
 
-// ANCHOR: exact
-// a + b is sum.x + sum.y, exactly (Knuth).
-vec2 two_sum(float a, float b) {
-    precise float sum = a + b;
-    precise float back = sum - a;
-    precise float error = (a - (sum - back)) + (b - back);
-    return vec2(sum, error);
-}
-
-// The upper 12 bits of a number and the lower 12: products of such halves are exact (Veltkamp).
-vec2 split(float a) {
-    precise float wide = 4097.0 * a;
-    precise float high = wide - (wide - a);
-    precise float low = a - high;
-    return vec2(high, low);
-}
-
-// a·b is product.x + product.y, exactly (Dekker). Not by fma(), which GLSL allows to round twice.
-vec2 two_product(float a, float b) {
-    vec2 x = split(a);
-    vec2 y = split(b);
-    precise float product = a * b;
-    precise float error = ((x.x * y.x - product) + x.x * y.y + x.y * y.x) + x.y * y.y;
-    return vec2(product, error);
-}
-// ANCHOR_END: exact
-
 // ANCHOR: compensated
-// start + a·b, where the error of each product and of each sum is kept, and added at the end.
-// (Ogita, Rump and Oishi 2005, algorithm Dot2.)
-float dot_compensated(vec2 start, vec3 a, vec3 b) {
-    precise float sum = start.x;
-    precise float error = start.y;
-    for (int i = 0; i < 3; i++) {
-        vec2 product = two_product(a[i], b[i]);
-        vec2 next = two_sum(sum, product.x);
-        sum = next.x;
-        error += product.y + next.y;
-    }
-    precise float result = sum + error;
-    return result;
-}
-
 // As the plane is given, with sums as good as if they had twice the bits.
 bool plane_compensated(Plane plane, vec3 o, vec3 d, out float t) {
     precise float height = dot_compensated(plane.distance, -o, plane.normal);

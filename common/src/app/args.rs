@@ -81,12 +81,20 @@ impl Args {
     /// # Errors
     /// One line that says what is wrong and where to look.
     pub fn parse_for(name: &'static str) -> Result<Self, Usage> {
+        Ok(Self::parse_with::<Nothing>(name)?.0)
+    }
+
+    /// As [`Args::parse_for`], for a sample with arguments of its own.
+    ///
+    /// # Errors
+    /// As [`Args::parse_for`].
+    pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), Usage> {
         use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
-        let command = Self::command().name(name);
+        let command = More::augment_args(Self::command().name(name));
         let matches = command.try_get_matches().and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
-            Ok(args)
+            Ok((args, More::from_arg_matches(&matches)?))
         });
         matches.map_err(|error| {
             if !error.use_stderr() {
@@ -100,6 +108,10 @@ impl Args {
         })
     }
 }
+
+/// No arguments of its own.
+#[derive(clap::Args)]
+struct Nothing {}
 
 fn size(text: &str) -> Result<vk::Extent2D, String> {
     let sides = text.split_once('x').map(|(w, h)| (w.parse::<u32>(), h.parse::<u32>()));

@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use anyhow::Result;
 use glam::{DVec3, Vec3};
 
+use super::chart::Chart;
 use crate::scene::Camera;
 use crate::usage::Usage;
 
@@ -43,6 +44,9 @@ pub trait Visit {
         }
         moved | zoomed
     }
+
+    /// Sees what the sample has found out; only the panel has room for it.
+    fn chart(&mut self, _: &Chart) {}
 }
 
 /// What [`Sample::controls`](super::Sample::controls) declares its controls on.
@@ -91,6 +95,11 @@ impl<'a> Controls<'a> {
     /// A camera: moved with the mouse in a window, by three controls elsewhere.
     pub fn camera(&mut self, camera: &mut Camera) -> bool {
         self.visitor.camera(camera)
+    }
+
+    /// A plot below the controls before it; nothing to set.
+    pub fn chart(&mut self, chart: &Chart) {
+        self.visitor.chart(chart);
     }
 }
 

@@ -1,23 +1,19 @@
 //! A run without a window: set controls, render frames, write picture and report.
 
-use std::io::IsTerminal;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use ash::vk;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::Args;
 use super::{
-    Format, Frame, Milliseconds, Picture, Report, Sample, Setup, compare, controls, output,
+    Format, Frame, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, controls,
+    output,
 };
 use crate::files;
 use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
 use crate::usage::Usage;
-
-/// How long a run may take before it shows its progress.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Renders `args.frames` frames of a sample and writes what `args` asks for.
 ///
@@ -64,7 +60,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         None => None,
         Some((control, values)) => {
             let turns = u64::from(args.frames) * (values.len() as u64 + 1) + values.len() as u64;
-            let progress = Progress::new(turns, start);
+            let progress = Progress::new(turns, "frames");
             Some(compare::compare(&control, &values, args.frames, |value| {
                 controls::set(&control, value, |c| sample.controls(c))?;
                 progress.step();
@@ -75,7 +71,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let mut times = Vec::new();
     let mut first_frame = Duration::ZERO;
     let frames = if comparison.is_some() { 1 } else { args.frames };
-    let progress = Progress::new(frames.into(), start);
+    let progress = Progress::new(frames.into(), "frames");
     for index in 0..frames {
         times.push(render(&mut sample, index)?);
         if index == 0 {
@@ -172,33 +168,4 @@ pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
         "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",
         gpu.name
     )))
-}
-
-/// A bar on standard error, once the run has taken a while and if someone can see it.
-struct Progress {
-    bar: ProgressBar,
-    start: Instant,
-}
-
-impl Progress {
-    fn new(frames: u64, start: Instant) -> Self {
-        let bar = ProgressBar::hidden();
-        bar.set_length(frames);
-        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left");
-        Self { bar: style.map_or(bar.clone(), |style| bar.with_style(style)), start }
-    }
-
-    fn step(&self) {
-        let visible = self.start.elapsed() > PATIENCE && std::io::stderr().is_terminal();
-        if self.bar.is_hidden() && visible {
-            self.bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
-        }
-        self.bar.inc(1);
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
-    }
 }

@@ -1,11 +1,13 @@
 //! A program around a sample: arguments, controls, a headless run or a window, picture and report.
 
 mod args;
+pub mod chart;
 pub mod compare;
 pub mod controls;
 mod headless;
 pub mod output;
 mod picture;
+mod progress;
 mod report;
 mod window;
 
@@ -18,8 +20,9 @@ use ash::vk;
 
 pub use args::Args;
 pub use controls::Controls;
-pub use headless::{check_files, headless};
+pub use headless::{check_files, check_validation, headless};
 pub use picture::{Format, Picture};
+pub use progress::Progress;
 pub use report::{Milliseconds, Report};
 
 /// Compiles a shader below `shaders/` to SPIR-V; for 01, which may use nothing of `gpu`.
@@ -137,7 +140,11 @@ pub fn finish(result: Result<()>) -> ExitCode {
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
-fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
+/// Does what the arguments ask of a sample; the part of [`run`] after they are read.
+///
+/// # Errors
+/// Whatever went wrong.
+pub fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
     }

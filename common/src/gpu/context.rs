@@ -188,7 +188,7 @@ impl Gpu {
             .queue_priorities(&priorities)];
         let extensions = requirements.extensions();
         let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
-        let device = requirements.features().with_chain(
+        let device = requirements.features(&chosen.offered).with_chain(
             |name| extensions.contains(&name),
             |features| {
                 let info = vk::DeviceCreateInfo::default()

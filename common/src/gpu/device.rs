@@ -25,6 +25,8 @@ pub struct Candidate {
     pub queue_family: Option<u32>,
     /// Whether that family has graphics.
     pub graphics: bool,
+    /// The features that it has.
+    pub offered: Features,
     /// What this device lacks for the sample at hand; empty if it will do.
     pub missing: Vec<String>,
 }
@@ -87,6 +89,7 @@ fn judge(
         kind: properties.device_type,
         queue_family: None,
         graphics: false,
+        offered: Features::default(),
         missing: Vec::new(),
     };
     let version = properties.api_version;
@@ -113,6 +116,7 @@ fn judge(
         unsafe { instance.get_physical_device_features2(handle, features) }
     });
     candidate.missing = wanted.missing(has, &offered);
+    candidate.offered = offered;
 
     // SAFETY: as above.
     let families = unsafe { instance.get_physical_device_queue_family_properties(handle) };
@@ -223,6 +227,7 @@ mod tests {
             kind,
             queue_family: Some(0),
             graphics: true,
+            offered: Features::default(),
             missing: missing.iter().map(|&m| m.to_owned()).collect(),
         }
     }

@@ -31,6 +31,12 @@ pub struct Limits {
     pub timestamp_period: f32,
     /// The bits of a timestamp that count.
     pub timestamp_mask: u64,
+    /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
+    pub float64: bool,
+    /// Whether a shader may demand that 32-bit floats are rounded to nearest even.
+    pub rounding_to_nearest_even: bool,
+    /// Whether a shader may demand that signs of zeros, infinities and NaN are kept.
+    pub signed_zero_inf_nan: bool,
 }
 
 impl Limits {
@@ -38,12 +44,16 @@ impl Limits {
     pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice, family: u32) -> Self {
         let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
         let mut acceleration = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
+        let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default()
             .push_next(&mut pipeline)
+            .push_next(&mut floats)
             .push_next(&mut acceleration);
         // SAFETY: the device belongs to the live instance and has both extensions.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
         let core = properties.properties.limits;
+        // SAFETY: the device belongs to the live instance.
+        let features = unsafe { instance.get_physical_device_features(physical_device) };
         // SAFETY: as above.
         let families =
             unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
@@ -64,6 +74,9 @@ impl Limits {
             max_push_constants_size: core.max_push_constants_size,
             timestamp_period: if bits > 0 { core.timestamp_period } else { 0.0 },
             timestamp_mask: u64::MAX.checked_shr(64 - bits).unwrap_or(0),
+            float64: features.shader_float64 == vk::TRUE,
+            rounding_to_nearest_even: floats.shader_rounding_mode_rte_float32 == vk::TRUE,
+            signed_zero_inf_nan: floats.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
         }
     }
 }

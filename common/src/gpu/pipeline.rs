@@ -84,6 +84,7 @@ pub struct PipelineBuilder<'a> {
     push: Option<StructLayout>,
     hit_data: Option<StructLayout>,
     constants: Vec<(u32, u32)>,
+    defines: Vec<(&'a str, String)>,
     recursion: u32,
 }
 
@@ -122,6 +123,7 @@ impl RayTracingPipeline {
             push: None,
             hit_data: None,
             constants: Vec::new(),
+            defines: Vec::new(),
             recursion: 1,
         }
     }
@@ -277,6 +279,12 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Defines a macro in every stage, for code that shall not even be compiled.
+    pub fn define(mut self, name: &'a str, value: impl ToString) -> Self {
+        self.defines.push((name, value.to_string()));
+        self
+    }
+
     /// How deep `traceRayEXT` nests: 1 is a ray from the raygen shader, 2 a ray from its hit.
     pub fn recursion(mut self, depth: u32) -> Self {
         self.recursion = depth;
@@ -306,7 +314,8 @@ impl<'a> PipelineBuilder<'a> {
             gpu.name,
             gpu.limits.max_push_constants_size
         );
-        let mut stages = Stages { folder: self.name, shaders: Vec::new() };
+        let defines = self.defines.as_slice();
+        let mut stages = Stages { folder: self.name, defines, shaders: Vec::new() };
         let mut groups = Vec::new();
         for shader in self.raygen.iter().chain(&self.miss) {
             groups.push(general(stages.add(shader)?));
@@ -430,6 +439,7 @@ impl<'a> PipelineBuilder<'a> {
 /// The shaders of a pipeline, each compiled once however many groups use it.
 struct Stages<'a> {
     folder: &'a str,
+    defines: &'a [(&'a str, String)],
     shaders: Vec<Shader>,
 }
 
@@ -440,7 +450,7 @@ impl Stages<'_> {
         let index = match known {
             Some(index) => index,
             None => {
-                self.shaders.push(shader::compile(&path)?);
+                self.shaders.push(shader::compile_with(&path, self.defines)?);
                 self.shaders.len() - 1
             }
         };

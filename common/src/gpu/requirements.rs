@@ -72,6 +72,7 @@ macro_rules! requirement {
 #[derive(Clone, Default)]
 pub struct Requirements {
     list: Vec<Requirement>,
+    wishes: Vec<Requirement>,
     extensions: Vec<&'static CStr>,
 }
 
@@ -97,6 +98,7 @@ impl Requirements {
                 requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
                 requirement!(None, "synchronization2", vulkan13.synchronization2),
             ],
+            wishes: Vec::new(),
             // Acceleration structures depend on deferred host operations, even where none is used.
             extensions: vec![khr::deferred_host_operations::NAME, khr::push_descriptor::NAME],
         }
@@ -112,6 +114,12 @@ impl Requirements {
                 vulkan12.shader_sampled_image_array_non_uniform_indexing
             ),
         ]);
+        self
+    }
+
+    /// 64-bit floats in shaders, where the device has them: [`Limits::float64`](super::Limits) tells.
+    pub fn float64_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
         self
     }
 
@@ -131,10 +139,12 @@ impl Requirements {
         all
     }
 
-    /// The features to enable: those asked for and no other.
-    pub fn features(&self) -> Features {
+    /// The features to enable: those asked for, those wished for that `offered` has, and no other.
+    pub fn features(&self, offered: &Features) -> Features {
+        let mut offered = *offered;
         let mut features = Features::default();
-        for requirement in &self.list {
+        let granted = self.wishes.iter().filter(|wish| *(wish.bit)(&mut offered) == vk::TRUE);
+        for requirement in self.list.iter().chain(granted) {
             *(requirement.bit)(&mut features) = vk::TRUE;
         }
         features
@@ -179,17 +189,26 @@ mod tests {
     #[test]
     fn an_offered_extension_without_its_feature_is_not_enough() {
         let wanted = Requirements::ray_tracing();
-        let mut offered = wanted.features();
+        let mut offered = wanted.features(&Features::default());
         offered.ray_tracing_pipeline.ray_tracing_pipeline = vk::FALSE;
         assert_eq!(wanted.missing(|_| true, &offered), ["feature rayTracingPipeline"]);
     }
 
     #[test]
     fn nothing_but_what_was_asked_is_enabled() {
-        let mut features = Requirements::ray_tracing().features();
+        let mut features = Requirements::ray_tracing().features(&Features::default());
         assert_eq!(features.vulkan12.runtime_descriptor_array, vk::FALSE);
         assert_eq!(features.vulkan13.dynamic_rendering, vk::FALSE);
-        features = Requirements::ray_tracing().textures().features();
+        features = Requirements::ray_tracing().textures().features(&Features::default());
         assert_eq!(features.vulkan12.runtime_descriptor_array, vk::TRUE);
+    }
+    #[test]
+    fn a_wish_is_granted_where_it_is_offered_and_refuses_no_device() {
+        let wishing = Requirements::ray_tracing().float64_where_offered();
+        let mut offered = wishing.features(&Features::default());
+        assert_eq!(offered.core.shader_float64, vk::FALSE);
+        assert!(wishing.missing(|_| true, &offered).is_empty());
+        offered.core.shader_float64 = vk::TRUE;
+        assert_eq!(wishing.features(&offered).core.shader_float64, vk::TRUE);
     }
 }

@@ -44,14 +44,22 @@ pub fn folder() -> PathBuf {
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
 pub fn compile(path: &str) -> Result<Shader> {
+    compile_with(path, &[])
+}
+
+/// As [`compile`], with these macros defined: names and values.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_with(path: &str, defines: &[(&str, String)]) -> Result<Shader> {
     let (stage, glslang_stage) = stage(path)?;
     let mut source = Source::default();
     source.splice(path, 0)?;
-    let cached = cache_file(path, &source.text);
+    let cached = cache_file(path, &source.text, defines);
     let spirv = match fs::read(&cached).ok().and_then(|bytes| unsealed(&bytes)) {
         Some(words) => words,
         None => {
-            let words = to_spirv(path, &source.text, glslang_stage)?;
+            let words = to_spirv(path, &source.text, glslang_stage, defines)?;
             // A cache that cannot be written costs time at the next start, nothing else.
             let _ = cached.parent().map(fs::create_dir_all);
             let _ = crate::files::write_whole(&cached, &sealed(&words));
@@ -81,16 +89,20 @@ fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
     })
 }
 
-/// A shader's text with its includes in place, each file once, `#line` telling which is which.
+/// A shader's text with its includes in place, `#line` telling which is which.
+///
+/// Each file counts once: by a guard, since only the compiler knows which `#if` an include is in.
 #[derive(Default)]
 struct Source {
     text: String,
     files: Vec<String>,
+    /// The file at hand and those that include it.
+    open: Vec<String>,
 }
 
 impl Source {
     fn splice(&mut self, path: &str, depth: usize) -> Result<()> {
-        if self.files.iter().any(|file| file == path) {
+        if self.open.iter().any(|file| file == path) {
             return Ok(());
         }
         ensure!(depth <= MAX_INCLUDE_DEPTH, "shader '{path}': includes nest too deep");
@@ -102,15 +114,20 @@ impl Source {
         let metadata = fs::metadata(&file).with_context(failed)?;
         ensure!(metadata.is_file(), "{}: it is not a file", failed());
         let text = fs::read_to_string(&file).with_context(failed)?;
-        self.files.push(path.to_owned());
+        if !self.files.iter().any(|file| file == path) {
+            self.files.push(path.to_owned());
+        }
+        self.open.push(path.to_owned());
         for (index, line) in text.lines().enumerate() {
             let number = index + 1;
             if let Some(rest) = line.trim_start().strip_prefix("#include") {
                 let name = resolve(path, rest.trim().trim_matches(['"', '<', '>']));
+                let guard = guard(&name);
+                self.text.push_str(&format!("#ifndef {guard}\n#define {guard}\n"));
                 self.text.push_str(&format!("#line 1 \"{name}\"\n"));
                 self.splice(&name, depth + 1)
                     .with_context(|| format!("{path}:{number}: #include \"{name}\""))?;
-                self.text.push_str(&format!("#line {} \"{path}\"\n", number + 1));
+                self.text.push_str(&format!("#endif\n#line {} \"{path}\"\n", number + 1));
             } else {
                 self.text.push_str(line);
                 self.text.push('\n');
@@ -120,8 +137,15 @@ impl Source {
                 }
             }
         }
+        self.open.pop();
         Ok(())
     }
+}
+
+/// A macro's name for a path.
+fn guard(path: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
+    format!("INCLUDED_{}", path.chars().map(letter).collect::<String>())
 }
 
 /// An include's path below `shaders/`: beside the file that includes it, else from the top.
@@ -131,7 +155,12 @@ fn resolve(includer: &str, name: &str) -> String {
     exists.unwrap_or_else(|| name.to_owned())
 }
 
-fn to_spirv(path: &str, text: &str, stage: ShaderStage) -> Result<Vec<u32>> {
+fn to_spirv(
+    path: &str,
+    text: &str,
+    stage: ShaderStage,
+    defines: &[(&str, String)],
+) -> Result<Vec<u32>> {
     let compiler = Compiler::acquire().context("glslang does not start")?;
     let source = ShaderSource::from(text);
     let options = CompilerOptions {
@@ -143,8 +172,9 @@ fn to_spirv(path: &str, text: &str, stage: ShaderStage) -> Result<Vec<u32>> {
         version_profile: None,
         messages: ShaderMessage::DEFAULT,
     };
-    let no_defines: Option<&[(&str, Option<&str>)]> = None;
-    let input = ShaderInput::new(&source, stage, &options, no_defines, None)?;
+    let defines: Vec<_> =
+        defines.iter().map(|(name, value)| (*name, Some(value.as_str()))).collect();
+    let input = ShaderInput::new(&source, stage, &options, Some(&defines), None)?;
     let compiled = compiler.create_shader(input).and_then(|shader| {
         let mut program = compiler.create_program();
         program.add_shader(&shader);
@@ -181,9 +211,9 @@ fn has_place(message: &str) -> bool {
     parts.next().is_some_and(|line| line.parse::<u32>().is_ok()) && parts.next().is_some()
 }
 
-fn cache_file(path: &str, text: &str) -> PathBuf {
+fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> PathBuf {
     let mut hasher = DefaultHasher::new();
-    (env!("CARGO_PKG_VERSION"), path, text).hash(&mut hasher);
+    (env!("CARGO_PKG_VERSION"), path, text, defines).hash(&mut hasher);
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv"));
     folder.join(format!("{:016x}.words", hasher.finish()))
 }
@@ -230,7 +260,7 @@ mod tests {
     #[test]
     fn every_message_names_its_file() {
         let message = |text: &str| {
-            let error = to_spirv("a/b.rmiss", text, ShaderStage::Miss).err().unwrap();
+            let error = to_spirv("a/b.rmiss", text, ShaderStage::Miss, &[]).err().unwrap();
             let message = error.to_string();
             message.strip_prefix("shader does not compile: ").unwrap().to_owned()
         };

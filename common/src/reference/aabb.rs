@@ -122,7 +122,7 @@ impl Aabb {
 #[cfg(test)]
 mod tests {
     use super::super::exact::to_f64;
-    use super::super::families::{Random, f32s, towards};
+    use super::super::random::{Random, f32s, towards};
     use super::*;
     use proptest::prelude::*;
 

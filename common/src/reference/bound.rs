@@ -171,7 +171,7 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::super::crossing::Shear;
-    use super::super::families::{Random, f32s, instance, towards};
+    use super::super::random::{Random, f32s, instance, towards};
     use super::super::simulated::{Test, apply, invert, moller_trumbore, woop};
     use super::*;
 

@@ -131,7 +131,7 @@ impl Bvh {
 #[cfg(test)]
 mod tests {
     use super::super::aabb::Aabb;
-    use super::super::families::{Random, towards};
+    use super::super::random::{Random, towards};
     use super::*;
 
     fn boxes(random: &mut Random, n: usize) -> Vec<(DVec3, DVec3)> {

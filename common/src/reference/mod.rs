@@ -5,6 +5,9 @@
 //! | [`exact`] | rational numbers and vectors, exactly those that the f32 or f64 bits denote |
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
+//! | [`capsule`], [`instance`] | the same for a capsule, and for a sphere under any matrix |
+//! | [`heightfield`] | a surface of heights, bisected in f64 |
+//! | [`random`] | seeded rays: the same on every machine |
 //! | [`crossing`] | where a ray's line meets a triangle's plane, and how near to the border |
 //! | [`transform`] | an instance's 3×4 matrix, and how far an f32 ray strays on its way through it |
 //! | [`bound`] | how far a triangle test in f32 may be off: the derivation and the numbers |
@@ -25,10 +28,14 @@
 pub mod aabb;
 pub mod bound;
 pub mod bvh;
+pub mod capsule;
 pub mod crossing;
 pub mod exact;
+pub mod heightfield;
 pub mod hit;
+pub mod instance;
 pub mod plane;
+pub mod random;
 pub mod scene;
 pub mod sphere;
 pub mod surd;
@@ -37,8 +44,6 @@ pub mod triangle;
 pub mod ulp;
 pub mod verdict;
 
-#[cfg(test)]
-mod families;
 #[cfg(test)]
 mod hard_cases;
 #[cfg(test)]

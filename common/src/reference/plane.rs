@@ -94,7 +94,7 @@ fn meet_exact(ray: &Ray, n: &Vector, height: &Surd) -> Option<ExactSurface> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::families::{Random, f32s, towards};
+    use super::super::random::{Random, f32s, towards};
     use super::*;
     use proptest::prelude::*;
 

@@ -191,7 +191,7 @@ impl Scene {
 
 #[cfg(test)]
 mod tests {
-    use super::super::families::{Random, sheet, towards};
+    use super::super::random::{Random, sheet, towards};
     use super::super::triangle;
     use super::*;
     use std::time::Instant;

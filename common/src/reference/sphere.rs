@@ -53,23 +53,33 @@ impl Sphere {
         let d = Vector::from(ray.direction);
         let f = &Vector::from(ray.origin) - &Vector::from(self.center);
         let r = rational(self.radius);
-        let a = d.length_squared();
-        let b = f.dot(&d);
-        let c = f.length_squared() - &r * &r;
-        let discriminant = &b * &b - &a * c;
-        if r <= RBig::ZERO || a.is_zero() || discriminant < RBig::ZERO {
-            return None;
-        }
-        let root = |side: RBig| Surd::new(-&b / &a, side / &a, discriminant.clone());
-        let t = [root(-RBig::ONE), root(RBig::ONE)].into_iter().find(|t| t.within(ray))?;
+        let t = first_root(&f, &d, &r, ray)?;
         let normal = std::array::from_fn(|i| t.affine(&(&d.0[i] / &r), &(&f.0[i] / &r)));
         Some(ExactSurface { t, normal })
     }
 }
 
+/// The first t within the ray's interval with `|f + t·d| = r`, exactly.
+pub(super) fn first_root(f: &Vector, d: &Vector, r: &RBig, ray: &Ray) -> Option<Surd> {
+    roots(&d.length_squared(), &f.dot(d), &(f.length_squared() - r * r))
+        .filter(|_| *r > RBig::ZERO)?
+        .into_iter()
+        .find(|t| t.within(ray))
+}
+
+/// The roots of `a·t² + 2b·t + c`, the smaller first, exactly; `None` if there are none or too many.
+pub(super) fn roots(a: &RBig, b: &RBig, c: &RBig) -> Option<[Surd; 2]> {
+    let discriminant = b * b - a * c;
+    if a.is_zero() || discriminant < RBig::ZERO {
+        return None;
+    }
+    let root = |side: RBig| Surd::new(-b / a, side / a, discriminant.clone());
+    Some([root(-RBig::ONE), root(RBig::ONE)])
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::families::{Random, f32s, towards};
+    use super::super::random::{Random, f32s, towards};
     use super::*;
     use proptest::prelude::*;
 

@@ -126,7 +126,7 @@ impl Transform {
 
 #[cfg(test)]
 mod tests {
-    use super::super::families::{Random, f32s, instance};
+    use super::super::random::{Random, f32s, instance};
     use super::super::simulated::{apply, invert};
     use super::*;
 

@@ -60,7 +60,7 @@ pub fn intersect_exact(ray: &Ray, triangle: &Triangle) -> Option<ExactTriangleHi
 #[cfg(test)]
 mod tests {
     use super::super::exact::to_f64;
-    use super::super::families::{Random, f32s, towards};
+    use super::super::random::{Random, f32s, towards};
     use super::*;
     use proptest::prelude::*;
 

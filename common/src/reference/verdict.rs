@@ -171,7 +171,7 @@ fn excuse(ray: &Ray, doubtful: Candidate) -> Verdict {
 mod tests {
     use glam::DVec3;
 
-    use super::super::families::{Random, towards};
+    use super::super::random::{Random, towards};
     use super::super::scene::Instance;
     use super::super::simulated::{Test, meshes, moller_trumbore, render, woop};
     use super::super::transform::Transform;

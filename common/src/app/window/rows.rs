@@ -4,7 +4,8 @@ use egui::emath::Numeric;
 use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
 
 use super::navigation::Navigation;
-use super::style;
+use super::{dots, style};
+use crate::app::chart::Chart;
 use crate::app::controls::{Value, Visit};
 use crate::scene::Camera;
 
@@ -50,6 +51,12 @@ impl Visit for Rows<'_> {
             | self.visit("camera target", Value::Point(&mut camera.target));
         self.changed |= moved;
         moved | zoomed | placed
+    }
+
+    fn chart(&mut self, chart: &Chart) {
+        self.ui.colored_label(style::DIM, chart.name);
+        dots::show(self.ui, chart, WIDGETS);
+        self.ui.end_row();
     }
 }
 

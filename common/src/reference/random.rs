@@ -1,6 +1,8 @@
-//! Seeded random numbers for the tests of this room: the same rays on every machine.
+//! Seeded random numbers and rays: the same on every machine.
 
-use glam::{DMat3, DVec3};
+#[cfg(test)]
+use glam::DMat3;
+use glam::DVec3;
 
 use super::Ray;
 
@@ -8,6 +10,7 @@ use super::Ray;
 pub struct Random(pub u64);
 
 impl Random {
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -16,6 +19,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
+    /// A number between two others, evenly spread.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 * 2f64.powi(-53)
     }
@@ -25,14 +29,17 @@ impl Random {
         self.between(low.ln(), high.ln()).exp()
     }
 
+    /// A whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
+    /// A point between -1 and 1 along each axis.
     pub fn in_cube(&mut self) -> DVec3 {
         DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
     }
 
+    /// A direction.
     pub fn unit(&mut self) -> DVec3 {
         loop {
             let v = self.in_cube();
@@ -54,6 +61,7 @@ pub fn towards(origin: DVec3, target: DVec3) -> Ray {
     Ray { origin, direction: f32s(target - origin), tmin: 0.0, tmax: 1e30 }
 }
 
+#[cfg(test)]
 /// A shift and nothing else, or with it a random rotation, scale by up to 25 apart per axis,
 /// mirroring and shear.
 pub fn instance(random: &mut Random, turned: bool) -> [[f32; 4]; 3] {
@@ -73,6 +81,7 @@ pub fn instance(random: &mut Random, turned: bool) -> [[f32; 4]; 3] {
     })
 }
 
+#[cfg(test)]
 /// A crumpled sheet of `2·n²` triangles in the unit square, y up to `height`.
 pub fn sheet(n: usize, height: f32) -> Vec<[[f32; 3]; 3]> {
     let at = |i: usize, j: usize| {
