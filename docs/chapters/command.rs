@@ -90,6 +90,7 @@ impl Run {
         let parsed = command.no_binary_name(true).try_get_matches_from(&self.arguments);
         if let Err(error) = parsed
             && error.use_stderr()
+            && !(sample && programs.takes(name, &self.arguments))
         {
             let text = error.to_string();
             let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
@@ -102,7 +103,8 @@ impl Run {
         match programs.controls(name) {
             Ok(controls) => {
                 let refusal = |(control, value): &(String, String)| controls.refuse(control, value);
-                settings.iter().find_map(refusal).and_then(wrong)
+                let refused = settings.iter().find_map(refusal);
+                refused.filter(|_| !programs.takes(name, &self.arguments)).and_then(wrong)
             }
             Err(what) => Some((what, BUILD)),
         }

@@ -5,12 +5,13 @@ use crate::project::{Chapter, Project};
 /// Pictures side by side.
 const COLUMNS: usize = 3;
 
-/// Pages beside the chapters, with their titles: the first before them, the second after.
+/// Pages beside the chapters, with their titles: the first before them, the others after.
 const BEFORE: (&str, &str) = ("reading.md", "How to read this book");
-const AFTER: (&str, &str) = ("wrong-pictures.md", "When the picture is wrong");
+const AFTER: [(&str, &str); 2] =
+    [("measured.md", "Everything measured"), ("wrong-pictures.md", "When the picture is wrong")];
 
 /// The pages of the book that are no chapter's.
-pub const OTHER_PAGES: [&str; 2] = [BEFORE.0, AFTER.0];
+pub const OTHER_PAGES: [&str; 3] = [BEFORE.0, AFTER[0].0, AFTER[1].0];
 
 /// A table of pictures, each with its chapter's title and what that teaches, all leading to the page.
 pub fn table(project: &Project, page: &str) -> String {
@@ -43,18 +44,20 @@ fn row(chapters: &[Chapter], cell: impl Fn(&Chapter) -> String) -> String {
 /// The whole of `docs/SUMMARY.md`.
 pub fn summary(project: &Project) -> String {
     let other = |(file, title): (&str, &str)| match project.has(&format!("docs/{file}")) {
-        true => format!("[{title}]({file})\n\n"),
+        true => format!("[{title}]({file})\n"),
         false => String::new(),
     };
     let mut text = "# Summary\n\n".to_owned();
-    text.push_str(&other(BEFORE));
+    let before = other(BEFORE);
+    if !before.is_empty() {
+        text.push_str(&format!("{before}\n"));
+    }
     for chapter in &project.chapters {
         text.push_str(&format!("- [{}]({}.md)\n", chapter.heading(), chapter.name));
     }
-    let after = other(AFTER);
+    let after: Vec<String> = AFTER.map(other).into_iter().filter(|line| !line.is_empty()).collect();
     if !after.is_empty() {
-        text.push_str(&format!("\n{}", after.trim_end()));
-        text.push('\n');
+        text.push_str(&format!("\n{}", after.join("\n")));
     }
     text
 }

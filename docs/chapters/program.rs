@@ -138,6 +138,13 @@ impl Programs {
         controls
     }
 
+    /// Whether a sample itself takes these arguments, which may be its own or depend on one another.
+    pub fn takes(&self, name: &str, arguments: &[String]) -> bool {
+        let Ok(mut command) = self.command(name) else { return false };
+        let output = command.args(arguments).arg("--list-controls").output();
+        output.is_ok_and(|output| output.status.success())
+    }
+
     fn list_controls(&self, name: &str) -> Result<Controls, String> {
         let output = self.command(name)?.arg("--list-controls").output();
         let output =

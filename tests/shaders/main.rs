@@ -101,9 +101,14 @@ fn a_structure_that_differs_is_refused_by_name() {
 #[test]
 fn every_file_is_used_by_a_chapter() {
     let mut used = BTreeSet::new();
-    for chapter in chapters() {
+    let plain = chapters().into_iter().map(|chapter| (chapter, vec![]));
+    // Its picture takes one pipeline of many.
+    let laboratory = |arguments: &[&'static str]| ("24_accuracy".to_owned(), arguments.to_vec());
+    let best = laboratory(&["--set", "rung=64 bits"]);
+    for (chapter, arguments) in plain.chain([best]) {
         let output = run::command(&chapter)
             .args(["--headless", "--size", "8x8", "--report", "-"])
+            .args(arguments)
             .output()
             .expect("the sample starts");
         let errors = String::from_utf8_lossy(&output.stderr);
@@ -114,6 +119,19 @@ fn every_file_is_used_by_a_chapter() {
         for stage in stages {
             used.extend(compile(stage.as_str().expect("a path")).unwrap().files);
         }
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = run::command("24_accuracy")
+        .args(["--headless", "--only", "sphere", "--only", "triangle", "--rays", "8"])
+        .args(["--rounds", "0", "--measure"])
+        .arg(folder.path())
+        .output()
+        .expect("the sample starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
+    let measured: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    for stage in measured["stages"].as_array().expect("stages are listed") {
+        used.extend(compile(stage.as_str().expect("a path")).unwrap().files);
     }
     let orphans: Vec<_> = files().difference(&used).cloned().collect();
     assert!(orphans.is_empty(), "used by no chapter: {}", orphans.join(", "));

@@ -1,0 +1,419 @@
+//! A file of hard cases: rays and shapes whose answers are known to 50 digits.
+//!
+//! The schema is `rt-hard-cases/2`; the file's `conventions` say how to read it. Whatever is not in
+//! the schema is refused: a case that is misread, or left out, would count as passed.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use glam::{DVec3, Vec3};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::judge::{Expected, Hit, Tolerance};
+use crate::ladder::Primitive;
+use crate::probe::Ray;
+use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
+
+const SCHEMA: &str = "rt-hard-cases/2";
+/// A loop in a shader that runs for longer may be taken for a hang.
+const LONGEST_SUM: u32 = 1 << 24;
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// One case, ready to be asked.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub id: String,
+    /// As the file names it.
+    pub primitive: String,
+    pub family: String,
+    pub shape: Shape,
+    pub ray: Ray,
+    pub expected: Expected,
+    pub tolerance: Tolerance,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    schema: String,
+    #[serde(default, rename = "conventions")]
+    _conventions: Value,
+    cases: Vec<Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCase {
+    id: String,
+    primitive: String,
+    family: String,
+    ray: Option<RawRay>,
+    shape: Value,
+    expect: RawExpect,
+    tol: Tolerance,
+    #[serde(default, rename = "note")]
+    _note: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawRay {
+    origin: [f64; 3],
+    dir: [f64; 3],
+    tmin: f64,
+    tmax: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawExpect {
+    hit: Option<Hit>,
+    t: Option<String>,
+    normal: Option<[String; 3]>,
+    faces: Option<Vec<String>>,
+    secondary_hit: Option<Hit>,
+    secondary_t: Option<String>,
+    mean: Option<String>,
+}
+
+/// Reads a file of cases.
+///
+/// # Errors
+/// One line with file, line and what is wrong.
+pub fn read(path: &Path) -> Result<Vec<Case>> {
+    let shown = path.display();
+    let size = std::fs::metadata(path).with_context(|| format!("cannot read '{shown}'"))?.len();
+    ensure!(size <= LARGEST_FILE, "'{shown}' has {size} bytes; at most {LARGEST_FILE} are read");
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read '{shown}'"))?;
+    parse(&text, &shown.to_string())
+}
+
+fn parse(text: &str, path: &str) -> Result<Vec<Case>> {
+    let file: File = serde_json::from_str(text)
+        .map_err(|error| anyhow::anyhow!("{path}:{}: {error}", error.line()))?;
+    ensure!(file.schema == SCHEMA, "{path}: the schema is '{}', not '{SCHEMA}'", file.schema);
+    ensure!(!file.cases.is_empty(), "{path}: there are no cases");
+    let mut cases: Vec<Case> = Vec::new();
+    for (number, value) in file.cases.into_iter().enumerate() {
+        let id = value["id"].as_str().map_or_else(|| format!("number {number}"), str::to_owned);
+        let place = || match line_of(text, &id) {
+            Some(line) => format!("{path}:{line}: case '{id}'"),
+            None => format!("{path}: case '{id}'"),
+        };
+        let case = case(value).with_context(place)?;
+        ensure!(cases.iter().all(|other| other.id != case.id), "{}: the id is taken", place());
+        cases.push(case);
+    }
+    Ok(cases)
+}
+
+/// The line on which the id stands, counted from 1.
+fn line_of(text: &str, id: &str) -> Option<usize> {
+    let quoted = format!("\"{id}\"");
+    text.lines().position(|line| line.contains(&quoted)).map(|index| index + 1)
+}
+
+fn case(value: Value) -> Result<Case> {
+    let raw: RawCase = serde_json::from_value(value)?;
+    let shape = shape(&raw.primitive, raw.shape)?;
+    let needs_ray = !matches!(shape, Shape::Sum(_) | Shape::Leaving(Leaving { gap: Some(_), .. }));
+    let ray = match raw.ray {
+        Some(ray) => self::ray(&ray)?,
+        None if needs_ray => bail!("it has no ray"),
+        // Any ray will do that nobody looks at.
+        None => Ray { origin: Vec3::ZERO, direction: Vec3::Y, tmin: 0.0, tmax: 1e30 },
+    };
+    let expected = expected(shape.primitive(), &raw.expect)?;
+    for tolerance in raw.tol.all() {
+        ensure!(
+            tolerance.is_none_or(|x| x >= 0.0 && x.is_finite()),
+            "a tolerance is {tolerance:?}"
+        );
+    }
+    Ok(Case {
+        id: raw.id,
+        primitive: raw.primitive,
+        family: raw.family,
+        shape,
+        ray,
+        expected,
+        tolerance: raw.tol,
+    })
+}
+
+fn ray(raw: &RawRay) -> Result<Ray> {
+    let ray = Ray {
+        origin: vector(raw.origin)?,
+        direction: vector(raw.dir)?,
+        tmin: number(raw.tmin)?,
+        tmax: number(raw.tmax)?,
+    };
+    ensure!(ray.direction != Vec3::ZERO, "the ray's direction is zero");
+    ensure!(
+        0.0 <= ray.tmin && ray.tmin <= ray.tmax,
+        "the ray's interval must be 0 <= tmin <= tmax"
+    );
+    Ok(ray)
+}
+
+/// An f32 written as a decimal of f64.
+fn number(value: f64) -> Result<f32> {
+    let single = value as f32;
+    ensure!(single.is_finite(), "{value:e} is no finite f32");
+    Ok(single)
+}
+
+fn vector(value: [f64; 3]) -> Result<Vec3> {
+    let [x, y, z] = value;
+    Ok(Vec3::new(number(x)?, number(y)?, number(z)?))
+}
+
+fn decimal(text: &str) -> Result<f64> {
+    let value: f64 = text.parse().with_context(|| format!("'{text}' is no decimal"))?;
+    ensure!(value.is_finite(), "'{text}' is not finite");
+    Ok(value)
+}
+
+fn shape(primitive: &str, value: Value) -> Result<Shape> {
+    fn typed<T: DeserializeOwned>(value: Value) -> Result<T> {
+        Ok(serde_json::from_value(value)?)
+    }
+    Ok(match primitive {
+        "sphere" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                center: [f64; 3],
+                radius: f64,
+            }
+            let raw: Raw = typed(value)?;
+            Shape::Sphere { center: vector(raw.center)?, radius: radius(raw.radius)? }
+        }
+        "box" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                lo: [f64; 3],
+                hi: [f64; 3],
+            }
+            let raw: Raw = typed(value)?;
+            let (low, high) = (vector(raw.lo)?, vector(raw.hi)?);
+            ensure!(low.cmple(high).all(), "lo {low} is above hi {high}");
+            Shape::Box { low, high }
+        }
+        "plane" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                normal: [f64; 3],
+                d: f64,
+            }
+            let raw: Raw = typed(value)?;
+            Shape::Plane { normal: direction(raw.normal)?, distance: number(raw.d)? }
+        }
+        "plane_point" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                point: [f64; 3],
+                normal: [f64; 3],
+            }
+            let raw: Raw = typed(value)?;
+            Shape::PointPlane { point: vector(raw.point)?, normal: direction(raw.normal)? }
+        }
+        "triangle" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                triangles: Vec<[[f64; 3]; 3]>,
+            }
+            let raw: Raw = typed(value)?;
+            ensure!(!raw.triangles.is_empty(), "there are no triangles");
+            let corners = |[a, b, c]: [[f64; 3]; 3]| Ok([vector(a)?, vector(b)?, vector(c)?]);
+            Shape::Triangles(raw.triangles.into_iter().map(corners).collect::<Result<_>>()?)
+        }
+        "capsule" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                a: [f64; 3],
+                b: [f64; 3],
+                radius: f64,
+            }
+            let raw: Raw = typed(value)?;
+            Shape::Capsule { a: vector(raw.a)?, b: vector(raw.b)?, radius: radius(raw.radius)? }
+        }
+        "instance" => {
+            #[derive(Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct Raw {
+                object: String,
+                object_to_world: [[f64; 4]; 3],
+            }
+            let raw: Raw = typed(value)?;
+            ensure!(raw.object == "unit_sphere", "unknown object '{}'", raw.object);
+            let mut rows = [[0.0; 4]; 3];
+            for (to, from) in
+                rows.as_flattened_mut().iter_mut().zip(raw.object_to_world.as_flattened())
+            {
+                *to = number(*from)?;
+            }
+            let determinant = crate::shape::parts(&rows).0.determinant();
+            ensure!(determinant != 0.0, "the matrix cannot be inverted");
+            Shape::Instance(rows)
+        }
+        "heightfield" => heightfield(value)?,
+        "secondary_origin" => leaving(value)?,
+        "accumulation" => sum(value)?,
+        other => bail!("unknown primitive '{other}'"),
+    })
+}
+
+fn radius(value: f64) -> Result<f32> {
+    ensure!(value > 0.0, "the radius {value} is not above 0");
+    number(value)
+}
+
+fn direction(value: [f64; 3]) -> Result<Vec3> {
+    let vector = vector(value)?;
+    ensure!(vector != Vec3::ZERO, "a normal or direction is zero");
+    Ok(vector)
+}
+
+fn heightfield(value: Value) -> Result<Shape> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Raw {
+        k: f64,
+        a: f64,
+        fx: f64,
+        fz: f64,
+        b: f64,
+        gx: f64,
+        gz: f64,
+        lipschitz: f64,
+    }
+    let raw: Raw = serde_json::from_value(value)?;
+    ensure!(raw.lipschitz >= 0.0, "the Lipschitz constant {} is below 0", raw.lipschitz);
+    Ok(Shape::Heightfield(Heightfield {
+        k: number(raw.k)?,
+        a: number(raw.a)?,
+        f: [number(raw.fx)?, number(raw.fz)?],
+        b: number(raw.b)?,
+        g: [number(raw.gx)?, number(raw.gz)?],
+        lipschitz: number(raw.lipschitz)?,
+    }))
+}
+
+fn leaving(value: Value) -> Result<Shape> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Raw {
+        kind: String,
+        center: [f64; 3],
+        radius: f64,
+        secondary_dir: [f64; 3],
+        point: Option<[f64; 3]>,
+        normal: Option<[f64; 3]>,
+        occluder_y: Option<f64>,
+    }
+    let raw: Raw = serde_json::from_value(value)?;
+    let gap = match (raw.kind.as_str(), raw.point, raw.normal, raw.occluder_y) {
+        ("self", None, None, None) => None,
+        ("gap", Some(point), Some(normal), Some(y)) => Some(Gap {
+            point: vector(point)?,
+            normal: self::direction(normal)?,
+            occluder_y: number(y)?,
+        }),
+        ("gap", ..) => bail!("a gap has point, normal and occluder_y"),
+        ("self", ..) => bail!("only a gap has point, normal or occluder_y"),
+        (other, ..) => bail!("unknown kind '{other}'"),
+    };
+    Ok(Shape::Leaving(Leaving {
+        center: vector(raw.center)?,
+        radius: radius(raw.radius)?,
+        direction: self::direction(raw.secondary_dir)?,
+        gap,
+    }))
+}
+
+fn sum(value: Value) -> Result<Shape> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Raw {
+        pattern: String,
+        value: f64,
+        n: u32,
+        spike: Option<f64>,
+        every: Option<u32>,
+        head: Option<f64>,
+    }
+    let raw: Raw = serde_json::from_value(value)?;
+    ensure!((1..=LONGEST_SUM).contains(&raw.n), "n is {}, not 1 to {LONGEST_SUM}", raw.n);
+    let pattern = match (raw.pattern.as_str(), raw.spike, raw.every, raw.head) {
+        ("constant", None, None, None) => Pattern::Constant,
+        ("firefly", Some(spike), Some(every @ 1..=LONGEST_SUM), None) => {
+            Pattern::Firefly { spike: number(spike)?, every }
+        }
+        ("head", None, None, Some(head)) => Pattern::Head(number(head)?),
+        ("constant" | "firefly" | "head", ..) => {
+            bail!("the pattern '{}' takes other fields", raw.pattern)
+        }
+        (other, ..) => bail!("unknown pattern '{other}'"),
+    };
+    Ok(Shape::Sum(Sum { value: number(raw.value)?, n: raw.n, pattern }))
+}
+
+fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
+    let t = raw.t.as_deref().map(decimal).transpose()?;
+    let secondary_t = raw.secondary_t.as_deref().map(decimal).transpose()?;
+    let mean = raw.mean.as_deref().map(decimal).transpose()?;
+    let normal = raw
+        .normal
+        .as_ref()
+        .map(|[x, y, z]| -> Result<_> { Ok(DVec3::new(decimal(x)?, decimal(y)?, decimal(z)?)) });
+    let normal = normal.transpose()?;
+    let faces = raw.faces.as_ref().map(|faces| faces.iter().map(|f| face(f)).collect());
+    let faces: Vec<DVec3> = faces.transpose()?.unwrap_or_default();
+    let foreign = match primitive {
+        Primitive::Accumulation => {
+            raw.hit.is_some() || t.is_some() || raw.secondary_hit.is_some() || secondary_t.is_some()
+        }
+        Primitive::SecondaryOrigin => mean.is_some(),
+        _ => mean.is_some() || raw.secondary_hit.is_some() || secondary_t.is_some(),
+    };
+    ensure!(!foreign, "a {} expects none of these", primitive.name());
+    Ok(match primitive {
+        Primitive::Accumulation => Expected {
+            hit: Hit::Yes,
+            t: Some(mean.context("no mean is expected")?),
+            normal: None,
+            faces,
+            surface: None,
+        },
+        Primitive::SecondaryOrigin => Expected {
+            hit: raw.secondary_hit.context("no secondary_hit is expected")?,
+            t: secondary_t,
+            normal: None,
+            faces,
+            surface: t,
+        },
+        _ => {
+            let hit = raw.hit.context("neither hit nor miss is expected")?;
+            ensure!((hit == Hit::Yes) == t.is_some(), "a t is expected where there is a hit");
+            Expected { hit, t, normal, faces, surface: None }
+        }
+    })
+}
+
+fn face(name: &str) -> Result<DVec3> {
+    let axis = |axis: &str| Some(DVec3::AXES[["x", "y", "z"].iter().position(|a| *a == axis)?]);
+    let found = match name.split_at_checked(1) {
+        Some(("+", rest)) => axis(rest),
+        Some(("-", rest)) => axis(rest).map(|axis| -axis),
+        _ => None,
+    };
+    found.with_context(|| format!("unknown face '{name}'"))
+}

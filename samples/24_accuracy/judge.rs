@@ -1,0 +1,146 @@
+//! Is an answer right? The device's f32 against what is known exactly.
+
+use common::reference::ulp::ulp_error;
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::probe::{Answer, Ray, Way};
+use crate::shape::{Leaving, Shape};
+
+/// Whether there is a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hit {
+    Yes,
+    No,
+    /// Denormal numbers decide, which a device may flush.
+    Either,
+}
+
+/// What is known exactly, here rounded to f64.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    pub hit: Hit,
+    /// Of the hit; the mean of a sum.
+    pub t: Option<f64>,
+    pub normal: Option<DVec3>,
+    /// Any of these normals will do: at edges and corners of a box.
+    pub faces: Vec<DVec3>,
+    /// Of a ray that leaves a sphere: t of the point that it leaves from.
+    pub surface: Option<f64>,
+}
+
+/// How far off a top rung may be; what is missing is not checked.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tolerance {
+    pub t_ulp: Option<f64>,
+    pub t_abs: Option<f64>,
+    pub normal_abs: Option<f64>,
+    pub offset_max: Option<f64>,
+    pub secondary_t_abs: Option<f64>,
+    pub mean_rel: Option<f64>,
+}
+
+impl Tolerance {
+    pub fn all(&self) -> [Option<f64>; 6] {
+        let Self { t_ulp, t_abs, normal_abs, offset_max, secondary_t_abs, mean_rel } = *self;
+        [t_ulp, t_abs, normal_abs, offset_max, secondary_t_abs, mean_rel]
+    }
+}
+
+/// What became of a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    Right,
+    /// Hit or miss is right, a number is farther off than the tolerance.
+    Inexact,
+    FalseHit,
+    FalseMiss,
+    /// The device's box test kept the ray from the shape.
+    NeverOffered,
+    /// Something is infinite or not a number.
+    NotFinite,
+}
+
+/// A verdict and the numbers behind it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Judgement {
+    pub verdict: Verdict,
+    pub hit: bool,
+    pub t: Option<f32>,
+    /// Error of t in units in the last place.
+    pub ulp: Option<f64>,
+    /// What is farther off than it may be.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub why: String,
+}
+
+/// Judges an answer to a ray.
+pub fn judge(
+    shape: &Shape,
+    ray: &Ray,
+    expected: &Expected,
+    tolerance: &Tolerance,
+    way: Way,
+    answer: &Answer,
+) -> Judgement {
+    let is_sum = matches!(shape, Shape::Sum(_));
+    let hit = answer.hit != 0 || is_sum;
+    let t = hit.then_some(answer.t);
+    let ulp = t.zip(expected.t).map(|(t, exact)| ulp_error(t, exact));
+    let judged = |verdict, why: String| Judgement { verdict, hit, t, ulp, why };
+    if hit && !(answer.t.is_finite() && answer.normal.is_finite() && answer.point.is_finite()) {
+        return judged(Verdict::NotFinite, format!("t {}, normal {}", answer.t, answer.normal));
+    }
+    match (expected.hit, hit) {
+        (Hit::Either, _) => return judged(Verdict::Right, String::new()),
+        (Hit::Yes, false) if way == Way::Traced && answer.offered == 0 => {
+            return judged(Verdict::NeverOffered, String::new());
+        }
+        (Hit::Yes, false) => return judged(Verdict::FalseMiss, String::new()),
+        (Hit::No, true) => return judged(Verdict::FalseHit, String::new()),
+        _ => {}
+    }
+    let mut why = Vec::new();
+    let mut check = |what: &str, error: Option<f64>, bar: Option<f64>| {
+        if let Some((error, bar)) =
+            error.zip(bar).filter(|(error, bar)| error > bar || error.is_nan())
+        {
+            why.push(format!("{what} is off by {error:.3e}, allowed {bar:.3e}"));
+        }
+    };
+    if hit {
+        let off = t.zip(expected.t).map(|(t, exact)| (f64::from(t) - exact).abs());
+        check("t in ULP", ulp, tolerance.t_ulp);
+        check("t", off, tolerance.t_abs);
+        check("t of the second ray", off, tolerance.secondary_t_abs);
+        let relative = off.zip(expected.t).map(|(off, exact)| off / exact.abs());
+        check("the mean", relative, tolerance.mean_rel);
+        let normal = expected.normal.map(|normal| largest(answer.normal, normal));
+        check("the normal", normal, tolerance.normal_abs);
+        let faces = expected.faces.iter().map(|face| largest(answer.normal, *face));
+        let face = faces.min_by(f64::total_cmp);
+        check("the face", face, (face.is_some()).then_some(0.0));
+    }
+    if let Shape::Leaving(leaving) = shape {
+        let from = departure(leaving, ray, expected);
+        let offset = (answer.point.as_dvec3() - from).length();
+        check("the start", Some(offset), tolerance.offset_max);
+    }
+    let verdict = if why.is_empty() { Verdict::Right } else { Verdict::Inexact };
+    judged(verdict, why.join("; "))
+}
+
+/// The exact point that a ray leaves, rounded to f64.
+fn departure(leaving: &Leaving, ray: &Ray, expected: &Expected) -> DVec3 {
+    match leaving.gap {
+        Some(gap) => gap.point.as_dvec3(),
+        None => ray.exact().at(expected.surface.unwrap_or(f64::NAN)),
+    }
+}
+
+fn largest(a: Vec3, b: DVec3) -> f64 {
+    (a.as_dvec3() - b).abs().max_element()
+}

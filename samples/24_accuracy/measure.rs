@@ -1,0 +1,271 @@
+//! What accuracy costs: every rung on seeded random families, errors and time in one run.
+
+use std::collections::BTreeSet;
+use std::time::SystemTime;
+
+use anyhow::Result;
+use common::app::Progress;
+use common::app::compare::{self, Ratio};
+use common::gpu::Gpu;
+use common::reference::ulp::ulp_error;
+use serde::Serialize;
+
+use crate::families::Family;
+use crate::geometry::{self, Form};
+use crate::judge::Hit;
+use crate::ladder::{Code, Primitive, Rung};
+use crate::probe::{Answer, Batch, Instrument, Probe, Way};
+
+/// All that a run measured.
+#[derive(Serialize)]
+pub struct Measurement {
+    pub device: String,
+    pub driver: String,
+    /// The day, as 2026-11-21.
+    pub date: String,
+    /// Whether `fma()` rounds once here.
+    pub fused: bool,
+    /// Rays of each family.
+    pub rays: usize,
+    /// Rounds of each timing; 0 for errors alone.
+    pub rounds: u32,
+    pub rungs: Vec<Measured>,
+    /// The sphere beside its meshes, if spheres were asked for.
+    pub forms: Vec<Form>,
+    /// Shader stages that took part, by path below `shaders/`.
+    pub stages: BTreeSet<String>,
+    pub validation_messages: Vec<String>,
+}
+
+/// One rung.
+#[derive(Serialize)]
+pub struct Measured {
+    pub primitive: &'static str,
+    pub rung: &'static str,
+    pub name: &'static str,
+    /// Why the device does not have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unavailable: Option<String>,
+    pub errors: Vec<Errors>,
+    /// Of the primitive's first family, direct.
+    pub time: Option<Time>,
+    /// Of every family, where a rung takes as many steps as a ray is hard.
+    pub marches: Vec<March>,
+}
+
+/// How wrong a rung is on a family.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Errors {
+    pub family: &'static str,
+    pub way: &'static str,
+    pub rays: usize,
+    /// Error of t in ULP, where both see a hit: median, 99 of 100, largest.
+    pub p50: f64,
+    pub p99: f64,
+    pub max: f64,
+    pub false_hits: usize,
+    pub false_misses: usize,
+    /// Hits that the device's box test kept from the shader; no false misses.
+    pub never_offered: usize,
+    pub not_finite: usize,
+}
+
+/// What a rung costs.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Time {
+    /// Millions of intersections a second.
+    pub millions_a_second: f64,
+    /// Time over the cheapest rung's, of the same round.
+    pub ratio: Ratio,
+    /// The cheapest rung against itself: no smaller difference can be seen.
+    pub noise: Ratio,
+}
+
+/// What a march costs on a family, over the rung that is cheapest there.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct March {
+    pub family: &'static str,
+    pub ratio: Ratio,
+}
+
+// ANCHOR: timed
+/// A dispatch shorter than this, in milliseconds, is repeated within the shader until it is as long.
+const LONG_ENOUGH: f64 = 2.0;
+/// The most repetitions of a query by one invocation.
+const MOST_REPEATS: u32 = 256;
+// ANCHOR_END: timed
+
+/// Measures every rung of these primitives (of all if there are none) on `rays` rays a family, and times
+/// it over `rounds` rounds.
+///
+/// # Errors
+/// If the device fails.
+pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Result<Measurement> {
+    let probe = Probe::new(gpu)?;
+    let mut rungs = Vec::new();
+    let chosen: Vec<Primitive> = Primitive::ALL
+        .into_iter()
+        .filter(|primitive| only.is_empty() || only.contains(primitive))
+        .collect();
+    let steps: usize = chosen.iter().map(|p| p.ladder().len()).sum();
+    let progress = Progress::new(2 * steps as u64, "rungs");
+    for primitive in chosen {
+        let families = Family::of(primitive, rays);
+        let batches = families
+            .iter()
+            .map(|family| Batch::new(gpu, &family.shapes, &family.rays, family.is_traced));
+        let batches = batches.collect::<Result<Vec<_>>>()?;
+        let mut measured = Vec::new();
+        for rung in primitive.ladder() {
+            measured.push(errors(gpu, &probe, primitive, rung, &families, &batches)?);
+            progress.step();
+        }
+        if rounds > 0 {
+            let known = |family: &Family| family.name;
+            for (family, batch) in families.iter().map(known).zip(&batches) {
+                let times = times(&probe, primitive, batch, rounds, &measured)?;
+                for (row, time) in measured.iter_mut().zip(times) {
+                    row.time = row.time.or(time);
+                    let march = time.map(|time| March { family, ratio: time.ratio });
+                    row.marches.extend(march.filter(|_| primitive == Primitive::Heightfield));
+                }
+                if primitive != Primitive::Heightfield {
+                    break;
+                }
+            }
+            primitive.ladder().iter().for_each(|_| progress.step());
+        }
+        rungs.extend(measured);
+    }
+    let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);
+    let forms = if has_spheres { geometry::measure(gpu, rounds)? } else { Vec::new() };
+    Ok(Measurement {
+        device: gpu.name.clone(),
+        driver: gpu.driver.clone(),
+        date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
+        fused: probe.fused,
+        rays,
+        rounds,
+        rungs,
+        forms,
+        stages: gpu.statistics().stages.into_iter().collect(),
+        validation_messages: gpu.validation().all(),
+    })
+}
+
+fn errors(
+    gpu: &Gpu,
+    probe: &Probe,
+    primitive: Primitive,
+    rung: &Rung,
+    families: &[Family],
+    batches: &[Batch],
+) -> Result<Measured> {
+    let mut measured = Measured {
+        primitive: primitive.name(),
+        rung: rung.label,
+        name: rung.name,
+        unavailable: rung.unavailable(gpu),
+        errors: Vec::new(),
+        time: None,
+        marches: Vec::new(),
+    };
+    if measured.unavailable.is_some() {
+        return Ok(measured);
+    }
+    for way in [Way::Direct, Way::Traced] {
+        let has_way = match way {
+            Way::Direct => rung.code != Code::Device,
+            Way::Traced => families.iter().any(|family| family.is_traced),
+        };
+        if !has_way {
+            continue;
+        }
+        let instrument = probe.instrument(primitive, rung, way)?;
+        for (family, batch) in families.iter().zip(batches) {
+            if way == Way::Direct || family.is_traced {
+                let (answers, _) = probe.ask(&instrument, batch, 1)?;
+                measured.errors.push(tally(family, way, &answers));
+            }
+        }
+    }
+    Ok(measured)
+}
+
+/// Compares a family's answers with the truth.
+pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
+    let way_name = if way == Way::Direct { "direct" } else { "traced" };
+    let mut errors =
+        Errors { family: family.name, way: way_name, rays: answers.len(), ..Errors::default() };
+    let mut ulps = Vec::new();
+    for (answer, expected) in answers.iter().zip(&family.expected) {
+        let finite = answer.t.is_finite() && answer.normal.is_finite() && answer.point.is_finite();
+        errors.not_finite += usize::from(!finite);
+        // A sum has no hits, but always an answer.
+        let hit = answer.hit != 0 || family.shapes[0].primitive() == Primitive::Accumulation;
+        match (expected.hit == Hit::Yes, hit) {
+            (true, true) => {
+                let t = expected.t.expect("a hit has its t");
+                ulps.push(ulp_error(answer.t, t));
+            }
+            (true, false) if way == Way::Traced && answer.offered == 0 => errors.never_offered += 1,
+            (true, false) => errors.false_misses += 1,
+            (false, true) => errors.false_hits += 1,
+            (false, false) => {}
+        }
+    }
+    ulps.sort_by(f64::total_cmp);
+    let at = |part: f64| {
+        let last = ulps.len().saturating_sub(1) as f64;
+        ulps.get((part * last).round() as usize).copied().unwrap_or_default()
+    };
+    Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), ..errors }
+}
+
+// ANCHOR: times
+/// The time of every rung, one after the other in every round; `None` for what cannot be timed.
+fn times(
+    probe: &Probe,
+    primitive: Primitive,
+    batch: &Batch,
+    rounds: u32,
+    measured: &[Measured],
+) -> Result<Vec<Option<Time>>> {
+    let ladder = primitive.ladder().iter().zip(measured);
+    let timed = ladder.filter(|(rung, row)| row.unavailable.is_none() && rung.code != Code::Device);
+    let mut instruments: Vec<(&Rung, Instrument)> = Vec::new();
+    for (rung, _) in timed {
+        instruments.push((rung, probe.instrument(primitive, rung, Way::Direct)?));
+    }
+    // The first time goes to the driver's compiler. The others say how often to repeat, and which rung is
+    // the cheapest: the best of a few, as whatever disturbs a dispatch makes it slower.
+    let mut best = Vec::new();
+    for (_, instrument) in &instruments {
+        probe.time(instrument, batch, 1)?;
+        let mut least = f64::INFINITY;
+        for _ in 0..5 {
+            least = least.min(probe.time(instrument, batch, 1)?);
+        }
+        best.push(least);
+    }
+    let cheapest = (0..best.len()).min_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
+    let repeat = (LONG_ENOUGH / best[cheapest].max(1e-3)).ceil().clamp(1.0, MOST_REPEATS.into());
+    let repeat = repeat as u32;
+    instruments.swap(0, cheapest);
+    let labels: Vec<String> = instruments.iter().map(|(rung, _)| rung.label.to_owned()).collect();
+    let comparison = compare::compare("rung", &labels, rounds, |label| {
+        let found = instruments.iter().find(|(rung, _)| rung.label == label);
+        let (_, instrument) = found.expect("the labels are those of the instruments");
+        probe.time(instrument, batch, repeat)
+    })?;
+    // ANCHOR_END: times
+    let time = |row: &Measured| {
+        let value = comparison.values.iter().find(|value| value.value == row.rung)?;
+        Some(Time {
+            millions_a_second: f64::from(batch.count() * repeat) / value.milliseconds / 1e3,
+            ratio: value.ratio,
+            noise: comparison.noise,
+        })
+    };
+    Ok(measured.iter().map(time).collect())
+}

@@ -1,0 +1,248 @@
+//! Time against error, one panel a primitive: SVG for pages, PNG for talks.
+
+use anyhow::{Context, Result, anyhow};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use crate::ladder::Primitive;
+use crate::measure::{Errors, Measured, Measurement};
+
+const PANEL: (u32, u32) = (400, 360);
+const COLUMNS: usize = 4;
+/// Pixels above the panels.
+const HEAD: u32 = 92;
+// Colours that the colour-blind can tell apart (Okabe and Ito 2008).
+const FRONT: RGBColor = RGBColor(0, 114, 178);
+const BESIDE: RGBColor = RGBColor(230, 159, 0);
+const GRID: RGBColor = RGBColor(228, 228, 228);
+const TEXT: RGBColor = RGBColor(40, 40, 40);
+
+/// The panels of a measurement.
+pub struct Plot<'a> {
+    title: String,
+    panels: Vec<Panel<'a>>,
+}
+
+struct Panel<'a> {
+    primitive: &'static str,
+    points: Vec<Point<'a>>,
+}
+
+/// One rung.
+struct Point<'a> {
+    row: &'a Measured,
+    /// Time over the cheapest rung's.
+    time: f64,
+    /// On the home family: 99 of 100 rays are at least as good.
+    home: f64,
+    /// The same on the family where the rung is worst.
+    worst: f64,
+    is_on_front: bool,
+}
+
+/// More than one ray in a hundred is a false hit or a false miss: no error is as large.
+const WRONG: f64 = 1e9;
+const LEAST: f64 = 0.2;
+
+/// 99 of 100 rays are at least as good. A false hit or miss is as bad as can be.
+fn p99(errors: &Errors) -> f64 {
+    if 100 * errors.wrong() > errors.rays { WRONG } else { errors.p99.clamp(LEAST, WRONG / 3.0) }
+}
+
+impl<'a> Plot<'a> {
+    /// `None` without times.
+    pub fn new(measurement: &'a Measurement) -> Option<Self> {
+        let mut panels: Vec<Panel> = Vec::new();
+        for row in &measurement.rungs {
+            let Some(time) = row.time else { continue };
+            // A ray that leaves a surface has no error but hit or miss: that is a table, not a plot.
+            if row.primitive == Primitive::SecondaryOrigin.name() {
+                continue;
+            }
+            let mut errors = row.errors.iter().filter(|errors| errors.way == "direct").map(p99);
+            let home = errors.next().unwrap_or(LEAST);
+            let worst = errors.fold(home, f64::max);
+            let point = Point { row, time: time.ratio.median, home, worst, is_on_front: false };
+            match panels.last_mut().filter(|panel| panel.primitive == row.primitive) {
+                Some(panel) => panel.points.push(point),
+                None => panels.push(Panel { primitive: row.primitive, points: vec![point] }),
+            }
+        }
+        for panel in &mut panels {
+            panel.find_front();
+        }
+        let title = format!(
+            "What accuracy costs · {} · {} · {}",
+            measurement.device, measurement.driver, measurement.date
+        );
+        (!panels.is_empty()).then_some(Self { title, panels })
+    }
+
+    /// In pixels, `scale` to each unit of the drawing.
+    fn size(&self, scale: u32) -> (u32, u32) {
+        let rows = self.panels.len().div_ceil(COLUMNS) as u32;
+        (PANEL.0 * COLUMNS as u32 * scale, (PANEL.1 * rows + HEAD) * scale)
+    }
+
+    /// The plot as SVG.
+    ///
+    /// # Errors
+    /// If it cannot be drawn.
+    pub fn svg(&self) -> Result<String> {
+        let mut text = String::new();
+        self.draw(&SVGBackend::with_string(&mut text, self.size(1)).into_drawing_area(), 1)?;
+        Ok(text)
+    }
+
+    /// The plot as PNG, twice as large.
+    ///
+    /// # Errors
+    /// If it cannot be drawn or encoded.
+    pub fn png(&self) -> Result<Vec<u8>> {
+        let scale = 2;
+        let (width, height) = self.size(scale);
+        let mut pixels = vec![0; 3 * width as usize * height as usize];
+        let canvas = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
+        self.draw(&canvas, scale)?;
+        drop(canvas);
+        let image =
+            image::RgbImage::from_raw(width, height, pixels).context("the size is right")?;
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut bytes, image::ImageFormat::Png)?;
+        Ok(bytes.into_inner())
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<()> {
+        register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+            .map_err(|_| anyhow!("the plot's font cannot be read"))?;
+        let font = |size: u32| ("sans-serif", size * scale).into_font().color(&TEXT);
+        let at = |y: u32| (16 * scale as i32, (y * scale) as i32);
+        let drawn = || -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+            area.fill(&WHITE)?;
+            let (head, body) = area.split_vertically(HEAD * scale);
+            head.draw_text(&self.title, &font(20), at(10))?;
+            head.draw_text(
+                "Right is slower, up is worse. A dot: 99 of 100 rays of the home family are at least as good. \
+                 The line ends where they are on the hardest family.",
+                &font(15),
+                at(38),
+            )?;
+            head.draw_text(
+                "Blue: no other rung is both faster and better at home (Pareto front). At the top, more than \
+                 one ray in a hundred is a false hit or a false miss.",
+                &font(15),
+                at(60),
+            )?;
+            let rows = self.panels.len().div_ceil(COLUMNS);
+            for (panel, area) in self.panels.iter().zip(body.split_evenly((rows, COLUMNS))) {
+                panel.draw(&area, scale)?;
+            }
+            area.present()
+        };
+        drawn().map_err(|error| anyhow!("cannot draw the plot: {error}"))
+    }
+}
+
+/// Where the time axis has its labels.
+const TICKS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 50.0];
+
+impl Panel<'_> {
+    fn find_front(&mut self) {
+        for i in 0..self.points.len() {
+            let (time, home) = (self.points[i].time, self.points[i].home);
+            self.points[i].is_on_front = self.points.iter().all(|other| {
+                let better = other.home < home && other.time <= time
+                    || other.home <= home && other.time < time;
+                !better
+            });
+        }
+    }
+
+    fn draw<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        scale: u32,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        let font = |size: u32| ("sans-serif", size * scale).into_font().color(&TEXT);
+        let slowest = self.points.iter().map(|point| point.time).fold(2.0, f64::max);
+        let times = (0.85..slowest * 1.4).log_scale().with_key_points(TICKS.to_vec());
+        let ticks = vec![1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, WRONG];
+        let errors = (0.12..WRONG * 3.0).log_scale().with_key_points(ticks);
+        let mut chart = ChartBuilder::on(area)
+            .margin(12 * scale)
+            .caption(self.primitive, font(20))
+            .x_label_area_size(40 * scale)
+            .y_label_area_size(66 * scale)
+            .build_cartesian_2d(times, errors)?;
+        let label = |y: &f64| match *y {
+            y if y >= WRONG => "wrong".to_owned(),
+            y if y >= 1000.0 => format!("1e{:.0}", y.log10()),
+            y => format!("{y}"),
+        };
+        chart
+            .configure_mesh()
+            .bold_line_style(GRID)
+            .light_line_style(TRANSPARENT)
+            .axis_style(GRID)
+            .label_style(font(14))
+            .axis_desc_style(font(14))
+            .x_desc("time over the cheapest")
+            .y_desc("error of t, ULP")
+            .y_label_formatter(&label)
+            .x_label_formatter(&|x| format!("{x}"))
+            .draw()?;
+        let mut front: Vec<_> = self.points.iter().filter(|point| point.is_on_front).collect();
+        front.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let steps = front.iter().map(|point| (point.time, point.home));
+        chart.draw_series(LineSeries::new(steps, FRONT.mix(0.4).stroke_width(2 * scale)))?;
+        for point in &self.points {
+            let color = if point.is_on_front { FRONT } else { BESIDE };
+            let Point { time, home, worst, .. } = *point;
+            chart.draw_series(LineSeries::new(
+                [(time, home), (time, worst)],
+                color.mix(0.55).stroke_width(2 * scale),
+            ))?;
+            chart.draw_series([Circle::new((time, home), 5 * scale, color.filled())])?;
+            if worst > home {
+                let end = EmptyElement::at((time, worst))
+                    + PathElement::new(
+                        vec![(-4 * scale as i32, 0), (4 * scale as i32, 0)],
+                        color.mix(0.8).stroke_width(2 * scale),
+                    );
+                chart.draw_series([end])?;
+            }
+        }
+        for (point, (x, y)) in self.points.iter().zip(self.label_offsets(slowest)) {
+            let (x, y) = (x * scale as i32, y * scale as i32);
+            let label = EmptyElement::at((point.time, point.home))
+                + PathElement::new(vec![(0, 0), (x, y)], TEXT.mix(0.25).stroke_width(scale))
+                + Text::new(point.row.rung, (x + 2, y - 12 * scale as i32), font(16));
+            chart.draw_series([label])?;
+        }
+        Ok(())
+    }
+
+    /// Where each label goes beside its dot: right and a little up, or farther where another label is.
+    fn label_offsets(&self, slowest: f64) -> Vec<(i32, i32)> {
+        let (width, height) = (f64::from(PANEL.0 - 90), f64::from(PANEL.1 - 100));
+        let across = width / (slowest * 1.4 / 0.85).ln();
+        let up = height / (WRONG * 3.0 / 0.12).ln();
+        let mut taken: Vec<(f64, f64)> = Vec::new();
+        let mut offsets = Vec::new();
+        for point in &self.points {
+            let (x, y) = (across * point.time.ln(), -up * point.home.ln());
+            let free = |(dx, dy): (i32, i32)| {
+                taken.iter().all(|&(a, b)| {
+                    (a - x - f64::from(dx)).abs() >= 30.0 || (b - y - f64::from(dy)).abs() >= 16.0
+                })
+            };
+            let tries =
+                (0..24).flat_map(|step| [(10, -6 - 4 * step), (10 + 4 * step, -6 - 2 * step)]);
+            let place = tries.clone().find(|&place| free(place)).unwrap_or((10, -6));
+            taken.push((x + f64::from(place.0), y + f64::from(place.1)));
+            offsets.push(place);
+        }
+        offsets
+    }
+}

@@ -1,0 +1,55 @@
+// The question of the laboratory, for the one primitive that PRIMITIVE names: the host defines it, so
+// that no shader is compiled with nine. RUNG is a specialization constant. After query.glsl.
+
+#if PRIMITIVE == PRIMITIVE_SPHERE
+#include "ask_sphere.glsl"
+#define ASK ask_sphere
+#elif PRIMITIVE == PRIMITIVE_BOX
+#include "ask_box.glsl"
+#define ASK ask_box
+#elif PRIMITIVE == PRIMITIVE_PLANE
+#include "ask_plane.glsl"
+#define ASK ask_plane
+#elif PRIMITIVE == PRIMITIVE_TRIANGLE
+#include "ask_triangle.glsl"
+#define ASK ask_triangle
+#elif PRIMITIVE == PRIMITIVE_CAPSULE
+#include "ask_capsule.glsl"
+#define ASK ask_capsule
+#elif PRIMITIVE == PRIMITIVE_INSTANCE
+#include "ask_instance.glsl"
+#define ASK ask_instance
+#elif PRIMITIVE == PRIMITIVE_HEIGHTFIELD
+#include "ask_heightfield.glsl"
+#define ASK ask_heightfield
+#elif PRIMITIVE == PRIMITIVE_SECONDARY_ORIGIN
+#include "ask_secondary_origin.glsl"
+#define ASK ask_secondary_origin
+#elif PRIMITIVE == PRIMITIVE_ACCUMULATION
+#include "ask_accumulation.glsl"
+#define ASK ask_accumulation
+#endif
+
+#ifdef FLOAT64
+#if PRIMITIVE == PRIMITIVE_SPHERE
+#include "ask_sphere_f64.glsl"
+#define ASK_FLOAT64 ask_sphere_f64
+#elif PRIMITIVE == PRIMITIVE_BOX
+#include "ask_box_f64.glsl"
+#define ASK_FLOAT64 ask_box_f64
+#elif PRIMITIVE == PRIMITIVE_PLANE
+#include "ask_plane_f64.glsl"
+#define ASK_FLOAT64 ask_plane_f64
+#elif PRIMITIVE == PRIMITIVE_CAPSULE
+#include "ask_capsule_f64.glsl"
+#define ASK_FLOAT64 ask_capsule_f64
+#endif
+#endif
+
+Answer ask(Query query, Numbers numbers) {
+#ifdef ASK_FLOAT64
+    return ASK_FLOAT64(query, numbers);
+#else
+    return ASK(RUNG, query, numbers);
+#endif
+}

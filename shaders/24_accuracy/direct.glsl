@@ -1,0 +1,21 @@
+// Direct: the raygen shader calls the intersection itself, and no acceleration structure is asked.
+#include "query.glsl"
+#include "ask.glsl"
+
+// ANCHOR: main
+void main() {
+    uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
+    if (i >= push.count) {
+        return;
+    }
+    Answer answer = ask(push.queries.at[i], push.numbers);
+    for (uint k = 1; k < push.repeat; k++) {
+        Answer more = ask(push.queries.at[(i + k) % push.count], push.numbers);
+        // The sum is of no use but that nothing can be left out.
+        answer.t += more.t;
+        answer.hit += more.hit;
+    }
+    answer.offered = 1;
+    push.answers.at[i] = answer;
+}
+// ANCHOR_END: main

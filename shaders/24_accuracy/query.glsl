@@ -1,0 +1,53 @@
+// What the laboratory asks, what it is told, and which way of answering is compiled in.
+
+struct Query {
+    vec3 origin;
+    float tmin;
+    vec3 direction;
+    float tmax;
+    uint first;   // of the shape's numbers
+    uint count;   // how many there are
+    uint shape;   // which shape of the acceleration structure is asked
+};
+
+struct Answer {
+    uint offered;   // whether the device called the intersection at all
+    uint hit;
+    float t;
+    vec3 normal;
+    vec3 point;     // of a secondary origin: where the next ray starts
+    uint steps;     // of a heightfield: how often its height was asked
+};
+
+layout(buffer_reference, scalar) readonly buffer Numbers { float at[]; };
+layout(buffer_reference, scalar) readonly buffer Queries { Query at[]; };
+layout(buffer_reference, scalar) buffer Answers { Answer at[]; };
+
+#ifndef VIEW
+layout(push_constant, scalar) uniform Push {
+    Queries queries;
+    Answers answers;
+    Numbers numbers;
+    uint count;
+    uint repeat;   // how many queries an invocation answers; 1 unless time is measured
+} push;
+#endif
+
+// What is asked of. The host defines PRIMITIVE; by itself, a shader of this folder is for spheres.
+#define PRIMITIVE_SPHERE 0
+#define PRIMITIVE_BOX 1
+#define PRIMITIVE_PLANE 2
+#define PRIMITIVE_TRIANGLE 3
+#define PRIMITIVE_CAPSULE 4
+#define PRIMITIVE_INSTANCE 5
+#define PRIMITIVE_HEIGHTFIELD 6
+#define PRIMITIVE_SECONDARY_ORIGIN 7
+#define PRIMITIVE_ACCUMULATION 8
+#ifndef PRIMITIVE
+#define PRIMITIVE PRIMITIVE_SPHERE
+#endif
+
+layout(constant_id = 0) const uint RUNG = 0;
+// Whether fma() rounds once on this device: the host has probed it.
+layout(constant_id = 1) const uint FMA_ROUNDS_ONCE = 0;
+#define FUSED FMA_ROUNDS_ONCE

@@ -1,0 +1,167 @@
+//! Random families, held to what each rung promises on its home ground.
+
+use serde_json::Value;
+
+use crate::laboratory;
+
+/// What was measured of one rung on one family, one way.
+struct Row(Value);
+
+impl Row {
+    fn number(&self, key: &str) -> f64 {
+        self.0[key].as_f64().unwrap()
+    }
+
+    fn wrong(&self) -> f64 {
+        self.number("false_hits") + self.number("false_misses")
+    }
+}
+
+fn measure(arguments: &[&str]) -> Vec<Value> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let place = folder.path().to_str().expect("a temporary folder has a plain name");
+    let output = laboratory(&[&["--rounds", "0", "--measure", place], arguments].concat());
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    let text = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
+    assert!(folder.path().join("accuracy.md").is_file());
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["validation_messages"], serde_json::json!([]));
+    report["rungs"].as_array().unwrap().clone()
+}
+
+/// The row of a rung on a family; `None` if the device does not have the rung.
+fn row(rungs: &[Value], rung: &str, family: &str, way: &str) -> Option<Row> {
+    let found = rungs.iter().find(|row| row["rung"] == rung).unwrap_or_else(|| panic!("no {rung}"));
+    if found.get("unavailable").is_some() {
+        return None;
+    }
+    let mut errors = found["errors"].as_array().unwrap().iter();
+    let row = errors.find(|row| row["family"] == family && row["way"] == way);
+    Some(Row(row.unwrap_or_else(|| panic!("no {rung} on {family}, {way}")).clone()))
+}
+
+/// 99 of 100 rays of a family are at most so many ULP off, and none is a false hit or miss, except past
+/// [`EDGES`].
+const P99: [(&str, &str, f64); 26] = [
+    ("S0", "sphere from 10 radii", 70.0),
+    ("S0h", "planet of 1e6 from 1 above", 10.0),
+    ("S1", "sphere from 10 radii", 4.0),
+    ("S1", "sphere from 1e3 radii", 4.0),
+    ("S2", "sphere from 10 radii", 4.0),
+    ("S2", "sphere from 1e3 radii", 4.0),
+    ("S3", "sphere from 10 radii", 4.0),
+    ("S3", "sphere from 1e3 radii", 4.0),
+    ("B0", "box from 10", 4.0),
+    ("B1", "box from 10", 4.0),
+    ("B2", "box from 10", 4.0),
+    ("B2", "box along a wall", 4.0),
+    ("B2", "box from 1e4", 4.0),
+    ("P1", "plane from 1 above", 4.0),
+    ("P1", "plane at 1e6", 4.0),
+    ("P2", "plane from 1 above", 4.0),
+    ("P2", "plane at 1e6", 4.0),
+    ("P2", "plane grazed at 1e-3", 4.0),
+    ("P2", "plane grazed at 1e-6", 4.0),
+    ("T2", "triangles at edges", 8.0),
+    ("T2", "triangles at corners", 8.0),
+    ("T2", "triangles far away", 8.0),
+    ("C1", "capsule from 10", 4.0),
+    ("C1", "capsule from 1e4", 4.0),
+    ("I1", "instance at 1e6", 4.0),
+    ("H3", "hills at 60°", 8.0),
+];
+
+/// Of ten thousand rays at a box from 1e4 away, so many may pass an edge within half an ULP of t, where the
+/// slabs' distances round to a tie.
+const EDGES: (&str, f64) = ("box from 1e4", 2.0);
+
+/// The rungs whose every answer is right to one ULP, whatever the family.
+const TOPS: [&str; 10] = ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2"];
+
+#[test]
+fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
+    let rungs = measure(&["--rays", "10000"]);
+    for (rung, family, bar) in P99 {
+        let Some(row) = row(&rungs, rung, family, "direct") else { continue };
+        assert!(row.number("p99") <= bar, "{rung} on {family}: p99 {}", row.number("p99"));
+        let most = if family == EDGES.0 { EDGES.1 } else { 0.0 };
+        assert!(row.wrong() <= most, "{rung} on {family}: {} wrong", row.wrong());
+    }
+    for rung in &rungs {
+        let Some(errors) = rung["errors"].as_array() else { continue };
+        let label = rung["rung"].as_str().unwrap();
+        for row in errors.iter().map(|row| Row(row.clone())) {
+            let place = format!("{label} on {}, {}", row.0["family"], row.0["way"]);
+            assert_eq!(row.number("not_finite"), 0.0, "{place}");
+            if TOPS.contains(&label) {
+                assert!(row.number("max") <= 1.0, "{place}: {}", row.number("max"));
+                assert_eq!(row.wrong() + row.number("never_offered"), 0.0, "{place}");
+            }
+            if label == "H3" || label == "B1" && row.0["way"] == "direct" {
+                assert_eq!(row.number("false_misses"), 0.0, "{place}");
+            }
+        }
+    }
+    simple_rungs_fail_as_the_page_says(&rungs);
+}
+
+/// Where a rung is known to fail, it does: or the families are not what they are called.
+fn simple_rungs_fail_as_the_page_says(rungs: &[Value]) {
+    let share = |rung, family| {
+        let row = row(rungs, rung, family, "direct").expect("a plain rung is everywhere");
+        row.wrong() / row.number("rays")
+    };
+    assert!(share("S0", "sphere nearly grazed") > 0.2);
+    assert!(share("S0", "sphere of 1e-4 from 1e4") > 0.2);
+    assert!(share("B0", "box along a wall") > 0.4);
+    assert!(share("P1ε", "plane grazed at 1e-6") == 1.0);
+    assert!(share("C0", "capsule from 1e4") > 0.2);
+    let far_off = |rung, family, ulp: f64| {
+        let row = row(rungs, rung, family, "direct").expect("a plain rung is everywhere");
+        assert!(row.number("p50") > ulp, "{rung} on {family}: {}", row.number("p50"));
+    };
+    far_off("S2", "planet of 1e6 from 1 above", 1e4);
+    far_off("P0", "plane at 1e6", 1e4);
+    far_off("I0", "instance at 1e6", 1e3);
+    far_off("H0", "flat ground at 0.2°", 1e6);
+    // A leak is a hit on the far side.
+    let leaks = row(rungs, "T1", "triangles at edges", "direct").unwrap();
+    assert!(leaks.number("p99") > 1e5, "{}", leaks.number("p99"));
+    for family in ["triangles at edges", "triangles at corners", "triangles far away"] {
+        let device = row(rungs, "T0", family, "traced").unwrap();
+        let (p99, most, misses) = (device.number("p99"), device.number("max"), device.wrong());
+        println!(
+            "the device's own triangles, {family}: p99 {p99}, most {most} ULP, {misses} wrong"
+        );
+    }
+}
+
+#[test]
+fn a_million_bounces_neither_meet_their_sphere_nor_lose_an_occluder() {
+    let rungs = measure(&["--only", "secondary origin", "--rays", "170000"]);
+    let best = rungs.iter().find(|rung| rung["rung"] == "O5").unwrap();
+    let mut rays = 0.0;
+    for row in best["errors"].as_array().unwrap().iter().map(|row| Row(row.clone())) {
+        assert_eq!(row.wrong(), 0.0, "{}", row.0["family"]);
+        assert_eq!(row.number("not_finite"), 0.0, "{}", row.0["family"]);
+        rays += row.number("rays");
+    }
+    assert!(rays > 1.5e6, "{rays}");
+    let worst = |rung: &str| {
+        let rung = rungs.iter().find(|row| row["rung"] == rung).unwrap();
+        let errors = rung["errors"].as_array().unwrap().iter().map(|row| Row(row.clone()));
+        errors.map(|row| row.wrong() / row.number("rays")).fold(0.0, f64::max)
+    };
+    for rung in ["O0", "O1", "O2", "O3", "O4"] {
+        assert!(worst(rung) > 0.3, "{rung} hardly ever fails: {}", worst(rung));
+    }
+}
+
+#[test]
+fn a_second_run_finds_the_same_errors() {
+    let twice = [(); 2].map(|()| measure(&["--only", "sphere", "--only", "box", "--rays", "500"]));
+    let [first, second] = twice;
+    assert_eq!(first, second);
+    assert_eq!(first.len(), 12);
+}

@@ -1,0 +1,122 @@
+//! Files of cases: other ones work as well, wrong ones are refused in a line.
+
+use serde_json::{Value, json};
+
+use crate::{cases, laboratory, run};
+
+fn case(primitive: &str, shape: Value, expect: Value) -> Value {
+    let ray = json!({"origin": [0, 0, 5], "dir": [0, 0, -1], "tmin": 0, "tmax": 100});
+    json!({
+        "id": format!("my {primitive}"), "primitive": primitive, "family": "mine", "ray": ray,
+        "shape": shape, "expect": expect, "tol": {"t_ulp": 1}
+    })
+}
+
+fn sphere() -> Value {
+    let expect = json!({"hit": "yes", "t": "4.0", "normal": ["0", "0", "1"]});
+    case("sphere", json!({"center": [0, 0, 0], "radius": 1}), expect)
+}
+
+fn file(cases: &[Value]) -> Value {
+    json!({"schema": "rt-hard-cases/2", "cases": cases})
+}
+
+/// Writes a file of cases and calls `f` with its path.
+fn with_file<T>(text: &str, f: impl FnOnce(&str) -> T) -> T {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("mine.json");
+    std::fs::write(&path, text).expect("it can be written");
+    f(path.to_str().expect("a plain name"))
+}
+
+fn refused(text: &str) -> String {
+    let (code, line) =
+        with_file(text, |path| run::refusal(laboratory(&["--cases", path, "--report", "-"])));
+    assert_eq!(code, 1, "{line}");
+    line
+}
+
+#[test]
+fn another_file_of_the_schema_works() {
+    let box_expect = json!({"hit": "yes", "t": "4.0", "faces": ["+z"]});
+    let other = file(&[
+        sphere(),
+        case("box", json!({"lo": [-1, -1, -1], "hi": [1, 1, 1]}), box_expect),
+        case("plane", json!({"normal": [0, 0, 2], "d": 1}), json!({"hit": "yes", "t": "4"})),
+    ]);
+    let report = with_file(&other.to_string(), cases);
+    assert_eq!((&report["cases"], &report["skipped"]), (&3.into(), &0.into()));
+    let answers = report["answers"].as_array().unwrap();
+    assert!(answers.iter().all(|answer| answer["verdict"] == "right"), "{answers:?}");
+    // Seven ways for the sphere, five for the box, six for the plane, each direct and traced.
+    assert_eq!(answers.len(), 2 * (7 + 5 + 6));
+}
+
+#[test]
+fn a_wrong_answer_fails_and_is_named() {
+    let mut wrong = sphere();
+    wrong["expect"]["t"] = "4.00001".into();
+    let (code, line) = with_file(&file(&[wrong]).to_string(), |path| {
+        let folder = tempfile::tempdir().unwrap();
+        let report = folder.path().join("report.json");
+        let output = laboratory(&["--cases", path, "--report", report.to_str().unwrap()]);
+        assert!(report.is_file(), "what was found is written all the same");
+        run::refusal(output)
+    });
+    assert_eq!(code, 1);
+    assert!(line.contains("my sphere S4 direct: Inexact t in ULP is off by"), "{line}");
+}
+
+#[test]
+fn what_the_schema_does_not_know_is_refused() {
+    let edited = |edit: &dyn Fn(&mut Value)| {
+        let mut value = file(&[sphere()]);
+        edit(&mut value);
+        refused(&serde_json::to_string_pretty(&value).unwrap())
+    };
+    let sum = json!({"id": "sum", "primitive": "accumulation", "family": "mine", "shape": {
+        "pattern": "zigzag", "value": 1, "n": 3}, "expect": {"mean": "1"}, "tol": {}});
+    let checks: [(&str, String); 14] = [
+        ("the schema is 'rt-hard-cases/3'", edited(&|v| v["schema"] = "rt-hard-cases/3".into())),
+        ("there are no cases", edited(&|v| v["cases"] = json!([]))),
+        ("unknown primitive 'torus'", edited(&|v| v["cases"][0]["primitive"] = "torus".into())),
+        ("unknown field `colour`", edited(&|v| v["cases"][0]["shape"]["colour"] = 1.into())),
+        ("unknown field `t_percent`", edited(&|v| v["cases"][0]["tol"]["t_percent"] = 1.into())),
+        ("unknown variant `maybe`", edited(&|v| v["cases"][0]["expect"]["hit"] = "maybe".into())),
+        ("'four' is no decimal", edited(&|v| v["cases"][0]["expect"]["t"] = "four".into())),
+        ("a t is expected", edited(&|v| v["cases"][0]["expect"]["hit"] = "no".into())),
+        ("1e300 is no finite f32", edited(&|v| v["cases"][0]["ray"]["tmax"] = 1e300.into())),
+        ("direction is zero", edited(&|v| v["cases"][0]["ray"]["dir"] = json!([0, 0, 0]))),
+        ("0 <= tmin <= tmax", edited(&|v| v["cases"][0]["ray"]["tmin"] = (-1).into())),
+        (
+            "the radius -1 is not above 0",
+            edited(&|v| v["cases"][0]["shape"]["radius"] = (-1).into()),
+        ),
+        ("the id is taken", edited(&|v| v["cases"] = json!([sphere(), sphere()]))),
+        ("unknown pattern 'zigzag'", edited(&|v| v["cases"][0] = sum.clone())),
+    ];
+    for (expected, line) in checks {
+        assert!(line.contains(expected), "{line} should say {expected}");
+    }
+    let line = edited(&|v| v["cases"][0]["shape"]["radius"] = (-1).into());
+    assert!(line.contains("mine.json:") && line.contains("case 'my sphere'"), "{line}");
+    let line = refused("{\"schema\": \"rt-hard-cases/2\",\n\"cases\": [\n");
+    assert!(line.contains("mine.json:3"), "{line}");
+}
+
+#[test]
+fn odd_command_lines_are_refused() {
+    let refused = |arguments: &[&str]| run::refusal(laboratory(arguments));
+    let (code, line) = refused(&["--cases", "no such file.json"]);
+    assert!(code == 1 && line.contains("cannot read 'no such file.json'"), "{line}");
+    let (code, line) = refused(&["--cases", "a.json", "--measure", "b"]);
+    assert!(code == 2 && line.contains("cannot be used with"), "{line}");
+    let (code, line) = refused(&["--measure", "b", "--rays", "0"]);
+    assert!(code == 2 && line.contains("--rays"), "{line}");
+    let (code, line) = refused(&["--measure", "b", "--only", "torus"]);
+    assert!(code == 2 && line.contains("there is sphere, box, plane"), "{line}");
+    let (code, line) = refused(&["--cases", "a.json", "--set", "rung=stable"]);
+    assert!(code == 2 && line.contains("take no controls"), "{line}");
+    let (code, line) = refused(&["--cases", "a.json", "--out", "a.png"]);
+    assert!(code == 2 && line.contains("make no picture"), "{line}");
+}

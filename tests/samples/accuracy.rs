@@ -1,0 +1,93 @@
+//! 24_accuracy: the window's picture, and what it says of each rung. All else is in tests/numerics.
+
+use common::app::Picture;
+use serde_json::Value;
+
+use crate::run::{bits, command, golden, refused, render};
+
+const NAME: &str = "24_accuracy";
+const SIZE: &str = "96x60";
+
+fn look(sets: &[&str]) -> (Picture, Value) {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    let run = render(NAME, SIZE, &arguments);
+    (run.picture, run.report["chapter"][0].clone())
+}
+
+fn wrong(found: &Value) -> u64 {
+    ["false_hits", "false_misses", "not_finite"]
+        .map(|key| found["errors"][key].as_u64().unwrap())
+        .iter()
+        .sum()
+}
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| render(NAME, "240x150", &[]).picture);
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden.
+    golden(NAME, &first, 0.002);
+}
+
+#[test]
+fn the_simple_rung_fails_in_view_and_the_best_does_not() {
+    // The instance's simplest rung is off by much, but sees the right ellipsoid.
+    let views = [
+        ("sphere", "textbook", "two-float"),
+        ("box", "reciprocal", "two-float"),
+        ("plane", "POV form", "two-float"),
+        ("capsule", "textbook", "two-float"),
+        ("instance", "matrix", "two-float"),
+    ];
+    for (primitive, simple, best) in views {
+        let look = |rung: &str| {
+            let primitive = format!("primitive={primitive}");
+            look(&[&primitive, &format!("rung={rung}"), "distance=10000"]).1
+        };
+        let (simple, best) = (look(simple), look(best));
+        let worst = |found: &Value| found["errors"]["max"].as_f64().unwrap();
+        assert_eq!(wrong(&best), 0, "{best}");
+        assert!(worst(&best) <= 1.0, "{best}");
+        assert!(worst(&simple) > worst(&best), "{simple}");
+        assert!(simple["nanoseconds_a_ray"].as_f64().unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn rays_that_leave_a_sphere_meet_it_again_unless_they_start_beyond_its_error() {
+    let acne = |rung: &str| look(&["primitive=secondary origin", &format!("rung={rung}")]);
+    let (picture, found) = acne("nothing");
+    assert!(wrong(&found) > 100, "{found}");
+    let magenta = |picture: &Picture| {
+        picture.pixels.iter().filter(|[r, g, b, _]| *r > 0.8 && *g == 0.0 && *b > 0.7).count()
+    };
+    assert!(magenta(&picture) > 50);
+    let (picture, found) = acne("bound");
+    assert_eq!((wrong(&found), magenta(&picture)), (0, 0), "{found}");
+}
+
+#[test]
+fn the_map_of_errors_has_a_colour_for_each_kind() {
+    let far = ["distance=100000", "show=error"];
+    let (textbook, _) = look(&far);
+    let is = |pixel: &[f32; 4], color: [f32; 3]| {
+        pixel.iter().zip(color).all(|(a, b)| (a - b).abs() < 1e-6)
+    };
+    let count =
+        |picture: &Picture, color| picture.pixels.iter().filter(|pixel| is(pixel, color)).count();
+    let (false_hit, false_miss) = ([0.9, 0.0, 0.8], [0.0, 0.8, 0.9]);
+    assert!(count(&textbook, false_hit) > 100 && count(&textbook, false_miss) > 100);
+    let (best, _) = look(&[far[0], far[1], "rung=two-float"]);
+    assert_eq!((count(&best, false_hit), count(&best, false_miss)), (0, 0));
+    assert!(count(&best, [0.02; 3]) > 1000, "most pixels are right");
+}
+
+#[test]
+fn a_rung_of_another_ladder_is_refused() {
+    let (code, line) =
+        refused(NAME, &["--headless", "--set", "primitive=box", "--set", "rung=projection"]);
+    assert_eq!(code, 2);
+    assert!(line.contains("rung") && line.contains("reciprocal"), "{line}");
+    let output = command(NAME).args(["--headless", "--measure", "x", "--only", "torus"]).output();
+    assert_eq!(output.unwrap().status.code(), Some(2));
+}
