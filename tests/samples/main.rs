@@ -4,6 +4,7 @@ mod accuracy;
 mod any_hit;
 mod basic;
 mod foundation;
+mod heightfield;
 mod infinite_plane;
 mod instancing;
 mod intersection;

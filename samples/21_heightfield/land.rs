@@ -1,0 +1,114 @@
+//! The ground on the device: one box, beside the pieces that stand on it.
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, input_usage, transform};
+use glam::{Affine3A, Vec3};
+
+use super::ground::{Ground, Landscape};
+
+/// How much the ground may fall under a piece's foot.
+const STEEP: f64 = 0.6;
+
+/// The top level.
+pub struct Land {
+    /// Pieces and ground.
+    pub tlas: AccelerationStructure,
+    /// What was built.
+    pub landscape: Landscape,
+    /// Corners of the ground's box.
+    pub bounds: (Vec3, Vec3),
+    margin: f32,
+    _blas: AccelerationStructure,
+}
+
+impl Land {
+    // ANCHOR: build
+    /// The ground is one box, whatever its height function is. Its hit group is the second.
+    pub fn new(
+        gpu: &Gpu,
+        model: &Scene,
+        scene: &SceneOnGpu,
+        landscape: Landscape,
+        eye: Vec3,
+    ) -> Result<Self> {
+        let margin = margin(landscape, eye);
+        let bounds = landscape.bounds(margin);
+        let input = [[bounds.0 - margin, bounds.1 + margin]];
+        let input = Buffer::with_data(gpu, "ground's box", &input, input_usage())?;
+        let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
+        let options = BuildOptions { compact: true, ..BuildOptions::default() };
+        let blas = AccelerationStructure::bottom(gpu, "ground", &[geometry], options)?;
+
+        let mut instances = vec![instance(&Affine3A::IDENTITY, model.instances.len(), 1, &blas)];
+        let mut boxes = vec![bounds];
+        for (index, piece) in model.instances.iter().enumerate() {
+            if let Some(piece) = stand(landscape, piece, &model.model.meshes[piece.mesh]) {
+                instances.push(instance(&piece.transform, index, 0, &scene.blas[piece.mesh]));
+                boxes.push(model.instance_bounds(&piece));
+            }
+        }
+        // ANCHOR_END: build
+        let order = order::kd_median(&boxes).into_iter().map(|i| instances[i as usize]);
+        let order: Vec<_> =
+            if scene.options.ordering { order.collect() } else { instances.clone() };
+        let tlas = build_top(gpu, &order)?;
+        Ok(Self { tlas, landscape, bounds, margin, _blas: blas })
+    }
+
+    /// The ground that was built, in these colours.
+    pub fn ground(&self, colors: Ground) -> Ground {
+        let (low, high) = self.bounds;
+        // Rays that leave the ground begin in the box.
+        let error = self.landscape.error(low.abs().max(high.abs()).as_dvec3());
+        let error = (error as f32).next_up();
+        Ground { shape: self.landscape.shape(), low, high, error, ..colors }
+    }
+
+    /// Whether it is still the land of that landscape, seen from that eye.
+    pub fn is_of(&self, landscape: Landscape, eye: Vec3) -> bool {
+        self.landscape == landscape && self.margin == margin(landscape, eye)
+    }
+}
+
+/// A driver's box test rounds: chapter 08 derives 4 roundings of the farthest distance. In steps of
+/// powers of two, so that few steps of a camera change it.
+fn margin(landscape: Landscape, eye: Vec3) -> f32 {
+    let (low, high) = landscape.bounds(0.0);
+    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
+    4.0 * 0.5f32.powi(24) * farthest.length().log2().ceil().exp2()
+}
+
+// ANCHOR: stand
+/// A piece at the ground's height, by the function that the shaders march: upright, and sunk until no
+/// part of its foot hangs in the air. `None` where it is too steep to stand.
+pub fn stand(landscape: Landscape, piece: &Instance, mesh: &Mesh) -> Option<Instance> {
+    let bottom = mesh.bounds().0.y;
+    let foot = mesh.vertices.iter().map(|vertex| vertex.position);
+    let foot = foot.filter(|position| position.y == bottom).map(|position| {
+        let at = piece.transform.transform_point3(position);
+        landscape.height(at.x, at.z)
+    });
+    let (low, high) = foot.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+    let mut piece = *piece;
+    piece.transform.translation.y += low as f32;
+    (high - low < STEEP).then_some(piece)
+}
+// ANCHOR_END: stand
+
+fn instance(
+    placement: &Affine3A,
+    custom_index: usize,
+    record: u32,
+    blas: &AccelerationStructure,
+) -> vk::AccelerationStructureInstanceKHR {
+    vk::AccelerationStructureInstanceKHR {
+        transform: transform(placement),
+        instance_custom_index_and_mask: vk::Packed24_8::new(custom_index as u32, 0xff),
+        instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(record, 0),
+        acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+            device_handle: blas.address,
+        },
+    }
+}

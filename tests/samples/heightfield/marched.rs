@@ -1,0 +1,174 @@
+//! Rays of a view, what each rung makes of them, and a row of the page's table.
+
+use std::collections::BTreeMap;
+
+use common::app::Picture;
+use common::reference::Ray;
+
+use super::ground::Landscape;
+use super::judged::{Exact, Verdict};
+use super::shown;
+
+pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
+
+/// A triangle that no ray here meets, so that the ground is alone. It loads faster than the pieces.
+pub struct Alone(tempfile::TempDir);
+
+impl Alone {
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(file, "v 0 0 1e9\nv 1 0 1e9\nv 0 1 1e9\nf 1 2 3\n").unwrap();
+        Self(folder)
+    }
+
+    pub fn shown(&self, size: &str, sets: &[&str]) -> Picture {
+        let path = self.0.path().join("a.obj").display().to_string();
+        let alone = ["plane=off", "shadow rays=off"];
+        shown(size, &[sets, &alone].concat(), &["--scene", &path])
+    }
+
+    /// The rays of the camera, as the GPU wrote them.
+    pub fn rays(&self, size: &str, sets: &[&str]) -> Vec<Ray> {
+        let show = |view| self.shown(size, &[sets, &[view]].concat()).pixels;
+        let rays = show("show=ray origin").into_iter().zip(show("show=ray direction"));
+        rays.map(|([ox, oy, oz, _], [x, y, z, _])| {
+            Ray::from_f32([ox, oy, oz], [x, y, z], 0.0, 1e30)
+        })
+        .collect()
+    }
+}
+
+/// What a rung makes of a ray.
+pub struct March {
+    pub ray: Ray,
+    /// Where it hits.
+    pub found: Option<f64>,
+    /// How often it asked for a height.
+    pub steps: f64,
+    pub verdict: Verdict,
+    /// Where the hit is.
+    pub exact: Option<f64>,
+    /// How steeply the ray falls on the ground there, in degrees.
+    pub angle: Option<f64>,
+}
+
+/// All rays of a view, by one rung.
+pub struct Marched(pub Vec<March>);
+
+impl Marched {
+    pub fn new(alone: &Alone, size: &str, sets: &[&str], landscape: Landscape) -> [Self; 4] {
+        let rays = alone.rays(size, sets);
+        let exact = Exact::new(landscape, rays[0].origin);
+        let truth: Vec<_> = rays.iter().map(|ray| exact.hit(ray)).collect();
+        RUNGS.map(|rung| {
+            let rung = format!("rung={rung}");
+            let pixels = alone.shown(size, &[sets, &["show=march", &rung]].concat()).pixels;
+            let marches = rays.iter().zip(&truth).zip(pixels);
+            let marches = marches.map(|((ray, truth), [t, steps, ..])| {
+                let found = (t >= 0.0).then_some(f64::from(t));
+                March {
+                    ray: *ray,
+                    found,
+                    steps: steps.into(),
+                    verdict: exact.judge(ray, found, truth.as_ref()),
+                    exact: truth.as_ref().map(|hit| hit.t),
+                    angle: truth.as_ref().map(|hit| {
+                        let sine = -hit.normal.dot(ray.direction) / ray.direction.length();
+                        sine.asin().to_degrees()
+                    }),
+                }
+            });
+            Self(marches.collect())
+        })
+    }
+
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.0.iter().filter(|march| march.verdict == verdict).count()
+    }
+
+    /// Those on the edge of a hill may hit or miss.
+    pub fn right(&self) -> usize {
+        self.count(Verdict::Right) + self.count(Verdict::Grazes)
+    }
+
+    pub fn hits(&self) -> usize {
+        self.0.iter().filter(|march| march.exact.is_some()).count()
+    }
+
+    pub fn steps(&self) -> f64 {
+        self.0.iter().map(|march| march.steps).sum::<f64>() / self.0.len() as f64
+    }
+
+    /// The middle one of the angles.
+    pub fn angle(&self) -> f64 {
+        let mut angles: Vec<f64> = self.0.iter().filter_map(|march| march.angle).collect();
+        angles.sort_by(f64::total_cmp);
+        angles[angles.len() / 2]
+    }
+
+    pub fn steps_of_misses(&self) -> f64 {
+        let misses = self.0.iter().filter(|march| march.exact.is_none());
+        let (steps, count) = misses.fold((0.0, 0.0), |(s, n), march| (s + march.steps, n + 1.0));
+        steps / f64::max(count, 1.0)
+    }
+
+    /// By how much t is off, relative, where there is a hit and the rung has one: the middle one, and one
+    /// of a hundred is farther off than the second.
+    pub fn errors(&self) -> [f64; 2] {
+        let error = |march: &March| Some((march.found? / march.exact? - 1.0).abs());
+        let mut errors: Vec<f64> = self.0.iter().filter_map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        [0.5, 0.99]
+            .map(|part| errors.get((errors.len() as f64 * part) as usize).copied().unwrap_or(0.0))
+    }
+
+    pub fn row(&self) -> String {
+        let counts: BTreeMap<_, _> = self.0.iter().fold(BTreeMap::new(), |mut counts, march| {
+            *counts.entry(march.verdict).or_insert(0) += 1;
+            counts
+        });
+        let of = |verdict| counts.get(&verdict).copied().unwrap_or(0);
+        let [near, far, through, false_hits, lost] = [
+            Verdict::TooNear,
+            Verdict::TooFar,
+            Verdict::Through,
+            Verdict::FalseHit,
+            Verdict::FalseMiss,
+        ]
+        .map(of);
+        let [half, most] = self.errors();
+        format!(
+            "{:.1} | {} | {near} | {far} | {through} | {false_hits} | {lost} | {half:.1e} | {most:.1e}",
+            self.steps(),
+            self.right()
+        )
+    }
+
+    /// A map of the errors, in the colours of `show=error`.
+    pub fn map(&self, width: u32) -> Picture {
+        let pixels: Vec<_> = self.0.iter().map(color).collect();
+        Picture { width, height: pixels.len() as u32 / width, pixels }
+    }
+}
+
+/// Grey where there is nothing, blue to white for a millionth to all, magenta for a false hit, cyan for a
+/// lost one, green behind a hill.
+fn color(march: &March) -> [f32; 4] {
+    let error = match (march.found, march.exact) {
+        (Some(found), Some(exact)) => (found / exact - 1.0).abs(),
+        _ => 0.0,
+    };
+    let part = (error.max(1e-6) * 1e6).log(1e6).clamp(0.0, 1.0) as f32;
+    let heat = |scale: f32, from: f32, base: f32| {
+        (part * scale - from).clamp(0.0, 1.0) + base * (1.0 - 2.5 * part).max(0.0)
+    };
+    let [r, g, b] = match march.verdict {
+        Verdict::FalseHit => [0.8, 0.0, 0.8],
+        Verdict::FalseMiss => [0.0, 0.8, 0.8],
+        Verdict::Through => [0.1, 0.4 + 0.5 * part, 0.1],
+        _ if march.exact.is_none() => [0.5; 3],
+        _ => [heat(2.2, 0.25, 0.02), heat(1.7, 0.7, 0.02), heat(4.0, 3.0, 0.3)],
+    };
+    [r, g, b, 1.0]
+}
