@@ -14,3 +14,4 @@ mod reflection;
 #[path = "../run/mod.rs"]
 mod run;
 mod shadow_miss;
+mod solids;

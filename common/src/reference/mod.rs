@@ -8,6 +8,7 @@
 //! | [`capsule`], [`instance`] | the same for a capsule, and for a sphere under any matrix |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`random`] | seeded rays: the same on every machine |
+//! | [`solid`] | half-spaces and balls combined: union, intersection, difference, inverse |
 //! | [`crossing`] | where a ray's line meets a triangle's plane, and how near to the border |
 //! | [`transform`] | an instance's 3×4 matrix, and how far an f32 ray strays on its way through it |
 //! | [`bound`] | how far a triangle test in f32 may be off: the derivation and the numbers |
@@ -37,6 +38,7 @@ pub mod instance;
 pub mod plane;
 pub mod random;
 pub mod scene;
+pub mod solid;
 pub mod sphere;
 pub mod surd;
 pub mod transform;

@@ -1,0 +1,416 @@
+//! Ray against solids: half-spaces and balls, combined by union, intersection, difference and inverse.
+//!
+//! A ray goes in and out of each half-space and ball at known t. Between two such t nothing changes, so
+//! the solid's surface is where its rule says something else just before and just after one of them
+//! (Roth, *Ray Casting for Modeling Solids*, 1982). All that happens at one t happens at once, so what
+//! has no thickness along the ray is not there: the regularised operations of Requicha and Tilove.
+
+pub mod bound;
+
+use std::cmp::Ordering;
+
+use dashu::rational::RBig;
+use glam::DVec3;
+
+use super::exact::{Vector, rational, sign, to_f64};
+use super::sphere::Sphere;
+use super::{Ray, dot2, vector_dot2};
+
+/// What a solid is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// All points p with `normal·p <= offset`; the normal has any length but 0.
+    HalfSpace {
+        /// Points out of it.
+        normal: DVec3,
+        /// `D·|N|` of POV-Ray's `plane {<A,B,C>, D}`.
+        offset: f64,
+    },
+    /// A ball.
+    Ball(Sphere),
+    /// What lies in any of these; nothing, if there are none.
+    Union(Vec<Solid>),
+    /// What lies in all of these; everything, if there are none.
+    Intersection(Vec<Solid>),
+    /// What does not lie in it.
+    Inverse(Box<Solid>),
+}
+
+/// Where a ray goes through a solid's surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary<T> {
+    /// Ray parameter, in lengths of the ray's direction.
+    pub t: T,
+    /// The half-spaces and balls whose surfaces the ray goes through there, numbered in the order in
+    /// which the solid names them.
+    pub through: Vec<usize>,
+    /// Whether the ray comes into the solid there; otherwise it leaves.
+    pub enters: bool,
+}
+
+/// Along a ray: whether it begins in a half-space or ball, infinitely far back, and where that changes.
+struct Line<T> {
+    begins_in: bool,
+    changes: Vec<T>,
+}
+
+impl Solid {
+    /// The first without the second.
+    pub fn difference(from: Self, what: Self) -> Self {
+        Self::Intersection(vec![from, Self::Inverse(Box::new(what))])
+    }
+
+    /// Whether a point lies in it, in f64; on a surface it counts as inside, before any inverse.
+    pub fn contains(&self, point: DVec3) -> bool {
+        match self {
+            Self::HalfSpace { normal: n, offset } => {
+                dot2([(point.x, n.x), (point.y, n.y), (point.z, n.z), (-offset, 1.0)]) <= 0.0
+            }
+            Self::Ball(ball) => point.distance_squared(ball.center) <= ball.radius * ball.radius,
+            Self::Union(solids) => solids.iter().any(|solid| solid.contains(point)),
+            Self::Intersection(solids) => solids.iter().all(|solid| solid.contains(point)),
+            Self::Inverse(solid) => !solid.contains(point),
+        }
+    }
+
+    /// All places where the line of the ray goes through the surface, in order, in f64; tmin and tmax
+    /// are left aside.
+    pub fn boundaries(&self, ray: &Ray) -> Vec<Boundary<f64>> {
+        let line = |solid: &Solid| match solid {
+            Self::HalfSpace { normal: n, offset } => {
+                let o = ray.origin;
+                let height = dot2([(*offset, 1.0), (-o.x, n.x), (-o.y, n.y), (-o.z, n.z)]);
+                let slope = vector_dot2(ray.direction, *n);
+                let slope_sign = slope.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+                half_space(slope_sign, height.partial_cmp(&0.0), *n, || height / slope)
+            }
+            Self::Ball(ball) => Line { begins_in: false, changes: ball_changes(ball, ray) },
+            _ => unreachable!("only what is simple has a line"),
+        };
+        self.walk(line, f64::total_cmp)
+    }
+
+    /// The same, exactly, for solids of half-spaces; `None` if there is a ball in it.
+    ///
+    /// # Panics
+    /// If a number of the solid or of the ray (but `tmin`, `tmax`) is not finite.
+    pub fn boundaries_exact(&self, ray: &Ray) -> Option<Vec<Boundary<RBig>>> {
+        let (o, d) = (Vector::from(ray.origin), Vector::from(ray.direction));
+        let mut has_ball = false;
+        self.each(&mut |solid| has_ball |= matches!(solid, Self::Ball(_)));
+        let line = |solid: &Solid| {
+            let Self::HalfSpace { normal, offset } = solid else {
+                unreachable!("there is no ball, and only what is simple has a line")
+            };
+            let n = Vector::from(*normal);
+            let (height, slope) = (rational(*offset) - o.dot(&n), d.dot(&n));
+            half_space(sign(&slope), Some(sign(&height)), *normal, || height / slope)
+        };
+        (!has_ball).then(|| self.walk(line, RBig::cmp))
+    }
+
+    /// Where the ray first goes through the surface within its interval, exactly rounded if it can be.
+    pub fn intersect(&self, ray: &Ray) -> Option<Boundary<f64>> {
+        self.intersect_within(&Self::Intersection(vec![]), ray)
+    }
+
+    /// The same, of that part of the surface that lies in `clip`, or on its surface.
+    pub fn intersect_within(&self, clip: &Self, ray: &Ray) -> Option<Boundary<f64>> {
+        let clip = clip.intervals(ray);
+        self.rounded(ray).into_iter().find(|Boundary { t, .. }| {
+            ray.contains(*t) && clip.iter().any(|[enter, leave]| enter <= t && t <= leave)
+        })
+    }
+
+    /// Between which t the line of the ray is in the solid.
+    pub fn intervals(&self, ray: &Ray) -> Vec<[f64; 2]> {
+        let mut intervals = Vec::new();
+        let boundaries = self.rounded(ray);
+        let mut enter = match boundaries.first() {
+            Some(first) => !first.enters,
+            None => self.contains(ray.origin),
+        }
+        .then_some(f64::NEG_INFINITY);
+        for Boundary { t, enters, .. } in boundaries {
+            if enters {
+                enter = Some(t);
+            } else {
+                intervals.extend(enter.take().map(|enter| [enter, t]));
+            }
+        }
+        intervals.extend(enter.map(|enter| [enter, f64::INFINITY]));
+        intervals
+    }
+
+    /// All places where the line of the ray goes through the surface, exactly rounded if they can be.
+    fn rounded(&self, ray: &Ray) -> Vec<Boundary<f64>> {
+        let Some(exact) = self.boundaries_exact(ray) else { return self.boundaries(ray) };
+        let rounded = exact.into_iter().map(|Boundary { t, through, enters }| Boundary {
+            t: to_f64(&t),
+            through,
+            enters,
+        });
+        rounded.collect()
+    }
+
+    /// Sees every half-space and ball, in the order of their numbers.
+    pub fn each<'a>(&'a self, see: &mut impl FnMut(&'a Self)) {
+        match self {
+            Self::HalfSpace { .. } | Self::Ball(_) => see(self),
+            Self::Union(solids) | Self::Intersection(solids) => {
+                solids.iter().for_each(|solid| solid.each(see));
+            }
+            Self::Inverse(solid) => solid.each(see),
+        }
+    }
+
+    /// What the rule makes of who is in: the members in the order of [`Solid::each`].
+    fn holds(&self, members: &mut impl Iterator<Item = bool>) -> bool {
+        // No shortcut: every operand takes its members off the list.
+        match self {
+            Self::HalfSpace { .. } | Self::Ball(_) => members.next().expect("one for each"),
+            Self::Union(solids) => {
+                solids.iter().fold(false, |any, solid| solid.holds(members) | any)
+            }
+            Self::Intersection(solids) => {
+                solids.iter().fold(true, |all, solid| solid.holds(members) & all)
+            }
+            Self::Inverse(solid) => !solid.holds(members),
+        }
+    }
+
+    fn walk<T: Clone + PartialEq>(
+        &self,
+        line: impl Fn(&Self) -> Line<T>,
+        order: impl Fn(&T, &T) -> Ordering,
+    ) -> Vec<Boundary<T>> {
+        let mut lines = Vec::new();
+        self.each(&mut |solid| lines.push(line(solid)));
+        let mut at: Vec<T> = lines.iter().flat_map(|line| line.changes.iter().cloned()).collect();
+        at.sort_by(&order);
+        at.dedup();
+        let mut members: Vec<bool> = lines.iter().map(|line| line.begins_in).collect();
+        let mut within = self.holds(&mut members.iter().copied());
+        let mut boundaries = Vec::new();
+        for t in at {
+            let mut through = Vec::new();
+            for (index, line) in lines.iter().enumerate() {
+                // Twice at once, as where a ball is only touched, is not at all.
+                if line.changes.iter().filter(|change| **change == t).count() % 2 == 1 {
+                    members[index] ^= true;
+                    through.push(index);
+                }
+            }
+            let enters = self.holds(&mut members.iter().copied());
+            if enters != within {
+                boundaries.push(Boundary { t, through, enters });
+                within = enters;
+            }
+        }
+        boundaries
+    }
+}
+
+/// The line of a half-space: `slope` and `height` say whether the ray goes out, and whether its origin
+/// is inside.
+///
+/// A parallel ray within the plane is taken for one that is moved a hair along the plane's normal, of
+/// the two the one whose first part that is not 0 is positive: so two solids that touch in a plane have
+/// no gap between them, and nothing in common (Edelsbrunner and Mücke, *Simulation of Simplicity*, 1990).
+fn half_space<T>(
+    slope: Ordering,
+    height: Option<Ordering>,
+    normal: DVec3,
+    t: impl FnOnce() -> T,
+) -> Line<T> {
+    let first = normal.to_array().into_iter().find(|part| *part != 0.0);
+    let begins_in = match (slope, height) {
+        (Ordering::Greater, _) => true,
+        (Ordering::Less, _) => false,
+        (_, Some(Ordering::Equal)) => first.is_some_and(|part| part < 0.0),
+        (_, height) => height == Some(Ordering::Greater),
+    };
+    Line { begins_in, changes: if slope.is_eq() { vec![] } else { vec![t()] } }
+}
+
+/// Where a ray's line comes into a ball and leaves it; nowhere, where it only touches.
+fn ball_changes(ball: &Sphere, ray: &Ray) -> Vec<f64> {
+    let (f, d, r) = (ray.origin - ball.center, ray.direction, ball.radius);
+    let (a, b) = (d.length_squared(), vector_dot2(f, d));
+    let foot = f - b / a * d;
+    let discriminant = a * (r - foot.length()) * (r + foot.length());
+    if discriminant <= 0.0 {
+        return vec![];
+    }
+    let c = (f.length() - r) * (f.length() + r);
+    let q = if b > 0.0 { -b - discriminant.sqrt() } else { -b + discriminant.sqrt() };
+    let mut both = vec![c / q, q / a];
+    both.sort_by(f64::total_cmp);
+    both
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::random::{Random, f32s, towards};
+    use super::*;
+
+    fn half(normal: DVec3, offset: f64) -> Solid {
+        Solid::HalfSpace { normal, offset }
+    }
+
+    fn block(low: DVec3, high: DVec3) -> Solid {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter();
+        let walls = axes.flat_map(|n| [half(n, high.dot(n)), half(-n, -low.dot(n))]);
+        Solid::Intersection(walls.collect())
+    }
+
+    fn ball(center: DVec3, radius: f64) -> Solid {
+        Solid::Ball(Sphere { center, radius })
+    }
+
+    /// A random convex solid or ball.
+    fn simple(random: &mut Random, balls: bool) -> Solid {
+        if balls && random.below(2) == 0 {
+            return ball(random.in_cube(), random.between(0.3, 1.2));
+        }
+        let walls = (0..4 + random.below(6)).map(|_| {
+            let normal = f32s(random.unit() * random.scale(0.1, 10.0));
+            half(normal, normal.length() * random.between(0.2, 1.0))
+        });
+        Solid::Intersection(walls.collect())
+    }
+
+    /// A random tree.
+    fn tree(random: &mut Random, depth: u32, balls: bool) -> Solid {
+        if depth == 0 {
+            return simple(random, balls);
+        }
+        let mut two = || (tree(random, depth - 1, balls), tree(random, depth - 1, balls));
+        let (a, b) = two();
+        match random.below(4) {
+            0 => Solid::Union(vec![a, b]),
+            1 => Solid::Intersection(vec![a, b]),
+            2 => Solid::difference(a, b),
+            _ => Solid::Inverse(Box::new(Solid::Union(vec![a, b]))),
+        }
+    }
+
+    fn random_ray(random: &mut Random) -> Ray {
+        towards(random.unit() * random.between(0.0, 5.0), random.in_cube() * 0.5)
+    }
+
+    #[test]
+    fn f64_agrees_with_exact() {
+        let mut random = Random(22);
+        let mut count = 0;
+        for _ in 0..300 {
+            let solid = tree(&mut random, 2, false);
+            let ray = random_ray(&mut random);
+            let exact = solid.boundaries_exact(&ray).unwrap();
+            let plain = solid.boundaries(&ray);
+            assert_eq!(exact.len(), plain.len(), "{solid:?} {ray:?}");
+            for (exact, plain) in exact.iter().zip(&plain) {
+                let t = to_f64(&exact.t);
+                assert!((plain.t - t).abs() <= 4.0 * f64::EPSILON * t.abs(), "{plain:?} {exact:?}");
+                assert_eq!((&exact.through, exact.enters), (&plain.through, plain.enters));
+                count += 1;
+            }
+        }
+        assert!(count > 400, "{count}");
+    }
+
+    #[test]
+    fn between_boundaries_membership_is_that_of_the_point() {
+        let mut random = Random(23);
+        let (mut inside, mut outside) = (0, 0);
+        for _ in 0..400 {
+            let solid = tree(&mut random, 2, true);
+            let ray = random_ray(&mut random);
+            let boundaries = solid.boundaries(&ray);
+            for pair in boundaries.windows(2) {
+                assert!(pair[0].enters != pair[1].enters && pair[0].t < pair[1].t);
+                // Within a sliver, f64 cannot tell.
+                if pair[1].t - pair[0].t > 1e-9 {
+                    let middle = ray.at((pair[0].t + pair[1].t) / 2.0);
+                    assert_eq!(solid.contains(middle), pair[0].enters, "{solid:?} {ray:?}");
+                    *if pair[0].enters { &mut inside } else { &mut outside } += 1;
+                }
+            }
+        }
+        assert!(inside > 200 && outside > 30, "{inside} {outside}");
+    }
+
+    #[test]
+    fn laws_of_sets_hold() {
+        let mut random = Random(24);
+        let not = |solid: &Solid| Solid::Inverse(Box::new(solid.clone()));
+        let places = |solid: &Solid, ray: &Ray| -> Vec<f64> {
+            solid.boundaries(ray).into_iter().map(|boundary| boundary.t).collect()
+        };
+        for _ in 0..300 {
+            let [a, b] = [0, 1].map(|_| simple(&mut random, true));
+            let ray = random_ray(&mut random);
+            let both = Solid::Union(vec![a.clone(), b.clone()]);
+            let by_inverse = not(&Solid::Intersection(vec![not(&a), not(&b)]));
+            assert_eq!(both.boundaries(&ray), by_inverse.boundaries(&ray));
+            assert_eq!(a.boundaries(&ray), not(&not(&a)).boundaries(&ray));
+            assert_eq!(places(&a, &ray), places(&not(&a), &ray));
+            assert!(places(&Solid::difference(a.clone(), a.clone()), &ray).is_empty());
+            assert!(places(&Solid::Union(vec![a.clone(), not(&a)]), &ray).is_empty());
+            assert_eq!(places(&Solid::Union(vec![a.clone(), a.clone()]), &ray), places(&a, &ray));
+        }
+    }
+
+    #[test]
+    fn what_touches_has_no_gap_and_nothing_in_common() {
+        let left = block(DVec3::NEG_ONE, DVec3::new(0.0, 1.0, 1.0));
+        let right = block(DVec3::new(0.0, -1.0, -1.0), DVec3::ONE);
+        let both = Solid::Union(vec![left.clone(), right.clone()]);
+        let common = Solid::Intersection(vec![left.clone(), right.clone()]);
+        let rest = Solid::difference(left.clone(), right.clone());
+        let whole = block(DVec3::NEG_ONE, DVec3::ONE);
+        // Across the common wall, slanting through it, within it, along an edge and past everything.
+        for (origin, direction) in [
+            (DVec3::new(-3.0, 0.25, 0.5), DVec3::X),
+            (DVec3::new(-3.0, -0.5, 0.0), DVec3::new(3.0, 0.5, 0.125)),
+            (DVec3::new(0.0, 0.5, 5.0), DVec3::NEG_Z),
+            (DVec3::new(0.0, 1.0, 5.0), DVec3::NEG_Z),
+            (DVec3::new(0.0, 3.0, 5.0), DVec3::NEG_Z),
+        ] {
+            let ray = Ray { direction, ..towards(origin, origin + DVec3::X) };
+            let places = |solid: &Solid| -> Vec<f64> {
+                let exact = solid.boundaries_exact(&ray).unwrap();
+                let plain = solid.boundaries(&ray);
+                assert_eq!(exact.len(), plain.len());
+                plain.into_iter().map(|boundary| boundary.t).collect()
+            };
+            assert_eq!(places(&both), places(&whole), "{ray:?}");
+            assert!(places(&common).is_empty(), "{ray:?}");
+            assert_eq!(places(&rest), places(&left), "{ray:?}");
+        }
+        // A ball that is only touched is not met.
+        let touched = ball(DVec3::ZERO, 1.0);
+        let ray = Ray { direction: DVec3::X, ..towards(DVec3::new(-3.0, 1.0, 0.0), DVec3::ZERO) };
+        assert!(touched.boundaries(&ray).is_empty() && touched.boundaries_exact(&ray).is_none());
+    }
+
+    #[test]
+    fn the_first_crossing_within_the_interval() {
+        let bitten = Solid::difference(block(DVec3::NEG_ONE, DVec3::ONE), ball(DVec3::Y, 0.5));
+        let ray = Ray { direction: DVec3::NEG_Y, ..towards(DVec3::Y * 3.0, DVec3::ZERO) };
+        let first = bitten.intersect(&ray).unwrap();
+        // Into the dent, through the ball's far side, which is number 6.
+        assert_eq!((first.t, first.through, first.enters), (2.5, vec![6], true));
+        let second = bitten.intersect(&Ray { tmin: 2.5, ..ray }).unwrap();
+        assert_eq!((second.t, second.enters), (4.0, false));
+        assert!(bitten.intersect(&Ray { tmax: 2.0, ..ray }).is_none());
+        assert_eq!(bitten.intervals(&ray), [[2.5, 4.0]]);
+        // Clipped, the dent is gone, and with a lid it has one.
+        let lid = half(DVec3::Y, 0.25);
+        let open = bitten.intersect_within(&lid, &ray).unwrap();
+        assert_eq!((open.t, open.enters), (4.0, false));
+        let capped = Solid::Intersection(vec![bitten.clone(), lid]);
+        let capped = capped.intersect(&ray).unwrap();
+        assert_eq!((capped.t, capped.through, capped.enters), (2.75, vec![7], true));
+    }
+}

@@ -1,0 +1,74 @@
+//! What lies on the plane: a board of squares, or one colour.
+
+use common::scene::Placement;
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::plane::{HalfSpace, Plane};
+
+common::shader_struct! {
+    /// The board as shaders get it.
+    pub struct Board {
+        /// Colour of the light squares, linear RGB.
+        pub light: Vec3,
+        /// Colour of the dark ones.
+        pub dark: Vec3,
+        /// Colour of the plane seen from inside, where that is shown.
+        pub inner: Vec3,
+        /// Strength of the highlight.
+        pub specular: f32,
+        /// Width of the highlight: 0 is a point, 1 is none.
+        pub roughness: f32,
+        /// What part of the light is mirrored, looked at straight.
+        pub reflection: f32,
+        /// 0 averaged over the pixel, 1 at its middle, 2 no squares.
+        pub checker: u32,
+        /// Length of a square's side.
+        pub square: f32,
+        /// Unit vector along one side.
+        pub u: Vec3,
+        /// Along the other.
+        pub v: Vec3,
+        /// On which square the plane's anchor lies.
+        pub anchor: Vec2,
+    }
+}
+
+impl Default for Board {
+    /// Black squares a unit long.
+    fn default() -> Self {
+        Self {
+            light: Vec3::ZERO,
+            dark: Vec3::ZERO,
+            inner: Vec3::new(0.5, 0.08, 0.05),
+            specular: 0.0,
+            roughness: 1.0,
+            reflection: 0.0,
+            checker: 0,
+            square: 1.0,
+            u: Vec3::X,
+            v: Vec3::Z,
+            anchor: Vec2::ZERO,
+        }
+    }
+}
+
+impl Board {
+    // ANCHOR: phase
+    /// The board where a scene's placement puts it, on this plane. Which side of it is the inside
+    /// changes no square.
+    ///
+    /// Its pattern repeats every two squares, so the even number that is dropped here is missed by
+    /// nobody, and the shader gets a small number.
+    pub fn placed(&self, placement: &Placement, side: &HalfSpace, plane: &Plane) -> Self {
+        let square = f64::from(self.square) * placement.size;
+        let normal = side.normal.as_dvec3().normalize_or(DVec3::Y);
+        let aside = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::Y };
+        let u = normal.cross(aside).normalize();
+        let v = u.cross(normal);
+        let from_origin = (plane.anchor.as_dvec3() - placement.moved) / square;
+        let anchor = DVec2::new(u.dot(from_origin), v.dot(from_origin));
+        let anchor = (anchor - 2.0 * (anchor / 2.0).floor()).as_vec2();
+        Self { square: square as f32, u: u.as_vec3(), v: v.as_vec3(), anchor, ..*self }
+    }
+    // ANCHOR_END: phase
+}

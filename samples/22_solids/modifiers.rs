@@ -1,0 +1,89 @@
+//! What is asked of the solids: which, of how many planes, cut, inside out, hollow.
+
+use common::Controls;
+use glam::Vec3;
+
+use crate::shapes::SHAPES;
+use crate::solid::{Bound, Solid, plane};
+
+/// The ways to cut a solid with a plane, in the order of their numbers.
+pub const CUTS: [&str; 3] = ["nothing", "clipped by", "intersection"];
+const CLIPPED_BY: u32 = 1;
+const INTERSECTION: u32 = 2;
+
+/// What the user asks of all solids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modifiers {
+    /// The one solid of that preset, a number in [`SHAPES`].
+    pub shape: u32,
+    /// How many planes its crystal has.
+    pub planes: u32,
+    /// By how many degrees that one is turned about the vertical.
+    pub turn: f32,
+    /// Inside and outside are exchanged.
+    pub inverse: bool,
+    /// Fog comes in.
+    pub hollow: bool,
+    /// How each is cut, a number in [`CUTS`].
+    pub cut: u32,
+    /// The cutting plane in the solid's own space: what lies beyond is gone.
+    pub cut_normal: Vec3,
+    /// How far that plane is from the solid's origin.
+    pub cut_distance: f32,
+    /// Planes that are equal are stored once.
+    pub shared: bool,
+}
+
+impl Default for Modifiers {
+    fn default() -> Self {
+        Self {
+            shape: 7,
+            planes: 20,
+            turn: 0.0,
+            inverse: false,
+            hollow: false,
+            cut: 0,
+            cut_normal: Vec3::new(1.0, 1.0, 2.0),
+            cut_distance: 0.1,
+            shared: true,
+        }
+    }
+}
+
+impl Modifiers {
+    // ANCHOR: controls
+    /// The controls; whether another solid was chosen.
+    pub fn controls(&mut self, c: &mut Controls) -> bool {
+        let chosen = c.choice("solid", &mut self.shape, &SHAPES);
+        c.integer("planes", &mut self.planes, 4..=32);
+        c.slider("turn", &mut self.turn, 0.0..=360.0);
+        c.checkbox("inverse solids", &mut self.inverse);
+        c.checkbox("hollow", &mut self.hollow);
+        c.choice("cut", &mut self.cut, &CUTS);
+        c.vector("cut normal", &mut self.cut_normal, -1e3..=1e3);
+        c.slider("cut distance", &mut self.cut_distance, -1e3..=1e3);
+        c.checkbox("shared planes", &mut self.shared);
+        chosen
+    }
+    // ANCHOR_END: controls
+
+    // ANCHOR: cut
+    /// A solid as asked for, and what its surface is clipped by.
+    pub fn of(&self, solid: &Solid, clip: Option<Bound>) -> (Solid, Vec<Bound>) {
+        let solid = if self.inverse { solid.clone().inverse() } else { solid.clone() };
+        // Without a normal there is no plane, and no cut.
+        let cut =
+            (self.cut_normal != Vec3::ZERO).then(|| plane(self.cut_normal, self.cut_distance));
+        match (self.cut, cut) {
+            // Surface goes, and none comes in its place: one looks inside.
+            (CLIPPED_BY, Some(cut)) => (solid, clip.into_iter().chain([cut]).collect()),
+            // The plane becomes a part of the surface.
+            (INTERSECTION, Some(cut)) => {
+                let half_space = Solid::Convex(vec![cut], "red");
+                (solid.within(half_space), clip.into_iter().collect())
+            }
+            _ => (solid, clip.into_iter().collect()),
+        }
+    }
+    // ANCHOR_END: cut
+}

@@ -1,0 +1,82 @@
+//! The plane on the host: in f64, and prepared for the shaders.
+
+use common::scene::Placement;
+use glam::{DVec3, Vec2, Vec3};
+
+/// A half-space: its surface is the plane, and its normal points out of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// How it is given: [`NORMAL_AND_DISTANCE`] or [`POINT_AND_NORMAL`].
+    pub form: u32,
+    /// `<A,B,C>`, of any length but 0.
+    pub normal: Vec3,
+    /// `D`: how far the plane is from the world's origin, along the normal.
+    pub distance: f32,
+    /// A point of the plane, instead of the distance.
+    pub point: Vec3,
+    /// Whether inside and outside are exchanged.
+    pub inverse: bool,
+}
+
+/// POV-Ray's `plane { <A,B,C>, D }`.
+pub const NORMAL_AND_DISTANCE: u32 = 0;
+/// A point of the plane, and its normal.
+pub const POINT_AND_NORMAL: u32 = 1;
+
+common::shader_struct! {
+    /// The plane as shaders get it (`shaders/common/plane.glsl`).
+    pub struct Plane {
+        /// N, pointing to the outside.
+        pub normal: Vec3,
+        /// D·|N| in two parts, the second what rounding the first left over.
+        pub distance: Vec2,
+        /// The point of the plane that is nearest to the camera, rounded.
+        pub anchor: Vec3,
+        /// D·|N| - N·anchor.
+        pub rest: f32,
+    }
+}
+
+impl HalfSpace {
+    /// The one whose surface is the plane `{normal, distance}`.
+    pub fn new(normal: Vec3, distance: f32) -> Self {
+        let form = NORMAL_AND_DISTANCE;
+        Self { form, normal, distance, point: Vec3::ZERO, inverse: false }
+    }
+
+    /// The normal that points out, and D·|N| of the plane where a scene's placement puts it.
+    ///
+    /// `None` if the normal is 0: there is no such plane.
+    pub fn placed(&self, placement: &Placement) -> Option<(DVec3, f64)> {
+        let sign = if self.inverse { -1.0 } else { 1.0 };
+        let normal = self.normal.as_dvec3() * sign;
+        let distance = match self.form {
+            POINT_AND_NORMAL => normal.dot(self.point.as_dvec3()),
+            _ => f64::from(self.distance) * sign * normal.length(),
+        };
+        let placed = distance * placement.size + normal.dot(placement.moved);
+        (normal != DVec3::ZERO).then_some((normal, placed))
+    }
+}
+
+impl Plane {
+    // ANCHOR: prepare
+    /// The plane N·p = D·|N| for shaders whose camera is at `eye`.
+    ///
+    /// N is scaled by a power of two, which rounds nothing, so that its square is no 0 and not infinite.
+    pub fn new((normal, distance): (DVec3, f64), eye: Vec3) -> Self {
+        let scale = normal.abs().max_element().log2().floor().exp2().recip();
+        let (normal, distance) = (normal * scale, distance * scale);
+        let eye = eye.as_dvec3();
+        let foot = eye + normal * ((distance - normal.dot(eye)) / normal.length_squared());
+        let anchor = foot.as_vec3();
+        let high = distance as f32;
+        Self {
+            normal: normal.as_vec3(),
+            distance: Vec2::new(high, (distance - f64::from(high)) as f32),
+            anchor,
+            rest: (distance - normal.dot(anchor.as_dvec3())) as f32,
+        }
+    }
+    // ANCHOR_END: prepare
+}

@@ -1,0 +1,205 @@
+//! The solids on the device: their programs in buffers, a box around each, and the top level with them.
+
+use anyhow::Result;
+use ash::vk;
+use common::bytemuck::cast_slice;
+use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::scene::{Placement, Scene, SceneOnGpu, build_top, input_usage, transform};
+use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
+
+use crate::modifiers::Modifiers;
+use crate::program::Programs;
+use crate::scenes::{self, Placed};
+use crate::solid::{Bound, REACH, Solid, block};
+
+common::shader_struct! {
+    /// A solid, as shaders get it.
+    pub struct SolidRecord {
+        pub first_part: u32,
+        pub part_count: u32,
+        pub first_step: u32,
+        pub step_count: u32,
+        /// The part outside of which the surface is left out; [`NO_CLIP`] for none.
+        pub clip: u32,
+        /// Rows of the matrix from the world to the solid's space.
+        pub to_object: [Vec4; 3],
+    }
+}
+
+const NO_CLIP: u32 = u32::MAX;
+
+impl SolidRecord {
+    fn new(numbers: [u32; 5], to_object: &DAffine3) -> Self {
+        let [first_part, part_count, first_step, step_count, clip] = numbers;
+        let rows = to_object.matrix3.transpose();
+        let shift = to_object.translation;
+        let to_object = [
+            rows.x_axis.extend(shift.x).as_vec4(),
+            rows.y_axis.extend(shift.y).as_vec4(),
+            rows.z_axis.extend(shift.z).as_vec4(),
+        ];
+        Self { first_part, part_count, first_step, step_count, clip, to_object }
+    }
+}
+
+/// Solids in device memory, and the top level that holds them beside the meshes.
+pub struct SolidsOnGpu {
+    /// Everything.
+    pub tlas: AccelerationStructure,
+    /// Where shaders find the solids: six addresses.
+    pub addresses: Buffer,
+    /// Custom index of the first solid; the others follow.
+    pub first: u32,
+    /// How many there are.
+    pub count: u32,
+    /// Each solid, its clips, and the matrix from the world to its space.
+    inside: Vec<(Solid, Vec<Bound>, DAffine3)>,
+    _levels: Vec<AccelerationStructure>,
+    _buffers: Vec<Buffer>,
+}
+
+impl SolidsOnGpu {
+    /// `scene` is placed already, the solids are not.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        on_gpu: &SceneOnGpu,
+        solids: &[Placed],
+        placement: &Placement,
+        modifiers: &Modifiers,
+    ) -> Result<Self> {
+        let mut bounds: Vec<_> =
+            scene.instances.iter().map(|piece| scene.instance_bounds(piece)).collect();
+        let pieces = scene.instances.iter().enumerate();
+        let mut instances: Vec<_> = pieces
+            .map(|(index, piece)| instance(&piece.transform, index, 0, &on_gpu.blas[piece.mesh]))
+            .collect();
+        let first = instances.len();
+
+        let mut programs = Programs::new(modifiers.shared);
+        let (mut records, mut levels, mut inside) = (Vec::new(), Vec::new(), Vec::new());
+        for placed in solids {
+            let (solid, mut clips) = modifiers.of(&placed.solid, placed.clip);
+            let [first_part, part_count, first_step, step_count] =
+                programs.add(&solid, &|name| scenes::material(&scene.model, name));
+            // ANCHOR: clip
+            // What has no end is clipped by the largest box, as if the user had said so.
+            let (low, high) = solid.bounds()[1];
+            if low.min_element() <= -f64::from(REACH) || high.max_element() >= f64::from(REACH) {
+                clips.extend(block(Vec3::splat(-REACH), Vec3::splat(REACH)));
+            }
+            let clip = if clips.is_empty() { NO_CLIP } else { programs.add_part(&clips, 0) };
+            // ANCHOR_END: clip
+            let corners = box_around(low, high);
+            let input = Buffer::with_data(gpu, "solid", &corners, input_usage())?;
+            let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
+            let options = BuildOptions::default();
+            let level = AccelerationStructure::bottom(gpu, "solid", &[geometry], options)?;
+            let to_world = place(&placed.transform, placement);
+            instances.push(instance(&to_world, first + records.len(), 1, &level));
+            bounds.push(around(&to_world, corners));
+            let to_object = to_world_f64(&to_world).inverse();
+            let record = [first_part, part_count, first_step, step_count, clip];
+            records.push(SolidRecord::new(record, &to_object));
+            levels.push(level);
+            inside.push((solid, clips, to_object));
+        }
+        let ordered: Vec<_> =
+            order::kd_median(&bounds).iter().map(|&index| instances[index as usize]).collect();
+        let tlas = build_top(gpu, &ordered)?;
+
+        let list = |name, data: &[u8]| Buffer::with_data(gpu, name, filled(data), input_usage());
+        let buffers = [
+            list("planes", cast_slice(&programs.planes))?,
+            list("balls", cast_slice(&programs.balls))?,
+            list("faces", cast_slice(&programs.faces))?,
+            list("parts", cast_slice(&programs.parts))?,
+            list("steps", cast_slice(&programs.steps))?,
+            list("solid records", cast_slice(&records))?,
+        ];
+        let addresses: [Address; 6] = buffers.each_ref().map(|buffer| buffer.address.into());
+        Ok(Self {
+            tlas,
+            addresses: Buffer::with_data(gpu, "solids", &addresses, input_usage())?,
+            first: first as u32,
+            count: records.len() as u32,
+            inside,
+            _levels: levels,
+            _buffers: buffers.into(),
+        })
+    }
+
+    // ANCHOR: inside
+    /// Whether a point of the world lies in a solid that is closed all around. Out of an open one, light
+    /// comes without meeting a surface: that is left to the shaders.
+    pub fn enclose(&self, point: DVec3) -> bool {
+        self.inside.iter().any(|(solid, clips, to_object)| {
+            clips.is_empty() && solid.contains(to_object.transform_point3(point))
+        })
+    }
+    // ANCHOR_END: inside
+}
+
+// ANCHOR: box
+/// The box for a solid whose surface has these corners.
+///
+/// A hundredth larger than the solid: room for what the device's box test rounds, 4u of the way (chapter
+/// 08), for rays that come from as far as forty thousand times its size.
+fn box_around(low: DVec3, high: DVec3) -> [Vec3; 2] {
+    let margin = 0.01 * (high - low).max_element();
+    // Where a solid is empty, any box will do: its shader finds nothing.
+    match low.is_finite() && low.cmple(high).all() {
+        true => [(low - margin).as_vec3(), (high + margin).as_vec3()],
+        false => [Vec3::ZERO, Vec3::splat(1e-3)],
+    }
+}
+// ANCHOR_END: box
+
+/// A buffer cannot be empty.
+fn filled(data: &[u8]) -> &[u8] {
+    if data.is_empty() { &[0; 16] } else { data }
+}
+
+/// Where a placement of the scene puts what stands there.
+fn place(transform: &Affine3A, placement: &Placement) -> Affine3A {
+    let axis = |axis: glam::Vec3A| (axis.as_dvec3() * placement.size).as_vec3a();
+    let Affine3A { matrix3, translation } = *transform;
+    let moved = translation.as_dvec3() * placement.size + placement.moved;
+    Affine3A {
+        matrix3: Mat3A::from_cols(axis(matrix3.x_axis), axis(matrix3.y_axis), axis(matrix3.z_axis)),
+        translation: moved.as_vec3a(),
+    }
+}
+
+fn to_world_f64(transform: &Affine3A) -> DAffine3 {
+    DAffine3 {
+        matrix3: glam::Mat3::from(transform.matrix3).as_dmat3(),
+        translation: transform.translation.as_dvec3(),
+    }
+}
+
+/// The box in the world around a box.
+fn around(to_world: &Affine3A, [low, high]: [Vec3; 2]) -> order::Bounds {
+    let middle: Vec3 = to_world.transform_point3((low + high) * 0.5);
+    let matrix = to_world.matrix3;
+    let half = (high - low) * 0.5;
+    let reach =
+        matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
+    (middle - Vec3::from(reach), middle + Vec3::from(reach))
+}
+
+fn instance(
+    placement: &Affine3A,
+    custom_index: usize,
+    record: u32,
+    blas: &AccelerationStructure,
+) -> vk::AccelerationStructureInstanceKHR {
+    vk::AccelerationStructureInstanceKHR {
+        transform: transform(placement),
+        instance_custom_index_and_mask: vk::Packed24_8::new(custom_index as u32, 0xff),
+        instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(record, 0),
+        acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+            device_handle: blas.address,
+        },
+    }
+}

@@ -1,0 +1,256 @@
+// A solid along a ray: between which t each convex part holds it, and where what they make together
+// begins and ends.
+//
+// For shaders that have declared `push`, after common/plane.glsl.
+#include "common/sphere.glsl"
+
+// Beyond every t.
+const float NOWHERE = 3e38;
+
+// A point (w = 1) or a direction (w = 0) of the world in the solid's own space.
+vec3 in_space_of(SolidRecord solid, vec4 v) {
+    return vec3(dot(solid.to_object[0], v), dot(solid.to_object[1], v), dot(solid.to_object[2], v));
+}
+
+// ANCHOR: bounds
+// How far below a plane a point is, times |N|, and how fast a ray rises to it.
+float height_below(Plane plane, vec3 o) {
+    switch (PLANE_RUNG) {
+        case PLANE_POV: {
+            precise float height = plane.distance.x - dot(o, plane.normal);
+            return height;
+        }
+        case PLANE_COMPENSATED:
+            return dot_compensated(plane.distance, -o, plane.normal);
+        default: {
+            precise vec3 to_plane = plane.anchor - o;
+            precise float height = dot(to_plane, plane.normal) + plane.rest;
+            return height;
+        }
+    }
+}
+
+float slope_to(Plane plane, vec3 d) {
+    precise float slope = dot(d, plane.normal);
+    return PLANE_RUNG == PLANE_COMPENSATED ? dot_compensated(vec2(0.0), d, plane.normal) : slope;
+}
+
+// Whether a point is on the inner side. One on the plane itself is taken for a hair above it, as the
+// stored normal points: of two solids that touch there, it is in one.
+bool is_inner(Plane plane, float side, vec3 o) {
+    return side > 0.0 ? height_below(plane, o) > 0.0 : height_below(plane, o) <= 0.0;
+}
+
+// Between which t a ray is on the inner side of a plane. A parallel ray is there always or never.
+vec2 in_half_space(Plane plane, float side, vec3 o, vec3 d) {
+    float slope = slope_to(plane, d);
+    if (slope == 0.0) {
+        return is_inner(plane, side, o) ? vec2(-NOWHERE, NOWHERE) : vec2(NOWHERE, -NOWHERE);
+    }
+    precise float quotient = height_below(plane, o) / slope;
+    float t = clamp(quotient, -NOWHERE, NOWHERE);
+    return slope * side > 0.0 ? vec2(-NOWHERE, t) : vec2(t, NOWHERE);
+}
+
+// Between which t a ray is in a ball.
+vec2 in_ball(Ball ball, vec3 o, vec3 d) {
+    precise vec3 f = o - ball.center;
+    vec2 t;
+    return sphere_stable(f, d, ball.radius, t) ? t : vec2(NOWHERE, -NOWHERE);
+}
+// ANCHOR_END: bounds
+
+// ANCHOR: interval
+// Between which t a ray is in a convex part, and through which faces it comes and goes.
+struct Interval {
+    float enter;
+    float leave;
+    uint enter_face;
+    uint leave_face;
+};
+
+// In all of the part's bounds: in from the last that is entered to the first that is left.
+Interval in_part(Part part, vec3 o, vec3 d) {
+    Interval inside = Interval(-NOWHERE, NOWHERE, 0, 0);
+    for (uint i = part.first_face; i < part.first_face + part.face_count; i++) {
+        Face face = push.world.solids.faces.at[i];
+        vec2 t;
+        if (face.kind == FACE_BALL) {
+            t = in_ball(push.world.solids.balls.at[face.index], o, d);
+        } else {
+            t = in_half_space(push.world.solids.planes.at[face.index], face.side, o, d);
+        }
+        if (t.x > inside.enter) {
+            inside.enter = t.x;
+            inside.enter_face = i;
+        }
+        if (t.y < inside.leave) {
+            inside.leave = t.y;
+            inside.leave_face = i;
+        }
+    }
+    return inside;
+}
+// ANCHOR_END: interval
+
+// ANCHOR: holds
+// Whether the solid holds a point that lies in these of its parts: bit i is part i. The program is in
+// postfix order, its stack are the bits of a number.
+bool holds(SolidRecord solid, uint members) {
+    uint stack = 0;
+    for (uint i = solid.first_step; i < solid.first_step + solid.step_count; i++) {
+        uint step = push.world.solids.steps.at[i];
+        if (step < STEP_UNION) {
+            stack = stack << 1 | (members >> step & 1);
+        } else if (step == STEP_INVERSE) {
+            stack ^= 1;
+        } else {
+            uint second = stack & 1;
+            stack >>= 1;
+            stack = step == STEP_UNION        ? stack | second
+                  : step == STEP_INTERSECTION ? stack & (second | ~1u)
+                                              : stack & ~second;
+        }
+    }
+    return (stack & 1) != 0;
+}
+// ANCHOR_END: holds
+
+// ANCHOR: contains
+// Whether a solid holds a point: the same program, asked about a point.
+bool contains(SolidRecord solid, vec3 point) {
+    uint members = 0;
+    bool kept = true;
+    for (uint i = 0; i <= solid.part_count; i++) {
+        bool is_clip = i == solid.part_count;
+        if (is_clip && solid.clip == NO_CLIP) {
+            break;
+        }
+        Part part = push.world.solids.parts.at[is_clip ? solid.clip : solid.first_part + i];
+        bool within = true;
+        for (uint j = part.first_face; j < part.first_face + part.face_count && within; j++) {
+            Face face = push.world.solids.faces.at[j];
+            if (face.kind == FACE_BALL) {
+                Ball ball = push.world.solids.balls.at[face.index];
+                within = distance(point, ball.center) < ball.radius;
+            } else {
+                within = is_inner(push.world.solids.planes.at[face.index], face.side, point);
+            }
+        }
+        if (is_clip) {
+            kept = within;
+        } else if (within) {
+            members |= 1u << i;
+        }
+    }
+    return kept && holds(solid, members);
+}
+// ANCHOR_END: contains
+
+// ANCHOR: line
+// A solid's parts along a ray: who is in from where to where. Parts that the ray never is in say nothing.
+Interval intervals[MAX_PARTS];
+uint parts[MAX_PARTS];
+uint interval_count;
+
+void follow(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax) {
+    interval_count = 0;
+    for (uint i = 0; i < solid.part_count; i++) {
+        Interval interval = in_part(push.world.solids.parts.at[solid.first_part + i], o, d);
+        if (interval.enter < interval.leave && interval.leave > tmin && interval.enter <= tmax) {
+            intervals[interval_count] = interval;
+            parts[interval_count++] = i;
+        }
+    }
+}
+
+// The next t at which a part is entered or left.
+float change_after(float t) {
+    float next = NOWHERE;
+    for (uint i = 0; i < interval_count; i++) {
+        next = intervals[i].enter > t ? min(next, intervals[i].enter) : next;
+        next = intervals[i].leave > t ? min(next, intervals[i].leave) : next;
+    }
+    return next;
+}
+
+// In which parts the ray is just before t, and just after.
+uint members_before(float t) {
+    uint members = 0;
+    for (uint i = 0; i < interval_count; i++) {
+        members |= intervals[i].enter < t && t <= intervals[i].leave ? 1u << parts[i] : 0u;
+    }
+    return members;
+}
+
+uint members_after(float t) {
+    uint members = 0;
+    for (uint i = 0; i < interval_count; i++) {
+        members |= intervals[i].enter <= t && t < intervals[i].leave ? 1u << parts[i] : 0u;
+    }
+    return members;
+}
+
+// Between which t the solid's clip leaves it.
+Interval in_clip(SolidRecord solid, vec3 o, vec3 d) {
+    return solid.clip == NO_CLIP
+        ? Interval(-NOWHERE, NOWHERE, 0, 0)
+        : in_part(push.world.solids.parts.at[solid.clip], o, d);
+}
+// ANCHOR_END: line
+
+// Where a ray goes through a solid's surface.
+struct Crossing {
+    float t;
+    uint part;
+    uint face;
+    bool enters;
+};
+
+// ANCHOR: crossing
+// The first t after tmin where the ray comes into the solid or leaves it.
+bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, out Crossing found) {
+    follow(solid, o, d, tmin, tmax);
+    Interval clip = in_clip(solid, o, d);
+    for (float t = change_after(tmin); t <= tmax && t < NOWHERE; t = change_after(t)) {
+        // All that happens at one t happens at once: what counts is just before and just after.
+        uint before = members_before(t);
+        uint after = members_after(t);
+        bool was_in = holds(solid, before);
+        if (was_in == holds(solid, after) || t < clip.enter || t > clip.leave) {
+            continue;
+        }
+        // Back from after to before, one part at a time: the first that undoes the change has the face.
+        // Where a cutter only touches, that is what is cut, not the cutter.
+        uint members = after;
+        for (uint i = 0; i < interval_count; i++) {
+            uint part = 1u << parts[i];
+            members ^= (before ^ after) & part;
+            if (holds(solid, members) == was_in) {
+                bool comes = (after & part) != 0;
+                uint face = comes ? intervals[i].enter_face : intervals[i].leave_face;
+                found = Crossing(t, parts[i], face, !was_in);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+// ANCHOR_END: crossing
+
+// ANCHOR: way
+// What part of the way from 0 to `end` lies in a solid, and within its clip.
+float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
+    Interval clip = in_clip(solid, o, d);
+    float t = max(clip.enter, 0.0);
+    end = min(clip.leave, end);
+    follow(solid, o, d, t, end);
+    float way = 0.0;
+    while (t < end) {
+        float next = min(change_after(t), end);
+        way += holds(solid, members_after(t)) ? next - t : 0.0;
+        t = next;
+    }
+    return way;
+}
+// ANCHOR_END: way
