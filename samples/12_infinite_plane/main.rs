@@ -3,26 +3,24 @@
 //! New since 06_reflection: a plane that bounds each ray, the miss shader of rays that reach it, four
 //! ways to intersect it, a checker board without aliasing, two lights at once, and three scenes.
 
-mod board;
-mod plane;
 mod scenes;
 
 use std::process::ExitCode;
 
 use anyhow::Result;
 use ash::vk;
-use board::Board;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     ShaderBindingTable, ShaderStruct,
 };
+use common::scene::board::Board;
+use common::scene::plane::{HalfSpace, Plane};
 use common::scene::{
     Camera, CameraBasis, Light, Placement, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
     input_usage,
 };
 use common::{Controls, Frame, Sample, Setup};
 use glam::{DVec3, Vec3};
-use plane::{HalfSpace, Plane};
 use scenes::Preset;
 
 fn main() -> ExitCode {

@@ -1,11 +1,10 @@
 //! The scenes of this chapter: what stands on the plane, above it and in it.
 
 use anyhow::Result;
+use common::scene::board::Board;
+use common::scene::plane::HalfSpace;
 use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3, Vec3Swizzles};
-
-use crate::board::Board;
-use crate::plane::HalfSpace;
 
 /// The names of the presets, in the order of their numbers.
 pub const PRESETS: [&str; 3] = ["board", "four spheres", "pov"];

@@ -3,21 +3,20 @@
 //! New since 12_infinite_plane: a height for every (x, z), four ways to march a ray to it, a box in the
 //! top level with pieces that stand on the ground, views of steps and errors, and four scenes.
 
-mod board;
 mod ground;
 mod land;
-mod plane;
 mod scenes;
 
 use std::process::ExitCode;
 
 use anyhow::Result;
 use ash::vk;
-use board::Board;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     ShaderBindingTable, ShaderStruct,
 };
+use common::scene::board::Board;
+use common::scene::plane::{HalfSpace, Plane};
 use common::scene::{
     Camera, CameraBasis, Light, Placement, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
     input_usage,
@@ -26,7 +25,6 @@ use common::{Controls, Frame, Sample, Setup};
 use glam::{DVec3, Vec3};
 use ground::{Ground, HeightfieldShape, Landscape};
 use land::Land;
-use plane::{HalfSpace, Plane};
 use scenes::Preset;
 
 fn main() -> ExitCode {

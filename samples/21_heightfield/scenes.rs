@@ -1,12 +1,12 @@
 //! The scenes of this chapter: one landscape, as steep as you like, and where it is looked at from.
 
 use anyhow::Result;
+use common::scene::board::Board;
+use common::scene::plane::HalfSpace;
 use common::scene::{Camera, Instance, Material, PointLight, Scene, Sun};
 use glam::{DVec3, Vec3, Vec3A};
 
-use crate::board::Board;
 use crate::ground::{Landscape, MIDDLE};
-use crate::plane::HalfSpace;
 
 /// The names of the presets, in the order of their numbers.
 pub const PRESETS: [&str; 5] = ["hills", "from above", "near ground", "steep", "flat"];

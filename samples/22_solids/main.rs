@@ -3,11 +3,9 @@
 //! New since 12_infinite_plane: solids by an intersection shader, union, intersection, difference and
 //! inverse, a clip that cuts open, fog that fills what is outside, and seven scenes.
 
-mod board;
 mod fog;
 mod modifiers;
 mod pieces;
-mod plane;
 mod program;
 mod scenes;
 mod shapes;
@@ -18,11 +16,12 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use ash::vk;
-use board::Board;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     ShaderBindingTable, ShaderStruct,
 };
+use common::scene::board::Board;
+use common::scene::plane::{HalfSpace, Plane};
 use common::scene::{
     Camera, CameraBasis, Light, Placement, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
     input_usage,
@@ -31,7 +30,6 @@ use common::{Controls, Frame, Sample, Setup};
 use fog::Fog;
 use glam::{DVec3, Vec3};
 use modifiers::Modifiers;
-use plane::{HalfSpace, Plane};
 use program::{Face, Part};
 use scenes::Preset;
 use solid::Ball;

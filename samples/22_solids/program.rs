@@ -1,8 +1,8 @@
 //! Solids as shaders get them: lists of planes, balls, faces and parts, and a program for each solid.
 
+use common::scene::plane::Plane;
 use glam::{DVec3, Vec3};
 
-use super::plane::Plane;
 use super::solid::{Ball, Bound, Solid, half_space};
 
 common::shader_struct! {

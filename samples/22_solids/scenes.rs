@@ -1,13 +1,13 @@
 //! The scenes of this chapter: solids on the board, among a few pieces or alone.
 
 use anyhow::Result;
+use common::scene::board::Board;
+use common::scene::plane::HalfSpace;
 use common::scene::{Camera, Instance, Material, Model, PointLight, Scene, Sun};
 use glam::{Affine3A, DVec3, Mat3A, Quat, Vec3};
 
-use crate::board::Board;
 use crate::fog::Fog;
 use crate::modifiers::Modifiers;
-use crate::plane::HalfSpace;
 use crate::shapes;
 use crate::solid::{Bound, Solid, plane};
 

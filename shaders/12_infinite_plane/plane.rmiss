@@ -6,7 +6,7 @@
 #include "push.glsl"
 #include "common/start.glsl"
 #include "lighting.glsl"
-#include "board.glsl"
+#include "common/board.glsl"
 
 // ANCHOR: main
 // From the plane a ray needs no care: it is not tested against the plane again, and what stands there

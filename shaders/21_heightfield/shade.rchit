@@ -8,7 +8,7 @@
 #include "common/offset.glsl"
 #include "common/origin.glsl"
 #include "lighting.glsl"
-#include "board.glsl"
+#include "common/board.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 

@@ -6,7 +6,7 @@
 #include "push.glsl"
 #include "common/start.glsl"
 #include "lighting.glsl"
-#include "board.glsl"
+#include "common/board.glsl"
 
 // Above the ground or below it: where a ray comes from.
 float side;

@@ -7,7 +7,7 @@
 #include "common/offset.glsl"
 #include "common/start.glsl"
 #include "lighting.glsl"
-#include "board.glsl"
+#include "common/board.glsl"
 
 // The part and the face that the ray goes through.
 hitAttributeEXT uvec2 crossed;

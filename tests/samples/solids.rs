@@ -18,9 +18,6 @@ use crate::run::{bits, golden, render};
 #[path = "../../samples/22_solids/pieces.rs"]
 mod pieces;
 #[allow(dead_code)]
-#[path = "../../samples/22_solids/plane.rs"]
-mod plane;
-#[allow(dead_code)]
 #[path = "../../samples/22_solids/program.rs"]
 mod program;
 #[allow(dead_code)]

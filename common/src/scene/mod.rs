@@ -1,5 +1,6 @@
 //! What is rendered: camera, lights, meshes and materials from OBJ files, the chess world, its upload.
 
+pub mod board;
 mod camera;
 mod chess;
 mod light;
@@ -8,6 +9,7 @@ mod mesh;
 pub mod obj;
 mod obj_check;
 mod placement;
+pub mod plane;
 mod records;
 mod text;
 mod texture;

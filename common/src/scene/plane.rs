@@ -1,7 +1,8 @@
 //! The plane on the host: in f64, and prepared for the shaders.
 
-use common::scene::Placement;
 use glam::{DVec3, Vec2, Vec3};
+
+use super::Placement;
 
 /// A half-space: its surface is the plane, and its normal points out of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +24,7 @@ pub const NORMAL_AND_DISTANCE: u32 = 0;
 /// A point of the plane, and its normal.
 pub const POINT_AND_NORMAL: u32 = 1;
 
-common::shader_struct! {
+crate::shader_struct! {
     /// The plane as shaders get it (`shaders/common/plane.glsl`).
     pub struct Plane {
         /// N, pointing to the outside.

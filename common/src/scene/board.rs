@@ -1,11 +1,11 @@
 //! What lies on the plane: a board of squares, or one colour.
 
-use common::scene::Placement;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::plane::{HalfSpace, Plane};
+use super::Placement;
+use super::plane::{HalfSpace, Plane};
 
-common::shader_struct! {
+crate::shader_struct! {
     /// The board as shaders get it.
     pub struct Board {
         /// Colour of the light squares, linear RGB.
