@@ -84,7 +84,10 @@ struct RawExpect {
 /// One line with file, line and what is wrong.
 pub fn read(path: &Path) -> Result<Vec<Case>> {
     let shown = path.display();
-    let size = std::fs::metadata(path).with_context(|| format!("cannot read '{shown}'"))?.len();
+    let metadata = std::fs::metadata(path).with_context(|| format!("cannot read '{shown}'"))?;
+    // A pipe might never end.
+    ensure!(metadata.is_file(), "cannot read '{shown}': it is no file");
+    let size = metadata.len();
     ensure!(size <= LARGEST_FILE, "'{shown}' has {size} bytes; at most {LARGEST_FILE} are read");
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read '{shown}'"))?;
     parse(&text, &shown.to_string())
@@ -126,11 +129,10 @@ fn case(value: Value) -> Result<Case> {
         None => Ray { origin: Vec3::ZERO, direction: Vec3::Y, tmin: 0.0, tmax: 1e30 },
     };
     let expected = expected(shape.primitive(), &raw.expect)?;
-    for tolerance in raw.tol.all() {
-        ensure!(
-            tolerance.is_none_or(|x| x >= 0.0 && x.is_finite()),
-            "a tolerance is {tolerance:?}"
-        );
+    let is_self = matches!(shape, Shape::Leaving(Leaving { gap: None, .. }));
+    ensure!(!is_self || expected.surface.is_some(), "no t is expected of the point that it leaves");
+    for x in raw.tol.all().into_iter().flatten() {
+        ensure!(x >= 0.0 && x.is_finite(), "a tolerance is {x}");
     }
     Ok(Case {
         id: raw.id,
@@ -272,8 +274,9 @@ fn shape(primitive: &str, value: Value) -> Result<Shape> {
 }
 
 fn radius(value: f64) -> Result<f32> {
-    ensure!(value > 0.0, "the radius {value} is not above 0");
-    number(value)
+    let single = number(value)?;
+    ensure!(single > 0.0, "the radius {value} is not above 0");
+    Ok(single)
 }
 
 fn direction(value: [f64; 3]) -> Result<Vec3> {
@@ -355,15 +358,24 @@ fn sum(value: Value) -> Result<Shape> {
     let pattern = match (raw.pattern.as_str(), raw.spike, raw.every, raw.head) {
         ("constant", None, None, None) => Pattern::Constant,
         ("firefly", Some(spike), Some(every @ 1..=LONGEST_SUM), None) => {
-            Pattern::Firefly { spike: number(spike)?, every }
+            Pattern::Firefly { spike: sample(spike)?, every }
         }
-        ("head", None, None, Some(head)) => Pattern::Head(number(head)?),
+        ("firefly", Some(_), Some(every), None) => {
+            bail!("every is {every}, not 1 to {LONGEST_SUM}")
+        }
+        ("head", None, None, Some(head)) => Pattern::Head(sample(head)?),
         ("constant" | "firefly" | "head", ..) => {
             bail!("the pattern '{}' takes other fields", raw.pattern)
         }
         (other, ..) => bail!("unknown pattern '{other}'"),
     };
-    Ok(Shape::Sum(Sum { value: number(raw.value)?, n: raw.n, pattern }))
+    Ok(Shape::Sum(Sum { value: sample(raw.value)?, n: raw.n, pattern }))
+}
+
+/// Light: never below 0, which is what a sum in fixed point counts on.
+fn sample(value: f64) -> Result<f32> {
+    ensure!(value >= 0.0, "the sample {value} is below 0");
+    number(value)
 }
 
 fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {

@@ -116,7 +116,10 @@ pub fn judge(
         check("t in ULP", ulp, tolerance.t_ulp);
         check("t", off, tolerance.t_abs);
         check("t of the second ray", off, tolerance.secondary_t_abs);
-        let relative = off.zip(expected.t).map(|(off, exact)| off / exact.abs());
+        let relative = off.zip(expected.t).map(|(off, exact)| match exact {
+            0.0 => off,
+            exact => off / exact.abs(),
+        });
         check("the mean", relative, tolerance.mean_rel);
         let normal = expected.normal.map(|normal| largest(answer.normal, normal));
         check("the normal", normal, tolerance.normal_abs);

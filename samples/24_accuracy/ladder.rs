@@ -76,6 +76,24 @@ pub enum Code {
     Device,
 }
 
+impl Code {
+    /// Why this device cannot run it; `None` if it can.
+    pub fn unavailable(self, gpu: &Gpu) -> Option<String> {
+        let limits = &gpu.limits;
+        let lacks = |what: &str| Some(format!("{} does not offer {what}", gpu.name));
+        match self {
+            Self::Exact | Self::Float64 if !limits.rounding_to_nearest_even => {
+                lacks("shaderRoundingModeRTEFloat32")
+            }
+            Self::Exact | Self::Float64 if !limits.signed_zero_inf_nan => {
+                lacks("shaderSignedZeroInfNanPreserveFloat32")
+            }
+            Self::Float64 if !limits.float64 => lacks("shaderFloat64"),
+            _ => None,
+        }
+    }
+}
+
 /// One way to answer.
 #[derive(Debug)]
 pub struct Rung {
@@ -93,18 +111,7 @@ pub struct Rung {
 impl Rung {
     /// Why this device does not have the rung; `None` if it does.
     pub fn unavailable(&self, gpu: &Gpu) -> Option<String> {
-        let limits = &gpu.limits;
-        let lacks = |what: &str| Some(format!("{} does not offer {what}", gpu.name));
-        match self.code {
-            Code::Exact | Code::Float64 if !limits.rounding_to_nearest_even => {
-                lacks("shaderRoundingModeRTEFloat32")
-            }
-            Code::Exact | Code::Float64 if !limits.signed_zero_inf_nan => {
-                lacks("shaderSignedZeroInfNanPreserveFloat32")
-            }
-            Code::Float64 if !limits.float64 => lacks("shaderFloat64"),
-            _ => None,
-        }
+        self.code.unavailable(gpu)
     }
 }
 

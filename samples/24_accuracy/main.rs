@@ -22,7 +22,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use common::app::{self, Args, check_validation};
-use common::files::write_whole;
+use common::files::{self, write_whole};
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, GpuOptions, RayTracingPipeline, Requirements,
     ShaderBindingTable,
@@ -151,6 +151,10 @@ impl Demo {
         let rung = self.rung()?;
         let top =
             primitive.ladder().iter().find(|rung| rung.is_top).context("every ladder has a top")?;
+        // The picture's shaders declare what two-floats need, whichever rung they show.
+        if let Some(why) = Code::Exact.unavailable(gpu) {
+            bail!("the picture is not available: {why}");
+        }
         for needed in [rung, top] {
             if let Some(why) = needed.unavailable(gpu) {
                 bail!("rung {} {} is not available: {why}", needed.label, needed.name);
@@ -191,15 +195,15 @@ struct Lab {
     measure: Option<PathBuf>,
 
     /// With --measure: only this primitive; repeatable
-    #[arg(long, value_name = "NAME", value_parser = primitive)]
+    #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
     only: Vec<Primitive>,
 
     /// With --measure: rays of each family
-    #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value = "10000", requires = "measure", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     rays: u32,
 
     /// With --measure: rounds of timing; 0 measures errors alone
-    #[arg(long, value_name = "N", default_value = "30", value_parser = clap::value_parser!(u32).range(..=1000))]
+    #[arg(long, value_name = "N", default_value = "30", requires = "measure", value_parser = clap::value_parser!(u32).range(..=1000))]
     rounds: u32,
 }
 
@@ -207,6 +211,15 @@ fn primitive(name: &str) -> Result<Primitive, String> {
     let found = Primitive::ALL.into_iter().find(|primitive| primitive.name() == name);
     let names = Primitive::ALL.map(Primitive::name).join(", ");
     found.ok_or_else(|| format!("there is {names}"))
+}
+
+/// Makes the folder, and finds out whether all files can be written, before a minute's work.
+fn prepare(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
+    ["json", "md", "svg", "png"]
+        .iter()
+        .try_for_each(|kind| files::check_writable(&folder.join("accuracy").with_extension(kind)))
 }
 
 impl Lab {
@@ -219,10 +232,28 @@ impl Lab {
             let line = "--cases and --measure take no controls, and list no devices";
             return Err(Usage(line.to_owned()).into());
         }
-        if args.out.is_some() {
-            return Err(Usage("--cases and --measure make no picture for --out".to_owned()).into());
+        if args.out.is_some() || args.frames_given {
+            let line = "--cases and --measure make no picture for --out or --frames";
+            return Err(Usage(line.to_owned()).into());
+        }
+        if args.scene.is_some() {
+            let line = "--cases and --measure bring their own shapes and take no --scene";
+            return Err(Usage(line.to_owned()).into());
+        }
+        if self.measure.is_some() && args.report.is_some() {
+            let line = "--measure writes its report to the folder and takes no --report";
+            return Err(Usage(line.to_owned()).into());
+        }
+        if let (Some(cases), Some(report)) = (&self.cases, &args.report)
+            && files::same(cases, report)
+        {
+            let line = format!("--cases and --report both name '{}'", report.display());
+            return Err(Usage(line).into());
         }
         app::check_files(args)?;
+        if let Some(folder) = &self.measure {
+            prepare(folder)?;
+        }
         let gpu = Gpu::new(&GpuOptions {
             requirements: Demo::requirements(),
             device: args.device.as_deref(),
@@ -241,8 +272,6 @@ impl Lab {
     }
 
     fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
         let measured = measure::measure(gpu, &self.only, self.rays as usize, self.rounds)?;
         let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
         save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;

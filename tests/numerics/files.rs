@@ -67,6 +67,44 @@ fn a_wrong_answer_fails_and_is_named() {
     assert!(line.contains("my sphere S4 direct: Inexact t in ULP is off by"), "{line}");
 }
 
+fn edit(case: &Value, key: &str, value: Value) -> Value {
+    let mut edited = case.clone();
+    edited[key] = value;
+    edited
+}
+
+#[test]
+fn a_mean_of_zero_is_right() {
+    let shape = json!({"pattern": "constant", "value": 0, "n": 3});
+    let expect = json!({"mean": "0"});
+    let zero = json!({"id": "dark", "primitive": "accumulation", "family": "mine", "shape": shape,
+        "expect": expect, "tol": {"mean_rel": 1e-6}});
+    let report = with_file(&file(&[zero]).to_string(), cases);
+    let answers = report["answers"].as_array().unwrap();
+    assert!(answers.iter().all(|answer| answer["verdict"] == "right"), "{answers:?}");
+}
+
+#[test]
+fn the_report_does_not_take_the_place_of_the_cases() {
+    with_file(&file(&[sphere()]).to_string(), |path| {
+        let before = std::fs::read(path).unwrap();
+        let (code, line) = run::refusal(laboratory(&["--cases", path, "--report", path]));
+        assert!(code == 2 && line.contains("--cases and --report both name"), "{line}");
+        assert_eq!(std::fs::read(path).unwrap(), before);
+    });
+}
+
+#[test]
+fn a_folder_that_cannot_take_the_files_is_refused_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("accuracy.png")).unwrap();
+    let place = folder.path().to_str().unwrap();
+    let arguments = ["--measure", place, "--only", "plane", "--rays", "1", "--rounds", "0"];
+    let (code, line) = run::refusal(laboratory(&arguments));
+    assert!(code == 1 && line.contains("accuracy.png': it is a folder"), "{line}");
+    assert!(!folder.path().join("accuracy.json").exists());
+}
+
 #[test]
 fn what_the_schema_does_not_know_is_refused() {
     let edited = |edit: &dyn Fn(&mut Value)| {
@@ -76,7 +114,14 @@ fn what_the_schema_does_not_know_is_refused() {
     };
     let sum = json!({"id": "sum", "primitive": "accumulation", "family": "mine", "shape": {
         "pattern": "zigzag", "value": 1, "n": 3}, "expect": {"mean": "1"}, "tol": {}});
-    let checks: [(&str, String); 14] = [
+    let dark = edit(&sum, "shape", json!({"pattern": "constant", "value": -1, "n": 3}));
+    let never = json!({"pattern": "firefly", "value": 1, "n": 3, "spike": 2, "every": 0});
+    let never = edit(&sum, "shape", never);
+    let leaving = json!({
+        "kind": "self", "center": [0, 0, 0], "radius": 1, "secondary_dir": [0, 0, 1]});
+    let nowhere = case("secondary_origin", leaving, json!({"secondary_hit": "no"}));
+    let nowhere = edit(&nowhere, "tol", json!({"offset_max": 1}));
+    let checks: [(&str, String); 19] = [
         ("the schema is 'rt-hard-cases/3'", edited(&|v| v["schema"] = "rt-hard-cases/3".into())),
         ("there are no cases", edited(&|v| v["cases"] = json!([]))),
         ("unknown primitive 'torus'", edited(&|v| v["cases"][0]["primitive"] = "torus".into())),
@@ -92,6 +137,11 @@ fn what_the_schema_does_not_know_is_refused() {
             "the radius -1 is not above 0",
             edited(&|v| v["cases"][0]["shape"]["radius"] = (-1).into()),
         ),
+        (" is not above 0", edited(&|v| v["cases"][0]["shape"]["radius"] = 1e-60.into())),
+        ("a tolerance is -1", edited(&|v| v["cases"][0]["tol"]["t_ulp"] = (-1).into())),
+        ("the sample -1 is below 0", edited(&|v| v["cases"][0] = dark.clone())),
+        ("every is 0, not 1 to", edited(&|v| v["cases"][0] = never.clone())),
+        ("no t is expected of the point", edited(&|v| v["cases"][0] = nowhere.clone())),
         ("the id is taken", edited(&|v| v["cases"] = json!([sphere(), sphere()]))),
         ("unknown pattern 'zigzag'", edited(&|v| v["cases"][0] = sum.clone())),
     ];
@@ -117,6 +167,14 @@ fn odd_command_lines_are_refused() {
     assert!(code == 2 && line.contains("there is sphere, box, plane"), "{line}");
     let (code, line) = refused(&["--cases", "a.json", "--set", "rung=stable"]);
     assert!(code == 2 && line.contains("take no controls"), "{line}");
+    for alone in [["--only", "plane"], ["--rays", "5"], ["--rounds", "5"]] {
+        let (code, line) = refused(&alone);
+        assert!(code == 2 && line.contains("--measure"), "{line}");
+    }
+    let (code, line) = refused(&["--measure", "b", "--report", "r.json"]);
+    assert!(code == 2 && line.contains("takes no --report"), "{line}");
+    let (code, line) = refused(&["--cases", "a.json", "--scene", "a.obj"]);
+    assert!(code == 2 && line.contains("take no --scene"), "{line}");
     let (code, line) = refused(&["--cases", "a.json", "--out", "a.png"]);
     assert!(code == 2 && line.contains("make no picture"), "{line}");
 }
