@@ -19,7 +19,7 @@ void main() {
     uint first = query.first + 11;
     query.origin = point;
     query.direction = vec3(push.numbers.at[first], push.numbers.at[first + 1], push.numbers.at[first + 2]);
-    query.tmin = RUNG == ORIGIN_TMIN ? 1e-4 : 0.0;
+    query.tmin = RUNG == ORIGIN_TMIN ? 1e-4 / length(query.direction) : 0.0;
     query.tmax = 1e30;
 #endif
     push.answers.at[i].offered = 0;
@@ -30,7 +30,7 @@ void main() {
         0xff,                // cull mask: every instance
         0,                   // sbtRecordOffset
         0,                   // sbtRecordStride: one record for all
-        0,                   // missIndex: miss.rmiss
+        0,                   // missIndex: nothing.rmiss
         query.origin,
         query.tmin,
         query.direction,
