@@ -315,6 +315,7 @@ fn triangles(count: usize) -> Vec<Family> {
         }),
         aimed("triangles at corners", |_| [1.0, 0.0, 0.0]),
         far_ball(count),
+        far_plane(count),
     ]
 }
 
@@ -328,6 +329,43 @@ fn far_ball(count: usize) -> Family {
         let origin = f32s(center + random.unit() * 6.0);
         (0, origin, f32s(center + random.in_cube()) - origin)
     })
+}
+
+/// A plane of triangles as far away, seen from 3 in front of its middle at a slant: after the other half of
+/// Embree's WatertightTest.
+fn far_plane(count: usize) -> Family {
+    const CELLS: usize = 16;
+    const AT: f64 = 148_376.0;
+    let corner = |i: usize, j: usize| {
+        let along = |i: usize| 12.0 * i as f64 / CELLS as f64 - 6.0;
+        // Not quite flat, or no plane could tell the edges apart.
+        let bump = ((5 * i + 3 * j) % 7) as f64 / 64.0;
+        DVec3::new(AT + bump, along(i), along(j)).as_vec3()
+    };
+    let quad = |cell: usize| {
+        let (i, j) = (cell / CELLS, cell % CELLS);
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let mesh: Vec<_> = (0..CELLS * CELLS).flat_map(quad).collect();
+    // Its border is the end of the plane: beyond, a miss is right.
+    let is_inside = |triangle: &&[Vec3; 3]| {
+        triangle.iter().all(|corner| corner.y.abs().max(corner.z.abs()) < 6.0)
+    };
+    let inner: Vec<[Vec3; 3]> = mesh.iter().filter(is_inside).copied().collect();
+    Family::new(
+        "triangles of a far plane",
+        vec![Shape::Triangles(mesh)],
+        count,
+        &mut |random, number| {
+            // At an edge or a corner, as well as rounding allows.
+            let triangle = inner[random.below(inner.len())];
+            let share = if number % 2 == 0 { random.between(0.0, 1.0) } else { 0.0 };
+            let target = triangle[0].as_dvec3().lerp(triangle[1].as_dvec3(), share);
+            let origin = DVec3::new(AT - 3.0, 0.0, 0.0);
+            (0, origin, f32s(target) - origin)
+        },
+    )
 }
 
 fn capsules(count: usize) -> Vec<Family> {
