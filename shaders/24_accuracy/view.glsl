@@ -28,7 +28,7 @@ const uint SHOW_ERROR = 2;
 // Black to one unit in the last place; then blue, green and yellow to red, a colour for every factor of
 // about 30. Magenta for a hit that is none, cyan for a miss that is none.
 const vec3 HEAT[6] = vec3[](
-    vec3(0.02), vec3(0.05, 0.15, 0.5), vec3(0.0, 0.4, 0.35), vec3(0.75, 0.7, 0.1), vec3(0.9, 0.3, 0.02), vec3(0.6, 0.0, 0.0)
+    vec3(0.02), vec3(0.05, 0.15, 0.5), vec3(0.03, 0.38, 0.06), vec3(0.75, 0.7, 0.1), vec3(0.9, 0.3, 0.02), vec3(0.6, 0.0, 0.0)
 );
 
 vec3 heat(Answer answer, Answer truth) {
