@@ -16,9 +16,12 @@ use crate::ladder::Primitive;
 use crate::probe::Ray;
 use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
 
+/// Every shape stands in one top level: where many overlap, each ray is offered to all of them.
+const MOST_CASES: usize = 2048;
+
 const SCHEMA: &str = "rt-hard-cases/2";
 /// A loop in a shader that runs for longer may be taken for a hang.
-const LONGEST_SUM: u32 = 1 << 24;
+const LONGEST_SUM: u32 = 1 << 22;
 const LARGEST_FILE: u64 = 64 << 20;
 
 /// One case, ready to be asked.
@@ -98,6 +101,8 @@ fn parse(text: &str, path: &str) -> Result<Vec<Case>> {
         .map_err(|error| anyhow::anyhow!("{path}:{}: {error}", error.line()))?;
     ensure!(file.schema == SCHEMA, "{path}: the schema is '{}', not '{SCHEMA}'", file.schema);
     ensure!(!file.cases.is_empty(), "{path}: there are no cases");
+    let count = file.cases.len();
+    ensure!(count <= MOST_CASES, "{path}: {count} cases are too many; {MOST_CASES} are the limit");
     let mut cases: Vec<Case> = Vec::new();
     for (number, value) in file.cases.into_iter().enumerate() {
         let id = value["id"].as_str().map_or_else(|| format!("number {number}"), str::to_owned);

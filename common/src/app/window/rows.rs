@@ -16,6 +16,11 @@ const NUMBER: f32 = 54.0;
 /// The width of a row beside its name.
 const WIDGETS: f32 = 186.0;
 
+/// A slider over more than this is logarithmic: else all that is useful lies at its end.
+const WIDE: f32 = 5000.0;
+/// Nearer to 0 than this, a logarithmic slider is at 0.
+const SMALLEST: f64 = 1e-3;
+
 /// Shows each control as a row and moves the camera; used inside a grid of two columns.
 pub struct Rows<'a> {
     /// Where the rows go.
@@ -96,13 +101,17 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
         Value::Slider(number, range) => {
             let before = *number;
             let decimals = decimals(before, range.end() - range.start());
-            let slider = Slider::new(number, range).fixed_decimals(decimals);
+            let wide = range.end() - range.start() > WIDE;
+            let slider = Slider::new(number, range).logarithmic(wide).smallest_positive(SMALLEST);
+            let slider = slider.fixed_decimals(decimals);
             name_it(&ui.add(shown_as_is(slider)), name);
             *number != before
         }
         Value::Integer(number, range) => {
             let before = *number;
-            name_it(&ui.add(shown_as_is(Slider::new(number, range))), name);
+            let wide = (range.end() - range.start()) as f32 > WIDE;
+            let slider = Slider::new(number, range).logarithmic(wide);
+            name_it(&ui.add(shown_as_is(slider)), name);
             *number != before
         }
         Value::Checkbox(on) => {
