@@ -2,7 +2,7 @@
 //!
 //! - [`app`]: a program: arguments, controls, window, headless run, picture, report
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
-//! - [`scene`]: camera, light, mesh, material, OBJ files, the chess world, its upload
+//! - [`scene`]: camera, light, mesh, material, OBJ and scene files, effects, chess, upload
 //! - [`reference`]: the same intersections on the CPU, in f64 and exact: what the GPU is held to
 //! - [`files`], [`usage`]: files written whole; the error that means "wrong arguments"
 //!

@@ -141,7 +141,7 @@ fn list(project: &Project, json: bool) -> Result<String> {
     };
     let (names, titles) = (width(|chapter| &chapter.name), width(|chapter| &chapter.title));
     let line = |chapter: &Chapter| {
-        let Chapter { name, title, teaches, from, needs } = chapter;
+        let Chapter { name, title, teaches, from, needs, .. } = chapter;
         // As `diff` takes it: a number is enough.
         let from = from.as_deref().and_then(|from| from.split('_').next()).unwrap_or("–");
         let needs = match &needs[..] {

@@ -159,17 +159,26 @@ impl Sources {
             return known.clone();
         }
         let mut files = project.files(&format!("samples/{chapter}"));
-        let reads_scene =
-            |file: &String| project.read(file).is_ok_and(|text| text.contains("common::scene"));
-        let scene = files.iter().any(reads_scene);
+        let says = |word: &str| {
+            files.iter().any(|file| project.read(file).is_ok_and(|text| text.contains(word)))
+        };
+        // A chapter that opens scene files shows what they hold; to the others they are nothing.
+        let (scene, scene_files) = (says("common::scene"), says("Composition"));
         if let Some(chapter) = project.chapters.iter().find(|known| known.name == chapter) {
             files.extend(shader::own(project, chapter));
             files.extend(shader::shared(project, chapter).into_keys());
         }
         if scene {
             // Where the pieces stand and how the light falls is framework code.
-            files.extend(project.files("common/src/scene"));
-            let asset = |path: &String| path.matches('/').count() == 2;
+            let read_by_all = |path: &String| {
+                !path.starts_with("common/src/scene/file/") && path != "common/src/scene/effects.rs"
+            };
+            let framework = project.files("common/src/scene").into_iter();
+            files.extend(framework.filter(|path| scene_files || read_by_all(path)));
+            let asset = |path: &String| {
+                path.matches('/').count() == 2
+                    || scene_files && path.starts_with("samples/assets/scenes/")
+            };
             files.extend(project.files("samples/assets").into_iter().filter(asset));
         }
         let mut hash = FNV_OFFSET;

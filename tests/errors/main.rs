@@ -7,6 +7,7 @@ mod models;
 mod outputs;
 #[path = "../run/mod.rs"]
 mod run;
+mod scenes;
 mod shaders;
 
 use std::path::Path;

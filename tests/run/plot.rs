@@ -12,6 +12,7 @@ use image::{RgbImage, imageops};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
 use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
 
 use super::root;
 
@@ -88,6 +89,9 @@ pub fn file(name: &str) -> PathBuf {
 /// Draws charts side by side, each `width` by `height`, into an SVG in `docs/images`.
 pub fn draw(name: &str, (width, height): (u32, u32), charts: &[Chart]) {
     let path = file(name);
+    // An SVG holds text, but where that ends only a font can say.
+    register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .unwrap_or_else(|_| panic!("the font of the panel is no font"));
     let area = SVGBackend::new(&path, (width * charts.len() as u32, height)).into_drawing_area();
     area.fill(&WHITE).expect("the SVG can be written");
     for (area, chart) in area.split_evenly((1, charts.len())).iter().zip(charts) {

@@ -13,5 +13,6 @@ mod multi_closest_hit;
 mod reflection;
 #[path = "../run/mod.rs"]
 mod run;
+mod scene_effects;
 mod shadow_miss;
 mod solids;

@@ -18,6 +18,8 @@ use desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_TAB, wait};
 
 /// The slider "sun azimuth" in the panel, from end to end.
 const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
+/// The checkbox "light shadows" in the panel of chapter 25.
+const LIGHT_SHADOWS: (i16, i16) = (163, 411);
 /// The right edge of the panel.
 const PANEL: u32 = 340;
 /// The panel's background where it tells of an error.
@@ -185,6 +187,22 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
         .expect("an edit");
     wait("the refusal", || tells_error(&desk).then_some(()));
     desk.close();
+    ended_well(desk.end());
+}
+
+#[test]
+fn a_pipeline_that_is_made_in_the_background_changes_the_picture_when_it_is_there() {
+    let _alone = alone();
+    let arguments = ["--validate", "--size", "800x700", "--set", "scene=opening"];
+    let desk = Desk::open("25_scene_effects", &arguments, &[]);
+    let (before, _) = desk.picture();
+    let click = || desk.drag(LIGHT_SHADOWS, LIGHT_SHADOWS, 4);
+    click();
+    let without = || Some(desk.picture().0).filter(|picture| !same(picture, &before));
+    wait("a picture without shadows", without);
+    click();
+    wait("the first picture", || same(&desk.picture().0, &before).then_some(()));
+    desk.key(KEY_ESCAPE);
     ended_well(desk.end());
 }
 

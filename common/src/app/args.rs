@@ -60,7 +60,7 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model instead of the chapter's own
+    /// Open this model instead of the chapter's own; chapter 25 also takes scene files (.toml)
     #[arg(long, value_name = "FILE.obj")]
     pub scene: Option<PathBuf>,
 

@@ -33,6 +33,9 @@ pub trait Visit {
     /// Sees one control, may change its value, and says whether it did.
     fn visit(&mut self, name: &str, value: Value) -> bool;
 
+    /// Sees a line that only tells something, such as what is in use; by default passed over.
+    fn note(&mut self, _name: &str, _text: &str) {}
+
     /// Sees the camera; by default as the controls that a script can set.
     fn camera(&mut self, camera: &mut Camera) -> bool {
         let mut degrees = camera.fov_y as f32;
@@ -90,6 +93,11 @@ impl<'a> Controls<'a> {
     /// Three numbers, each in a range.
     pub fn vector(&mut self, name: &str, value: &mut Vec3, range: RangeInclusive<f32>) -> bool {
         self.visitor.visit(name, Value::Vector(value, range))
+    }
+
+    /// A line that tells something: shown in the panel, no control.
+    pub fn note(&mut self, name: &str, text: &str) {
+        self.visitor.note(name, text);
     }
 
     /// A camera: moved with the mouse in a window, by three controls elsewhere.

@@ -12,7 +12,7 @@ mod report;
 mod window;
 
 use std::cell::Cell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -61,6 +61,12 @@ pub trait Sample: Sized {
         false
     }
 
+    /// Whether something is being made in the background that will change the picture: a window goes on
+    /// asking for frames until it is there.
+    fn is_busy(&self) -> bool {
+        false
+    }
+
     /// What the chapter itself has to tell after the last frame; part of `--report`.
     ///
     /// # Errors
@@ -74,6 +80,8 @@ pub trait Sample: Sized {
 pub struct Setup {
     /// How acceleration structures are built: in spatial order, unless `--unordered` says otherwise.
     pub options: SceneOptions,
+    /// Whether someone is watching, who would rather see the last picture than wait for the next.
+    pub interactive: bool,
     scene: Option<PathBuf>,
     scene_taken: Cell<bool>,
 }
@@ -82,7 +90,14 @@ impl Setup {
     /// The setup that arguments ask for.
     pub fn new(args: &Args) -> Self {
         let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
-        Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+        let interactive = !args.headless && !args.list_controls && args.compare.is_none();
+        Self { options, interactive, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+    }
+
+    /// The file that `--scene` names, for a sample that takes more than models.
+    pub fn scene(&self) -> Option<&Path> {
+        self.scene_taken.set(true);
+        self.scene.as_deref()
     }
 
     /// The scene that `--scene` names, else the chapter's own.

@@ -84,7 +84,7 @@ pub struct Bound {
 
 /// What a shader module says of its structures.
 pub struct Reflection {
-    module: Module,
+    pub(super) module: Module,
 }
 
 impl Reflection {

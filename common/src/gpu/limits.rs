@@ -33,6 +33,8 @@ pub struct Limits {
     pub timestamp_mask: u64,
     /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
     pub float64: bool,
+    /// Whether rays may skip all triangles or all boxes, if the sample asks for it.
+    pub primitive_culling: bool,
     /// Whether a shader may demand that 32-bit floats are rounded to nearest even.
     pub rounding_to_nearest_even: bool,
     /// Whether a shader may demand that signs of zeros, infinities and NaN are kept.
@@ -52,8 +54,11 @@ impl Limits {
         // SAFETY: the device belongs to the live instance and has both extensions.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
         let core = properties.properties.limits;
-        // SAFETY: the device belongs to the live instance.
-        let features = unsafe { instance.get_physical_device_features(physical_device) };
+        let mut culling = vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default();
+        let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut culling);
+        // SAFETY: as above.
+        unsafe { instance.get_physical_device_features2(physical_device, &mut offered) };
+        let features = offered.features;
         // SAFETY: as above.
         let families =
             unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
@@ -75,6 +80,7 @@ impl Limits {
             timestamp_period: if bits > 0 { core.timestamp_period } else { 0.0 },
             timestamp_mask: u64::MAX.checked_shr(64 - bits).unwrap_or(0),
             float64: features.shader_float64 == vk::TRUE,
+            primitive_culling: culling.ray_traversal_primitive_culling == vk::TRUE,
             rounding_to_nearest_even: floats.shader_rounding_mode_rte_float32 == vk::TRUE,
             signed_zero_inf_nan: floats.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
         }

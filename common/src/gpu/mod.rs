@@ -3,8 +3,10 @@
 mod accel;
 pub mod barrier;
 mod buffer;
+mod contents;
 mod context;
 mod device;
+mod exact;
 mod image;
 mod layout;
 mod limits;
@@ -20,6 +22,7 @@ mod validation;
 
 pub use accel::{AccelerationStructure, BuildOptions, Geometry};
 pub use buffer::Buffer;
+pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions, Statistics, WindowHandles, device_lines, load};
 pub use image::{Image, transition, whole};
 pub use layout::{Address, Bound, Reflection, ShaderStruct, StructLayout};

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
+use super::exact::exact;
 use super::layout::{Reflection, ShaderStruct, StructLayout};
 use super::shader::{self, Shader};
 use super::texture::TextureTable;
@@ -86,6 +87,8 @@ pub struct PipelineBuilder<'a> {
     constants: Vec<(u32, u32)>,
     defines: Vec<(&'a str, String)>,
     recursion: u32,
+    flags: vk::PipelineCreateFlags,
+    exact: bool,
 }
 
 /// A `VkPipeline` with its layout, freed on drop.
@@ -100,6 +103,8 @@ pub struct RayTracingPipeline {
     pub groups: [usize; 4],
     /// The shader stages in use, by path below `shaders/`.
     pub stages: Vec<String>,
+    /// What the driver was given of each: the words of its module.
+    pub modules: Vec<Vec<u32>>,
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
     bindings: Vec<Binding>,
@@ -125,6 +130,8 @@ impl RayTracingPipeline {
             constants: Vec::new(),
             defines: Vec::new(),
             recursion: 1,
+            flags: vk::PipelineCreateFlags::empty(),
+            exact: false,
         }
     }
 
@@ -291,6 +298,20 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Has all arithmetic done as it is written, so that a result does not depend on what else is
+    /// compiled beside it.
+    pub fn exact(mut self) -> Self {
+        self.exact = true;
+        self
+    }
+
+    /// Promises that rays shall skip all triangles, or all boxes: where the device has
+    /// [`Limits::primitive_culling`](super::Limits), and only one of the two.
+    pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
+        self.flags |= flags;
+        self
+    }
+
     /// Compiles the shaders and makes the pipeline.
     ///
     /// # Errors
@@ -315,7 +336,8 @@ impl<'a> PipelineBuilder<'a> {
             gpu.limits.max_push_constants_size
         );
         let defines = self.defines.as_slice();
-        let mut stages = Stages { folder: self.name, defines, shaders: Vec::new() };
+        let mut stages =
+            Stages { folder: self.name, defines, exact: self.exact, shaders: Vec::new() };
         let mut groups = Vec::new();
         for shader in self.raygen.iter().chain(&self.miss) {
             groups.push(general(stages.add(shader)?));
@@ -337,6 +359,7 @@ impl<'a> PipelineBuilder<'a> {
             name: self.name.to_owned(),
             groups: [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()],
             stages: stages.shaders.iter().map(|shader| shader.path.clone()).collect(),
+            modules: Vec::new(),
             build_time: Duration::ZERO,
             push_size,
             textures: self.textures.map(|table| table.set),
@@ -348,6 +371,7 @@ impl<'a> PipelineBuilder<'a> {
         pipeline.handle = self
             .create(gpu, &stages, &groups, pipeline.layout)
             .with_context(|| format!("cannot make the pipeline '{}'", self.name))?;
+        pipeline.modules = stages.shaders.into_iter().map(|shader| shader.spirv).collect();
         gpu.name_object(pipeline.handle, self.name);
         gpu.name_object(pipeline.layout, self.name);
         pipeline.build_time = start.elapsed();
@@ -413,6 +437,7 @@ impl<'a> PipelineBuilder<'a> {
                 );
             }
             let info = [vk::RayTracingPipelineCreateInfoKHR::default()
+                .flags(self.flags)
                 .stages(&infos)
                 .groups(groups)
                 .max_pipeline_ray_recursion_depth(self.recursion)
@@ -440,6 +465,7 @@ impl<'a> PipelineBuilder<'a> {
 struct Stages<'a> {
     folder: &'a str,
     defines: &'a [(&'a str, String)],
+    exact: bool,
     shaders: Vec<Shader>,
 }
 
@@ -450,7 +476,11 @@ impl Stages<'_> {
         let index = match known {
             Some(index) => index,
             None => {
-                self.shaders.push(shader::compile_with(&path, self.defines)?);
+                let mut shader = shader::compile_with(&path, self.defines)?;
+                if self.exact {
+                    shader.spirv = exact(&shader.spirv)?;
+                }
+                self.shaders.push(shader);
                 self.shaders.len() - 1
             }
         };

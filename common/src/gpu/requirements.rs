@@ -123,6 +123,17 @@ impl Requirements {
         self
     }
 
+    /// Rays that skip all triangles or all boxes, where the device has it:
+    /// [`Limits::primitive_culling`](super::Limits) tells.
+    pub fn primitive_culling_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(khr::ray_tracing_pipeline::NAME),
+            "rayTraversalPrimitiveCulling",
+            ray_tracing_pipeline.ray_traversal_primitive_culling
+        ));
+        self
+    }
+
     /// What drawing to a window adds: the swapchain and dynamic rendering for the panel.
     pub fn window(mut self) -> Self {
         self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));

@@ -74,6 +74,25 @@ impl Scene {
     // ANCHOR_END: metal
 }
 
+/// As [`place_pieces`], of a position that is not to be trusted.
+///
+/// # Errors
+/// If it is none: eight ranks of eight squares.
+pub(super) fn place_position(
+    model: &Model,
+    position: &str,
+    instances: &mut Vec<Instance>,
+) -> Result<()> {
+    let files = |rank: &str| -> u32 { rank.chars().map(|c| c.to_digit(10).unwrap_or(1)).sum() };
+    let ranks: Vec<&str> = position.split('/').take(9).collect();
+    if ranks.len() != 8 || ranks.iter().any(|rank| rank.len() > 8 || files(rank) != 8) {
+        bail!(
+            "a position has eight ranks of eight squares, as rnbqkbnr/pppppppp/8/8/8/8/PPPPPPPP/RNBQKBNR"
+        );
+    }
+    place_pieces(model, position, instances)
+}
+
 /// Adds the pieces of a position: capitals are white, ranks from the eighth down.
 fn place_pieces(model: &Model, position: &str, instances: &mut Vec<Instance>) -> Result<()> {
     let [white, black] = ["white", "black"].map(|name| {

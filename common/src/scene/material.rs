@@ -37,6 +37,12 @@ impl Material {
     pub fn has_cutout(&self) -> bool {
         self.opacity < 1.0 || self.opacity_texture.is_some()
     }
+
+    /// Whether the surface reflects what is around it: the illumination model says so, and some light is
+    /// reflected.
+    pub fn is_mirror(&self) -> bool {
+        self.illumination >= 3 && self.specular.max_element() > 0.0
+    }
 }
 
 impl Default for Material {

@@ -3,6 +3,8 @@
 pub mod board;
 mod camera;
 mod chess;
+mod effects;
+mod file;
 mod light;
 mod material;
 mod mesh;
@@ -18,6 +20,10 @@ mod world;
 
 pub use camera::{Camera, CameraBasis};
 pub use chess::assets;
+pub use effects::{Effect, Effects, Finding, findings, needed};
+pub use file::{
+    BoardPlane, Box, Composition, Face, Heightfield, MAX_LIGHTS, SceneLight, Solid, Sphere,
+};
 pub use light::{DirectionalLight, Light, PointLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};

@@ -62,6 +62,22 @@ impl SceneOnGpu {
         Self::build(gpu, scene, options, Arc::new(textures))
     }
 
+    /// As [`SceneOnGpu::new`], with textures that are on the device already.
+    ///
+    /// # Errors
+    /// As [`SceneOnGpu::new`].
+    pub fn with_textures(
+        gpu: &Gpu,
+        scene: &Scene,
+        options: SceneOptions,
+        textures: Option<Arc<TextureTable>>,
+    ) -> Result<Self> {
+        match textures {
+            Some(textures) => Self::build(gpu, scene, options, textures),
+            None => Self::new(gpu, scene, options),
+        }
+    }
+
     /// Builds everything but the textures again, with other options; pipelines stay valid.
     ///
     /// # Errors

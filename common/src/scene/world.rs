@@ -11,6 +11,7 @@ use super::{Camera, Mesh, Model, obj};
 const REACH: f32 = 1e18;
 
 /// Meshes, materials and textures with their placements.
+#[derive(Clone)]
 pub struct Scene {
     /// What there is to place.
     pub model: Model,

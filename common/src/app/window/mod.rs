@@ -80,7 +80,7 @@ struct Program<'a, S> {
     name: &'a str,
     args: &'a Args,
     proxy: EventLoopProxy<Wake>,
-    session: Option<Session<'a, S>>,
+    session: Option<Session<S>>,
     outcome: Result<()>,
 }
 

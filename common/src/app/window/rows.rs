@@ -45,6 +45,12 @@ impl Visit for Rows<'_> {
         changed
     }
 
+    fn note(&mut self, name: &str, text: &str) {
+        self.ui.colored_label(style::DIM, name);
+        self.ui.add(egui::Label::new(text).wrap());
+        self.ui.end_row();
+    }
+
     fn camera(&mut self, camera: &mut Camera) -> bool {
         let moved = self.navigation.apply(camera);
         let mut degrees = camera.fov_y as f32;

@@ -1,5 +1,6 @@
 //! What lives as long as the window, and one frame of it.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
@@ -30,7 +31,7 @@ use crate::gpu::{Gpu, GpuOptions, Swapchain, WindowHandles};
 const TITLE: Duration = Duration::from_millis(500);
 
 /// Everything that lives as long as the window. It is dropped in this order, the window last.
-pub struct Session<'a, S> {
+pub struct Session<S> {
     view: View<S>,
     painter: Painter,
     swapchain: Swapchain,
@@ -38,7 +39,7 @@ pub struct Session<'a, S> {
     facts: Facts,
     reload: Reload,
     egui: egui_winit::State,
-    args: &'a Args,
+    args: Args,
     gpu: Gpu,
     hidden: bool,
     redraw_at: Option<Instant>,
@@ -48,7 +49,7 @@ pub struct Session<'a, S> {
     window: Window,
 }
 
-impl<'a, S: Sample> Session<'a, S> {
+impl<S: Sample> Session<S> {
     /// Opens a window and makes the sample.
     ///
     /// # Errors
@@ -56,7 +57,7 @@ impl<'a, S: Sample> Session<'a, S> {
     pub fn new(
         events: &ActiveEventLoop,
         name: &str,
-        args: &'a Args,
+        args: &Args,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self> {
         // Shown once there is something to show.
@@ -110,7 +111,7 @@ impl<'a, S: Sample> Session<'a, S> {
                 None,
                 Some(gpu.limits.max_image_dimension as usize),
             ),
-            args,
+            args: args.clone(),
             gpu,
             hidden: false,
             redraw_at: None,
@@ -168,6 +169,7 @@ impl<'a, S: Sample> Session<'a, S> {
     pub fn take(&mut self, event: &WindowEvent) {
         match event {
             WindowEvent::Occluded(hidden) => self.hidden = *hidden,
+            WindowEvent::DroppedFile(file) => self.open(file),
             WindowEvent::CursorMoved { .. }
             | WindowEvent::MouseInput { .. }
             | WindowEvent::MouseWheel { .. }
@@ -304,10 +306,32 @@ impl<'a, S: Sample> Session<'a, S> {
         self.window.request_redraw();
     }
 
+    /// Opens a file that was dropped on the window, as if `--scene` had named it.
+    fn open(&mut self, file: &Path) {
+        let args = Args { scene: Some(file.to_owned()), ..self.args.clone() };
+        let setup = Setup::new(&args);
+        let made = S::new(&self.gpu, &setup).and_then(|mut sample| {
+            setup.check()?;
+            self.panel.navigation.forget_home();
+            sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
+            self.reload.learn(&self.gpu.statistics().stages)?;
+            Ok(sample)
+        });
+        match made {
+            Ok(sample) => {
+                self.args = args;
+                self.view.replace(sample);
+                self.panel.error = None;
+            }
+            Err(error) => self.panel.error = Some(format!("{error:#}")),
+        }
+        self.window.request_redraw();
+    }
+
     /// Makes the sample anew and gives it the values that its controls had.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let mut sample = S::new(&self.gpu, &Setup::new(self.args))?;
+        let mut sample = S::new(&self.gpu, &Setup::new(&self.args))?;
         self.panel.navigation.forget_home();
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
         for control in values {

@@ -95,10 +95,11 @@ impl<S: Sample> View<S> {
             self.full = full;
             self.change();
         }
+        let improves = self.sample.accumulates() || self.sample.is_busy();
         let step = if self.picture_due && !self.pace.is_sharp() {
             self.pace.full(full)
         } else {
-            self.pace.step(Instant::now(), full, hands, self.sample.accumulates())
+            self.pace.step(Instant::now(), full, hands, improves)
         };
         let extent = match step {
             Step::Render(extent) => extent,

@@ -1,0 +1,168 @@
+//! Numbers of a scene file: finite, and within bounds that arithmetic in 32 bits can bear.
+//!
+//! Each is a function for serde's `deserialize_with`, so that the error has the number's own line.
+
+use glam::{DVec3, Vec2, Vec3};
+use serde::de::{Deserialize, Deserializer, Error};
+
+/// The farthest coordinate of a scene file, and the largest strength of a light.
+const FAR: f64 = 1e6;
+
+fn within<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<f32, D::Error> {
+    check(f64::deserialize(from)?, low, high).map(|number| number as f32)
+}
+
+/// A NaN is in no range.
+fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
+    match (low..=high).contains(&number) {
+        true => Ok(number),
+        false => Err(E::custom(format!("{number:?} is not a number from {low} to {high}"))),
+    }
+}
+
+fn three<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<DVec3, D::Error> {
+    let [x, y, z] = <[f64; 3]>::deserialize(from)?;
+    Ok(DVec3::new(check(x, low, high)?, check(y, low, high)?, check(z, low, high)?))
+}
+
+/// A number from 0 to 1.
+pub fn part<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, 0.0, 1.0)
+}
+
+/// As [`part`], where nothing may be said.
+pub fn maybe_part<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    part(from).map(Some)
+}
+
+/// A length above 0.
+pub fn length<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, 1e-6, FAR)
+}
+
+/// A coordinate.
+pub fn coordinate<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, -FAR, FAR)
+}
+
+/// The exponent of a highlight.
+pub fn maybe_exponent<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    within(from, 0.0, 1e5).map(Some)
+}
+
+/// An angle in degrees.
+pub fn degrees<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, -360.0, 360.0)
+}
+
+/// A field of view in degrees.
+pub fn view<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    within(from, 1.0, 150.0).map(f64::from)
+}
+
+/// A point.
+pub fn point<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
+    three(from, -FAR, FAR).map(|v| v.as_vec3())
+}
+
+/// A point in 64 bits.
+pub fn far_point<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    three(from, -FAR, FAR)
+}
+
+/// A place in x and z.
+pub fn place<'de, D: Deserializer<'de>>(from: D) -> Result<Vec2, D::Error> {
+    two(from, -FAR)
+}
+
+/// Two lengths above 0.
+pub fn lengths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec2, D::Error> {
+    two(from, 1e-2)
+}
+
+fn two<'de, D: Deserializer<'de>>(from: D, low: f64) -> Result<Vec2, D::Error> {
+    let [x, z] = <[f64; 2]>::deserialize(from)?;
+    Ok(Vec2::new(check(x, low, FAR)? as f32, check(z, low, FAR)? as f32))
+}
+
+/// A height from 0.
+pub fn height<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
+    within(from, 0.0, 1e3)
+}
+
+/// Half-spaces: a normal of any length but 0, and a distance.
+pub fn faces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 4]>, D::Error> {
+    let faces = Vec::<[f64; 4]>::deserialize(from)?;
+    for &[x, y, z, distance] in &faces {
+        for part in [x, y, z, distance] {
+            check(part, -FAR, FAR)?;
+        }
+        if DVec3::new(x, y, z).length() <= 1e-6 {
+            return Err(D::Error::custom("a normal has a length: [0, 1, 0, 2] is y <= 2"));
+        }
+    }
+    match faces.len() {
+        4..=24 => Ok(faces),
+        count => Err(D::Error::custom(format!("{count} planes; a solid has 4 to 24"))),
+    }
+}
+
+/// A direction of any length but 0.
+pub fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
+    let direction = point(from)?;
+    match direction.length() > 1e-6 {
+        true => Ok(direction),
+        false => Err(D::Error::custom("a direction has a length: [0, 1, 0] is up")),
+    }
+}
+
+/// A colour, each part from 0 to 1.
+pub fn color<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
+    three(from, 0.0, 1.0).map(|v| v.as_vec3())
+}
+
+/// As [`color`], where nothing may be said.
+pub fn maybe_color<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec3>, D::Error> {
+    color(from).map(Some)
+}
+
+/// The strength of a light, each part from 0.
+pub fn strength<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
+    three(from, 0.0, FAR).map(|v| v.as_vec3())
+}
+
+/// An angle in degrees, where nothing may be said.
+pub fn maybe_degrees<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    degrees(from).map(Some)
+}
+
+/// A point, where nothing may be said.
+pub fn maybe_point<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec3>, D::Error> {
+    point(from).map(Some)
+}
+
+/// As [`strength`], where nothing may be said.
+pub fn maybe_strength<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec3>, D::Error> {
+    strength(from).map(Some)
+}
+
+fn whole<'de, D: Deserializer<'de>>(from: D, low: i64, high: i64) -> Result<u32, D::Error> {
+    let number = i64::deserialize(from)?;
+    match (low..=high).contains(&number) {
+        true => Ok(number as u32),
+        false => {
+            let what = format!("{number} is not a whole number from {low} to {high}");
+            Err(D::Error::custom(what))
+        }
+    }
+}
+
+/// Rays a pixel.
+pub fn samples<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    whole(from, 1, 64)
+}
+
+/// Reflections of a path.
+pub fn depth<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    whole(from, 0, 8)
+}

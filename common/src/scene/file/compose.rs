@@ -1,0 +1,259 @@
+//! From the tables of a scene file to what is rendered.
+
+use std::path::Path;
+
+use anyhow::Result;
+use glam::{Affine3A, Mat3A};
+use toml::Spanned;
+
+use super::composition::{
+    BoardPlane, Box, Composition, Heightfield, MAX_LIGHTS, SceneLight, Sphere,
+};
+use super::description::{Board, Description, Kind, Lamp, Land, Paint, Piece, View};
+use super::polytope;
+use super::source::Source;
+use crate::scene::text::{Folder, quoted};
+use crate::scene::{
+    Camera, Instance, Light, Material, Model, PointLight, Scene, Sun, assets, chess, obj,
+};
+
+/// Pieces, spheres, boxes, solids and materials, each.
+const MOST: usize = 100_000;
+
+impl Description {
+    /// What the file describes.
+    ///
+    /// # Errors
+    /// If it contradicts itself, or names what there is not.
+    pub(super) fn compose(self, path: &Path, source: &Source) -> Result<Composition> {
+        source.check(&self.light, MAX_LIGHTS, "lights")?;
+        source.check(&self.material, MOST, "materials")?;
+        source.check(&self.piece, MOST, "pieces")?;
+        source.check(&self.sphere, MOST, "spheres")?;
+        source.check(&self.boxes, MOST, "boxes")?;
+        source.check(&self.solid, MOST, "solids")?;
+        let mut model = self.model(path, source)?;
+        for paint in &self.material {
+            paint.get_ref().apply(&mut model.materials);
+        }
+        let view = self.camera.get_ref();
+        let View { eye, target, field_of_view } = *view;
+        if eye.distance(target) < 1e-9 {
+            let what = "the camera stands where it looks; move `eye` or `target`";
+            return Err(source.error(self.camera.span().start, what));
+        }
+        let instances = self.instances(&model, source)?;
+        let lights = self.light.iter().map(|lamp| {
+            let lit = lamp.get_ref().light();
+            lit.map_err(|what| source.error(lamp.span().start, what))
+        });
+        let heightfield = self.heightfield.as_ref().map(|land| {
+            let found = land.get_ref().heightfield();
+            found.map_err(|what| source.error(land.span().start, what))
+        });
+        let mut composition = Composition {
+            lights: lights.collect::<Result<_>>()?,
+            plane: self.plane.as_ref().map(Board::plane),
+            spheres: Vec::new(),
+            boxes: Vec::new(),
+            solids: Vec::new(),
+            faces: Vec::new(),
+            solid_bounds: Vec::new(),
+            heightfield: heightfield.transpose()?,
+            samples: self.picture.samples,
+            light_samples: self.picture.light_samples,
+            depth: self.picture.depth,
+            scene: Scene { model, instances, camera: Camera::new(eye, target, field_of_view) },
+        };
+        self.add_shapes(&mut composition, source)?;
+        composition.prune();
+        Ok(composition)
+    }
+
+    /// The model that pieces are taken from.
+    fn model(&self, path: &Path, source: &Source) -> Result<Model> {
+        let Some(named) = &self.model else {
+            return match self.piece.is_empty() && self.position.is_none() {
+                true => Ok(Model { meshes: vec![], materials: vec![], textures: vec![] }),
+                false => obj::load(&assets().join("chess.obj")),
+            };
+        };
+        let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {
+            let what =
+                error.to_string().replace("the OBJ file's folder", "the scene file's folder");
+            source.error(named.span().start, &what)
+        })?;
+        obj::load(Path::new(&found.shown))
+    }
+
+    /// Pieces where they are put, or every mesh where its file has it.
+    fn instances(&self, model: &Model, source: &Source) -> Result<Vec<Instance>> {
+        if self.piece.is_empty() && self.position.is_none() {
+            return Ok(standing(model));
+        }
+        let mut instances = place(&self.piece, model, source)?;
+        if let Some(position) = &self.position {
+            chess::place_position(model, position.get_ref(), &mut instances)
+                .map_err(|error| source.error(position.span().start, &error.to_string()))?;
+        }
+        Ok(instances)
+    }
+
+    fn add_shapes(&self, to: &mut Composition, source: &Source) -> Result<()> {
+        let model = &to.scene.model;
+        for ball in self.sphere.iter().map(Spanned::get_ref) {
+            let material = opaque(model, &ball.material, source)?;
+            to.spheres.push(Sphere { center: ball.center, radius: ball.radius, material });
+        }
+        for block in &self.boxes {
+            let at = block.span().start;
+            let block = block.get_ref();
+            if !block.low.cmplt(block.high).all() {
+                let what = "a box has its `high` above its `low` along every axis";
+                return Err(source.error(at, what));
+            }
+            let material = opaque(model, &block.material, source)?;
+            to.boxes.push(Box { low: block.low, high: block.high, material });
+        }
+        for body in &self.solid {
+            let at = body.span().start;
+            let body = body.get_ref();
+            let material = opaque(model, &body.material, source)?;
+            let (solid, bounds) =
+                polytope::solid(body.center, &body.planes, material, &mut to.faces)
+                    .map_err(|what| source.error(at, what))?;
+            to.solids.push(solid);
+            to.solid_bounds.push(bounds);
+        }
+        Ok(())
+    }
+}
+
+/// Every mesh once, where its file has it.
+fn standing(model: &Model) -> Vec<Instance> {
+    let instance = |(mesh, material)| Instance {
+        mesh,
+        transform: Affine3A::IDENTITY,
+        material,
+        record_offset: 0,
+    };
+    model.meshes.iter().map(|mesh| mesh.material).enumerate().map(instance).collect()
+}
+
+fn place(pieces: &[Spanned<Piece>], model: &Model, source: &Source) -> Result<Vec<Instance>> {
+    let placed = pieces.iter().map(|piece| {
+        let Piece { mesh, at, turn, size, material } = piece.get_ref();
+        let named = model.meshes.iter().position(|known| known.name == *mesh.get_ref());
+        let mesh = named.ok_or_else(|| {
+            let known: Vec<_> = model.meshes.iter().take(20).map(|m| m.name.as_str()).collect();
+            let what = format!("no mesh {}; there is {}", quoted(mesh.get_ref()), known.join(", "));
+            source.error(mesh.span().start, &what)
+        })?;
+        let material = match material {
+            Some(name) => find(model, name, source)?,
+            None => model.meshes[mesh].material,
+        };
+        let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
+        let transform = Affine3A { matrix3, translation: (*at).into() };
+        Ok(Instance { mesh, transform, material, record_offset: 0 })
+    });
+    placed.collect()
+}
+
+fn find(model: &Model, name: &Spanned<String>, source: &Source) -> Result<usize> {
+    let found = model.materials.iter().position(|material| material.name == *name.get_ref());
+    found.ok_or_else(|| {
+        let known: Vec<_> = model.materials.iter().take(20).map(|m| m.name.as_str()).collect();
+        let what = match known.is_empty() {
+            true => format!("no material {}; add a [[material]]", quoted(name.get_ref())),
+            false => {
+                format!("no material {}; there is {}", quoted(name.get_ref()), known.join(", "))
+            }
+        };
+        source.error(name.span().start, &what)
+    })
+}
+
+/// A material of a shape, which no any-hit shader asks for holes or texture coordinates.
+fn opaque(model: &Model, name: &Spanned<String>, source: &Source) -> Result<u32> {
+    let number = find(model, name, source)?;
+    let material = &model.materials[number];
+    match material.has_cutout() || material.base_texture.is_some() {
+        true => {
+            let what =
+                format!("{} has holes or a texture: only meshes can", quoted(&material.name));
+            Err(source.error(name.span().start, &what))
+        }
+        false => Ok(number as u32),
+    }
+}
+
+impl Lamp {
+    fn light(&self) -> Result<SceneLight, &'static str> {
+        let light = match *self {
+            Self {
+                kind: Kind::Directional,
+                azimuth: Some(azimuth),
+                elevation: Some(elevation),
+                radiance: Some(radiance),
+                position: None,
+                intensity: None,
+                ..
+            } => Light::directional(&Sun { azimuth, elevation, radiance }, self.size),
+            Self {
+                kind: Kind::Point,
+                position: Some(position),
+                intensity: Some(intensity),
+                azimuth: None,
+                elevation: None,
+                radiance: None,
+                ..
+            } => Light::point(&PointLight { position, intensity }, self.size),
+            Self { kind: Kind::Directional, .. } => {
+                return Err("a directional light has `azimuth`, `elevation` and `radiance`");
+            }
+            Self { kind: Kind::Point, .. } => {
+                return Err("a point light has `position` and `intensity`");
+            }
+        };
+        Ok(SceneLight { light, shadows: self.shadows })
+    }
+}
+
+impl Board {
+    fn plane(&self) -> BoardPlane {
+        let &Self { normal, distance, light, dark, square, reflection } = self;
+        BoardPlane { normal, distance, light, dark, square, reflection }
+    }
+}
+
+impl Land {
+    fn heightfield(&self) -> Result<Heightfield, &'static str> {
+        let &Self { low, high, hills, hill, ridges, ridge, light, dark, rock, square } = self;
+        match low.cmplt(high).all() && hills + ridges > 0.0 {
+            true => {
+                Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
+            }
+            false => Err("a heightfield has its `high` above its `low`, and `hills` above 0"),
+        }
+    }
+}
+
+impl Paint {
+    fn apply(&self, materials: &mut Vec<Material>) {
+        let known = materials.iter().position(|material| material.name == self.name);
+        let number = known.unwrap_or_else(|| {
+            materials.push(Material { name: self.name.clone(), ..Material::default() });
+            materials.len() - 1
+        });
+        let material = &mut materials[number];
+        material.base_color = self.color.unwrap_or(material.base_color);
+        material.specular = self.specular.unwrap_or(material.specular);
+        material.shininess = self.shininess.unwrap_or(material.shininess);
+        material.emission = self.emission.unwrap_or(material.emission);
+        material.opacity = self.opacity.unwrap_or(material.opacity);
+        if let Some(mirror) = self.mirror {
+            material.illumination = if mirror { 3 } else { 2 };
+        }
+    }
+}

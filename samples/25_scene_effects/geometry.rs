@@ -1,0 +1,191 @@
+//! The scene on the device: bottom levels of every kind, and top levels over them.
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::scene::{
+    Composition, SceneOnGpu, SceneOptions, Sphere, build_top, input_usage, transform,
+};
+use glam::{Affine3A, Vec3};
+
+use crate::recipe::{Kind, Recipe};
+use crate::world::Shapes;
+
+/// What rays can meet, but for the plane.
+pub struct SceneGeometry {
+    /// Meshes, materials, textures.
+    pub scene: SceneOnGpu,
+    /// Where shaders find the shapes.
+    pub shapes: Shapes,
+    /// How far from a shape a ray may begin, which its box allows for.
+    reach: f32,
+    instances: Vec<Placed>,
+    _levels: Vec<AccelerationStructure>,
+    _buffers: Vec<Buffer>,
+}
+
+/// An instance before it knows its hit record.
+struct Placed {
+    kind: Kind,
+    transform: Affine3A,
+    custom_index: u32,
+    address: vk::DeviceAddress,
+    bounds: order::Bounds,
+}
+
+impl SceneGeometry {
+    /// Uploads what the scene has, and nothing for what it has not.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn new(gpu: &Gpu, from: &Composition, scene: SceneOnGpu, eye: Vec3) -> Result<Self> {
+        let mut geometry = Self {
+            scene,
+            shapes: Shapes::default(),
+            reach: reach(from, eye),
+            instances: Vec::new(),
+            _levels: Vec::new(),
+            _buffers: Vec::new(),
+        };
+        for (index, instance) in from.scene.instances.iter().enumerate() {
+            geometry.instances.push(Placed {
+                kind: Kind::Mesh,
+                transform: instance.transform,
+                custom_index: index as u32,
+                address: geometry.scene.blas[instance.mesh].address,
+                bounds: from.scene.instance_bounds(instance),
+            });
+        }
+        let bounds: Vec<_> = from.spheres.iter().map(sphere_bounds).collect();
+        let order = geometry.level(gpu, Kind::Sphere, &bounds)?;
+        geometry.shapes.spheres = geometry.records(gpu, "spheres", &from.spheres, &order)?;
+        let bounds: Vec<_> = from.boxes.iter().map(|b| (b.low, b.high)).collect();
+        let order = geometry.level(gpu, Kind::Box, &bounds)?;
+        geometry.shapes.boxes = geometry.records(gpu, "boxes", &from.boxes, &order)?;
+        let order = geometry.level(gpu, Kind::Solid, &from.solid_bounds)?;
+        geometry.shapes.solids = geometry.records(gpu, "solids", &from.solids, &order)?;
+        let as_they_come: Vec<u32> = (0..from.faces.len() as u32).collect();
+        geometry.shapes.faces = geometry.records(gpu, "faces", &from.faces, &as_they_come)?;
+        let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
+        geometry.level(gpu, Kind::Ground, &bounds)?;
+        Ok(geometry)
+    }
+
+    /// Whether rays may begin at an eye.
+    pub fn reaches(&self, from: &Composition, eye: Vec3) -> bool {
+        reach(from, eye) <= self.reach
+    }
+
+    // ANCHOR: level
+    /// Boxes for the intersection shader of a kind, near beside near; returns their order.
+    fn level(&mut self, gpu: &Gpu, kind: Kind, bounds: &[order::Bounds]) -> Result<Vec<u32>> {
+        let order = order_of(bounds, self.scene.options);
+        if order.is_empty() {
+            return Ok(order);
+        }
+        // A driver's box test rounds: chapter 08 derives 4 roundings of the farthest distance.
+        let margin = Vec3::splat(4.0 * 0.5f32.powi(24) * self.reach);
+        let boxes = order.iter().map(|&i| {
+            let (low, high) = bounds[i as usize];
+            [low - margin, high + margin]
+        });
+        let boxes: Vec<[Vec3; 2]> = boxes.collect();
+        let input = Buffer::with_data(gpu, "boxes of shapes", &boxes, input_usage())?;
+        let count = boxes.len() as u32;
+        let input = Geometry::Aabbs { boxes: input.address, count, opaque: true };
+        let options = BuildOptions { compact: true, ..BuildOptions::default() };
+        let name = format!("{kind:?}");
+        let blas = AccelerationStructure::bottom(gpu, &name, &[input], options)?;
+        self.instances.push(Placed {
+            kind,
+            transform: Affine3A::IDENTITY,
+            custom_index: 0,
+            address: blas.address,
+            bounds: around(bounds),
+        });
+        self._levels.push(blas);
+        Ok(order)
+    }
+    // ANCHOR_END: level
+
+    /// Records in the order of the build; no buffer for none.
+    fn records<T: bytemuck::Pod>(
+        &mut self,
+        gpu: &Gpu,
+        name: &str,
+        records: &[T],
+        order: &[u32],
+    ) -> Result<vk::DeviceAddress> {
+        if records.is_empty() {
+            return Ok(0);
+        }
+        let ordered: Vec<T> = order.iter().map(|&i| records[i as usize]).collect();
+        let buffer = Buffer::with_data(gpu, name, &ordered, input_usage())?;
+        let address = buffer.address;
+        self._buffers.push(buffer);
+        Ok(address)
+    }
+
+    // ANCHOR: top
+    /// A top level whose instances name the hit records of a pipeline, and the bits of its cull mask.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn top_level(&self, gpu: &Gpu, recipe: &Recipe) -> Result<AccelerationStructure> {
+        let bounds: Vec<_> = self.instances.iter().map(|placed| placed.bounds).collect();
+        let instances = order_of(&bounds, self.scene.options).into_iter().map(|i| {
+            let Placed { kind, transform: at, custom_index, address, .. } =
+                &self.instances[i as usize];
+            vk::AccelerationStructureInstanceKHR {
+                transform: transform(at),
+                instance_custom_index_and_mask: vk::Packed24_8::new(
+                    *custom_index,
+                    kind.mask() as u8,
+                ),
+                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
+                    recipe.record(*kind),
+                    0,
+                ),
+                acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+                    device_handle: *address,
+                },
+            }
+        });
+        build_top(gpu, &instances.collect::<Vec<_>>())
+    }
+    // ANCHOR_END: top
+}
+
+fn order_of(bounds: &[order::Bounds], options: SceneOptions) -> Vec<u32> {
+    match options.ordering {
+        true => order::kd_median(bounds),
+        false => (0..bounds.len() as u32).collect(),
+    }
+}
+
+/// Corners of the box around a sphere, never inside it by rounding.
+fn sphere_bounds(sphere: &Sphere) -> order::Bounds {
+    let radius = sphere.radius + (sphere.center.abs().max_element() + sphere.radius) * 1.2e-7;
+    (sphere.center - radius, sphere.center + radius)
+}
+
+/// The box around boxes.
+fn around(bounds: &[order::Bounds]) -> order::Bounds {
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    bounds.iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
+}
+
+/// How far a ray may begin from a shape: at the eye, on the plane below the eye, or on the scene.
+/// Rounded up to a power of two, so that few steps of a camera change it.
+fn reach(scene: &Composition, eye: Vec3) -> f32 {
+    let meshes = scene.scene.instances.iter().map(|instance| scene.scene.instance_bounds(instance));
+    let spheres = scene.spheres.iter().map(sphere_bounds);
+    let boxes = scene.boxes.iter().map(|b| (b.low, b.high));
+    let ground = scene.heightfield.iter().map(crate::ground::bounds);
+    let solids = scene.solid_bounds.iter().copied();
+    let all: Vec<_> = meshes.chain(spheres).chain(boxes).chain(ground).chain(solids).collect();
+    let (low, high) = around(&[around(&all), (eye, eye)]);
+    // A plane goes on beyond all that; a shadow's ray that begins ten times as far is a speck.
+    let beyond = if scene.plane.is_some() { 10.0 } else { 1.0 };
+    (beyond * (high - low).length().max(1.0)).log2().ceil().exp2()
+}

@@ -1,0 +1,49 @@
+//! What the panel lets the reader change of a material, and what it tells of the effects.
+
+use common::Controls;
+use common::scene::Finding;
+use glam::Vec3;
+
+use crate::Demo;
+use crate::tracer::Tracer;
+
+impl Demo {
+    /// Makes a material a mirror, or no longer.
+    pub fn polish(&mut self, c: &mut Controls) {
+        let names: Vec<String> =
+            self.scene.materials_in_use().map(|material| material.name.clone()).collect();
+        if names.is_empty() {
+            return;
+        }
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        c.choice("material", &mut self.material, &names);
+        let chosen = names[self.material as usize];
+        let materials = &mut self.scene.scene.model.materials;
+        let Some(material) = materials.iter_mut().find(|m| m.name == chosen) else { return };
+        let mut mirror = material.is_mirror();
+        if c.checkbox("mirror", &mut mirror) {
+            material.illumination = if mirror { 3 } else { 2 };
+            if mirror && material.specular == Vec3::ZERO {
+                material.specular = Vec3::splat(0.5);
+            }
+            self.repainted = true;
+        }
+    }
+
+    /// The effects, why they are in or out, and what they cost.
+    pub fn tell(&self, c: &mut Controls) {
+        for Finding { effect, needed, why } in self.findings() {
+            let cost = self.costs.iter().find(|cost| cost.effect == effect);
+            let cost = cost.map_or(String::new(), |cost| format!(" · {:.1} ms", cost.milliseconds));
+            let sign = if needed { "✔" } else { "–" };
+            c.note(effect.name(), &format!("{sign} {why}{cost}"));
+        }
+        if let Some(Tracer { pipeline, sbt, .. }) = self.tracers.get(self.current) {
+            let groups: usize = pipeline.groups.iter().sum();
+            let milliseconds = pipeline.build_time.as_secs_f64() * 1e3;
+            c.note("stages", &format!("{} in {groups} groups", pipeline.stages.len()));
+            c.note("SBT", &format!("{} bytes", sbt.layout.size));
+            c.note("compiled in", &format!("{milliseconds:.0} ms"));
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The world as shaders get it: addresses of shapes, plane, ground and lights, all in one buffer.
+
+use ash::vk;
+use common::gpu::Address;
+use common::scene::plane::Plane;
+use common::scene::{BoardPlane, Composition, Light, MAX_LIGHTS};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::ground::Ground;
+
+/// Where shaders find the shapes; 0 where there are none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shapes {
+    /// Of [`common::scene::Sphere`].
+    pub spheres: vk::DeviceAddress,
+    /// Of [`common::scene::Box`].
+    pub boxes: vk::DeviceAddress,
+    /// Of [`common::scene::Solid`].
+    pub solids: vk::DeviceAddress,
+    /// Of [`common::scene::Face`].
+    pub faces: vk::DeviceAddress,
+}
+
+common::shader_struct! {
+    /// What lies on the plane.
+    pub struct Board {
+        /// Colour of the light squares, linear RGB.
+        pub light: Vec3,
+        /// Colour of the dark ones.
+        pub dark: Vec3,
+        /// What part of the light is mirrored, looked at straight.
+        pub reflection: f32,
+        /// Length of a square's side.
+        pub square: f32,
+        /// Unit vector along one side.
+        pub u: Vec3,
+        /// Along the other.
+        pub v: Vec3,
+        /// On which square the plane's anchor lies.
+        pub anchor: Vec2,
+    }
+}
+
+common::shader_struct! {
+    /// What is in the world beside the meshes.
+    pub struct World {
+        pub spheres: Address,
+        pub boxes: Address,
+        pub solids: Address,
+        pub faces: Address,
+        pub plane: Plane,
+        pub board: Board,
+        pub ground: Ground,
+        pub lights: [Light; MAX_LIGHTS],
+        pub light_count: u32,
+        pub shadows: u32,
+        pub light_samples: u32,
+        pub samples: u32,
+        pub depth: u32,
+        pub plane_on: u32,
+    }
+}
+
+impl World {
+    /// The world of a scene, seen from `eye`.
+    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3) -> Self {
+        let nowhere = BoardPlane {
+            normal: Vec3::Y,
+            distance: 0.0,
+            light: Vec3::ZERO,
+            dark: Vec3::ZERO,
+            square: 1.0,
+            reflection: 0.0,
+        };
+        let board = scene.plane.unwrap_or(nowhere);
+        let normal = board.normal.as_dvec3();
+        let plane = Plane::new((normal, f64::from(board.distance) * normal.length()), eye);
+        let mut lights = [Light { place: Vec3::Y, kind: 0, strength: Vec3::ZERO, size: 0.0 }; 4];
+        let mut shadows = 0;
+        for (number, light) in scene.lights.iter().enumerate() {
+            lights[number] = light.light;
+            shadows |= u32::from(light.shadows) << number;
+        }
+        Self {
+            spheres: shapes.spheres.into(),
+            boxes: shapes.boxes.into(),
+            solids: shapes.solids.into(),
+            faces: shapes.faces.into(),
+            plane,
+            board: Board::new(&board, &plane),
+            ground: scene.heightfield.as_ref().map_or_else(Ground::none, Ground::new),
+            lights,
+            light_count: scene.lights.len() as u32,
+            shadows,
+            light_samples: scene.light_samples,
+            samples: scene.samples,
+            depth: scene.depth,
+            plane_on: scene.plane.is_some().into(),
+        }
+    }
+}
+
+impl Board {
+    /// As chapter 12 places it: which square the anchor is on, less an even number of squares.
+    fn new(board: &BoardPlane, plane: &Plane) -> Self {
+        let normal = board.normal.as_dvec3().normalize();
+        let aside = if normal.z.abs() < 0.9 { DVec3::Z } else { DVec3::Y };
+        let u = normal.cross(aside).normalize();
+        let v = u.cross(normal);
+        let from_origin = plane.anchor.as_dvec3() / f64::from(board.square);
+        let anchor = DVec2::new(u.dot(from_origin), v.dot(from_origin));
+        let anchor = (anchor - 2.0 * (anchor / 2.0).floor()).as_vec2();
+        let &BoardPlane { light, dark, square, reflection, .. } = board;
+        Self { light, dark, reflection, square, u: u.as_vec3(), v: v.as_vec3(), anchor }
+    }
+}

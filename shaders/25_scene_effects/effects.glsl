@@ -1,0 +1,42 @@
+// What is compiled. The program defines EFFECT_... for each effect in use, and SPECIALISED.
+//
+// Alone, as tests and editors compile it, a shader has everything.
+
+// ANCHOR: everything
+#ifndef SPECIALISED
+#define EFFECT_TRIANGLES
+#define EFFECT_TEXTURES
+#define EFFECT_CUT_OUT
+#define EFFECT_SPHERES
+#define EFFECT_BOXES
+#define EFFECT_HEIGHTFIELD
+#define EFFECT_PLANE
+#define EFFECT_SOLIDS
+#define EFFECT_POINT_SHADOWS
+#define EFFECT_DIRECTIONAL_SHADOWS
+#define EFFECT_AREA_LIGHT
+#define EFFECT_MIRROR
+#define EFFECT_ANTI_ALIASING
+#define MISS_SHADOW 1
+#define MISS_PLANE 2
+#endif
+// ANCHOR_END: everything
+
+// ANCHOR: derived
+// What several effects need.
+#if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
+#define SHADOWS
+#endif
+// Surfaces that rays leave again: only there does it matter where exactly a ray starts.
+#if defined(SHADOWS) || defined(EFFECT_MIRROR)
+#define DEPARTURES
+#endif
+// Squares, averaged over what a pixel sees of them: a path carries how wide it is.
+#if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD)
+#define SQUARES
+#endif
+// A number that differs from sample to sample of a pixel is asked for by soft shadows alone.
+#if defined(EFFECT_ANTI_ALIASING) && defined(EFFECT_AREA_LIGHT)
+#define SAMPLE_NUMBERS
+#endif
+// ANCHOR_END: derived

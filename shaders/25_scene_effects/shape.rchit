@@ -1,0 +1,62 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "shape.glsl"
+#include "lighting.glsl"
+#include "shape_start.glsl"
+
+hitAttributeEXT vec3 outward;
+
+// ANCHOR: main
+// The nearest hit is a sphere or a box: the intersection shader has left its normal. The point is taken
+// from the shape and not from the ray.
+void main() {
+    precise vec3 point;
+    vec3 own = vec3(0.0);
+    uint number = 0;
+    float curvature = 0.0;
+#ifdef EFFECT_SPHERES
+    if (gl_HitKindEXT == KIND_SPHERE) {
+        Sphere sphere = push.world.spheres.at[gl_PrimitiveID];
+        point = sphere.center + sphere.radius * outward;
+        own = abs(point) + vec3(24.0 * sphere.radius);
+        number = sphere.material;
+        curvature = 1.0 / sphere.radius;
+    }
+#endif
+#ifdef EFFECT_BOXES
+    if (gl_HitKindEXT == KIND_BOX) {
+        Box box = push.world.boxes.at[gl_PrimitiveID];
+        point = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;
+        point = mix(point, box.low, lessThan(outward, vec3(0.0)));
+        point = mix(point, box.high, greaterThan(outward, vec3(0.0)));
+        point = clamp(point, box.low, box.high);
+        number = box.material;
+    }
+#endif
+    MaterialRecord material = push.scene.materials.at[number];
+    vec3 normal = faceforward(outward, gl_WorldRayDirectionEXT, outward);
+#ifdef DEPARTURES
+    note_height(point, normal, own);
+#endif
+
+    Met met;
+    met.t = gl_HitTEXT;
+    met.position = point;
+    met.normal = normal;
+    met.flat_normal = normal;
+    met.lift = vec3(0.0);
+    met.up = normal;
+    met.on_plane = false;
+    met.curvature = curvature;
+    met.base_color = material.base_color;
+    met.specular = material.specular;
+    met.shininess = material.shininess;
+    met.emission = material.emission;
+    met.reflection = mirrors(material);
+    shade(met);
+}
+// ANCHOR_END: main

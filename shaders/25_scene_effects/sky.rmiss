@@ -1,0 +1,17 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+
+layout(location = 0) rayPayloadInEXT Path payload;
+
+// The ray hit nothing: it sees the sky.
+void main() {
+    gather(payload, sky(gl_WorldRayDirectionEXT));
+#ifdef EFFECT_MIRROR
+    // Nothing lies beyond.
+    payload.throughput = vec3(0.0);
+#endif
+}

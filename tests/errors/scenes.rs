@@ -1,0 +1,168 @@
+//! `--scene` of chapter 25: whatever is wrong with a scene file is refused with file and line.
+
+use std::fs;
+
+use crate::{refused_by, run};
+
+/// A scene that is right, up to the line that a case adds.
+const HEAD: &str =
+    "version = 1\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nfield_of_view = 40\n";
+const PAINT: &str = "[[material]]\nname = \"a\"\n";
+
+fn command(text: &[u8], more: &[(&str, &str)]) -> (tempfile::TempDir, std::process::Command) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), text).unwrap();
+    for (name, text) in more {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let mut command = run::command("25_scene_effects");
+    command.current_dir(&folder);
+    command.args(["--headless", "--size", "8x8", "--scene", "s.toml"]);
+    (folder, command)
+}
+
+#[track_caller]
+fn file_refused(text: &str, words: &str) {
+    let (_folder, command) = command(text.as_bytes(), &[]);
+    refused_by(command, 1, &[words]);
+}
+
+/// As [`file_refused`], of [`HEAD`] with a table after it.
+#[track_caller]
+fn table_refused(table: &str, words: &str) {
+    file_refused(&format!("{HEAD}{table}"), words);
+}
+
+#[test]
+fn a_right_scene_is_accepted() {
+    let (_folder, mut command) = command(HEAD.as_bytes(), &[]);
+    let output = command.arg("--validate").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn files_that_are_no_scene() {
+    file_refused("", "s.toml:1: the first key is `version = 1`; no other version is known");
+    file_refused("version = 2\n", "s.toml:1: the first key is `version = 1`");
+    file_refused("\nversion = \"1\"\n", "s.toml:2: the first key is `version = 1`");
+    file_refused("version = 1\n", "s.toml:1: missing field `camera`");
+    file_refused(&HEAD[..HEAD.len() - 30], "s.toml:4: ");
+    file_refused("version = 1\nversion = 1\n", "s.toml:2: duplicate key");
+    let (_folder, command) = command(b"version = 1\n# \xff\xfe\n", &[]);
+    refused_by(command, 1, &["s.toml:2: this is no UTF-8 text; a scene file is TOML"]);
+    let mut command = run::command("25_scene_effects");
+    command.args(["--headless", "--scene", "gone.toml"]);
+    refused_by(command, 1, &["gone.toml: there is no such file"]);
+}
+
+#[test]
+fn keys_and_values_that_are_wrong() {
+    table_refused("[fog]\n", "s.toml:6: unknown field `fog`, expected one of `version`");
+    table_refused(
+        "[plane]\nslope = 1\n",
+        "s.toml:7: unknown field `slope`, expected one of `normal`",
+    );
+    let camera = |line: &str| HEAD.replace("eye = [0, 1, 5]", line);
+    file_refused(&camera("eye = [0, 1, 5]\nroll = 3"), "s.toml:4: unknown field `roll`");
+    file_refused(
+        &camera("eye = [0, nan, 5]"),
+        "s.toml:3: NaN is not a number from -1000000 to 1000000",
+    );
+    file_refused(&camera("eye = [0, inf, 5]"), "s.toml:3: inf is not a number from");
+    file_refused(
+        &camera("eye = [0, 1e300, 5]"),
+        "s.toml:3: 1e300 is not a number from -1000000 to 1000000",
+    );
+    file_refused(
+        &camera("eye = [0, 1]"),
+        "s.toml:3: invalid length 2, expected an array of length 3",
+    );
+    file_refused(&camera("eye = \"here\""), "s.toml:3: invalid type: string \"here\"");
+    file_refused(&camera("eye = [0, 0, 0]"), "s.toml:2: the camera stands where it looks");
+    table_refused("[picture]\nsamples = 0\n", "s.toml:7: 0 is not a whole number from 1 to 64");
+    table_refused(
+        "[picture]\nsamples = 99999999\n",
+        "s.toml:7: 99999999 is not a whole number from 1",
+    );
+    table_refused("[picture]\ndepth = -1\n", "s.toml:7: -1 is not a whole number from 0 to 8");
+    table_refused(
+        "[plane]\nnormal = [0, 0, 0]\n",
+        "s.toml:7: a direction has a length: [0, 1, 0] is up",
+    );
+}
+
+#[test]
+fn lights_that_are_wrong() {
+    let lamp = "[[light]]\nkind = \"point\"\nposition = [0, 3, 0]\nintensity = [9, 9, 9]\n";
+    table_refused(&lamp.repeat(5), "s.toml:22: more than 4 lights");
+    table_refused(&lamp.replace("point", "laser"), "s.toml:7: unknown variant `laser`, expected");
+    table_refused(
+        &lamp.replace("point", "directional"),
+        "s.toml:6: a directional light has `azimuth`, `elevation` and `radiance`",
+    );
+    table_refused(
+        &lamp.replace("intensity = [9, 9, 9]\n", ""),
+        "s.toml:6: a point light has `position` and `intensity`",
+    );
+    table_refused(&format!("{lamp}size = 7\n"), "s.toml:10: 7.0 is not a number from 0 to 1");
+    table_refused(&lamp.replace("[9,", "[-9,"), "s.toml:9: -9.0 is not a number from 0 to 1000000");
+}
+
+#[test]
+fn things_that_are_wrong() {
+    let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n";
+    table_refused(ball, "s.toml:9: no material \"a\"; add a [[material]]");
+    table_refused(
+        &format!("{PAINT}{}", ball.replace("\"a\"", "\"b\"")),
+        "s.toml:11: no material \"b\"; there is a",
+    );
+    table_refused(
+        &ball.replace("= 1", "= -1"),
+        "s.toml:8: -1.0 is not a number from 0.000001 to 1000000",
+    );
+    let block = "[[box]]\nlow = [0, 0, 0]\nhigh = [1, 0, 1]\nmaterial = \"a\"\n";
+    table_refused(&format!("{PAINT}{block}"), "s.toml:8: a box has its `high` above its `low`");
+    let solid = |planes: &str| {
+        format!("{PAINT}[[solid]]\ncenter = [0, 0, 0]\nmaterial = \"a\"\nplanes = [{planes}]\n")
+    };
+    table_refused(&solid("[0, 1, 0, 1]"), "s.toml:11: 1 planes; a solid has 4 to 24");
+    table_refused(
+        &solid(&"[0, 1, 0, 1],".repeat(5)),
+        "s.toml:8: the planes enclose no bounded body",
+    );
+    table_refused(
+        &solid("[1, 1, 1, -1], [1, -1, -1, -1], [-1, 1, -1, -1], [-1, -1, 1, -1]"),
+        "s.toml:8: the planes enclose nothing; a normal points out of the solid",
+    );
+    table_refused(
+        &solid(&"[0, 1, 0, 1],".repeat(2000)),
+        "s.toml:11: 2000 planes; a solid has 4 to 24",
+    );
+    table_refused(
+        "[heightfield]\nlow = [0, 0]\nhigh = [1, 1]\nhills = 0\nhill = [1, 1]\nlight = [1, 1, 1]\n\
+         dark = [0, 0, 0]\nrock = [0, 0, 0]\n",
+        "s.toml:6: a heightfield has its `high` above its `low`, and `hills` above 0",
+    );
+    let many = "[[sphere]]\ncenter = [0,0,0]\nradius = 1\nmaterial = \"a\"\n".repeat(100_001);
+    table_refused(&many, "s.toml:400006: more than 100000 spheres");
+}
+
+#[test]
+fn pieces_and_models_that_are_wrong() {
+    let piece = "[[piece]]\nmesh = \"tower\"\nat = [0, 0, 0]\n";
+    table_refused(
+        piece,
+        "s.toml:7: no mesh \"tower\"; there is pawn, rook, bishop, knight, queen, king",
+    );
+    let board =
+        |position: &str| HEAD.replace("[camera]", &format!("position = \"{position}\"\n[camera]"));
+    file_refused(&board("8/8"), "s.toml:2: a position has eight ranks of eight squares");
+    file_refused(&board("8/8/8/8/8/8/8/xxxxxxxx"), "s.toml:2: 'x' is no chess piece");
+    let model = |name: &str| HEAD.replace("[camera]", &format!("model = {name:?}\n[camera]"));
+    file_refused(&model("gone.obj"), "s.toml:2: model names \"gone.obj\", which is not there");
+    for outside in ["../m.obj", "/etc/passwd", "a/../../m.obj", "C:\\m.obj"] {
+        file_refused(&model(outside), "outside the scene file's folder; copy it into the folder");
+    }
+    let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", "v 0 nan 0\n")]);
+    refused_by(command, 1, &["m.obj:1: \"nan\" is not a finite 32-bit number"]);
+}
