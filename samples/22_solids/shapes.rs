@@ -6,7 +6,7 @@ use super::pieces;
 use super::solid::{Bound, Solid, ball, block, plane};
 
 /// The names of the solids, in the order of their numbers.
-pub const SHAPES: [&str; 23] = [
+pub const SHAPES: [&str; 24] = [
     "tetrahedron",
     "cube",
     "octahedron",
@@ -30,6 +30,7 @@ pub const SHAPES: [&str; 23] = [
     "grazed cube",
     "tilted cube",
     "all but a cube",
+    "thirds",
 ];
 
 /// The solid of a number; the crystal has so many planes.
@@ -64,6 +65,7 @@ pub fn shape(number: u32, planes: u32) -> Solid {
         "overcut cube" => tilted_cube().without(slot(1.5)),
         "grazed cube" => grazed(),
         "all but a cube" => ivory(unit_block()).inverse(),
+        "thirds" => third(0, 1).and(third(1, 2)).and(third(2, 0)),
         _ => tilted_cube(),
     }
 }
@@ -149,6 +151,14 @@ fn half(side: f32, material: &'static str) -> Solid {
     let mut bounds = tilted([[1.0; 2]; 3], stretch);
     bounds.push(plane(Vec3::new(3.0, 1.0, -2.0) * side * stretch, 0.25 * side));
     Solid::Convex(bounds, material)
+}
+
+/// The part of a cube between two of three planes that meet in a line, the vertical through its middle.
+fn third(from: usize, to: usize) -> Solid {
+    let normals = [Vec3::new(1.0, 0.0, 0.3), Vec3::new(-0.4, 0.0, 0.9), Vec3::new(-0.6, 0.0, -1.2)];
+    let mut bounds = block(Vec3::NEG_ONE, Vec3::ONE);
+    bounds.extend([plane(normals[from], 0.0), plane(-normals[to], 0.0)]);
+    Solid::Convex(bounds, "ivory")
 }
 
 /// The tilted cube without a box that only touches it.

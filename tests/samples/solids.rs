@@ -68,7 +68,10 @@ impl Stub {
         let solid = format!("solid={name}");
         let [eye, target] =
             [format!("camera eye={}", text(eye)), format!("camera target={}", text(target))];
-        let one = ["preset=one solid", "plane=off", &solid, &eye, &target];
+        // A view shows the first ray only; what follows takes time.
+        let shown = sets.iter().any(|set| set.starts_with("show="));
+        let depth = if shown { "depth=0" } else { "depth=4" };
+        let one = ["preset=one solid", "plane=off", depth, &solid, &eye, &target];
         self.picture(SIZE, &[&one, sets].concat())
     }
 
@@ -245,7 +248,7 @@ fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
             // From inside, walls are walls: those that differ in more are enough.
             let telling = ["cube", "die", "king", "shell", "halves", "slotted cube"];
             // Each a twin of another, to which it is held elsewhere.
-            let twins = ["room", "overcut cube", "tilted cube"];
+            let twins = ["room", "overcut cube", "tilted cube", "thirds"];
             if view == INSIDE && !telling.contains(&name) || twins.contains(&name) {
                 continue;
             }
@@ -339,10 +342,11 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
         let [eye, target] = [OUTSIDE.0, OUTSIDE.1].map(|point| point * size + moved);
         let camera = Camera::new(eye, target, FIELD_OF_VIEW);
         let mut all = Tally::default();
+        let show = |name, view| stub.seen(OUTSIDE, name, &[&sets[..], &[view]].concat());
+        let directions = show("cube", "show=ray direction");
         for name in ["king", "halves"] {
             let solid = exact(&shape(name), &[]);
-            let show = |view| stub.seen(OUTSIDE, name, &[&sets[..], &[view]].concat());
-            let (directions, hits) = (show("show=ray direction"), show("show=hit"));
+            let hits = show(name, "show=hit");
             for (ray, hit) in rays(&camera, &directions).zip(&hits.pixels) {
                 let stray = to_world.stray(ray.origin, DVec3::ZERO).length();
                 let turned = (to_world.straying * ray.direction.abs() * U).length();
@@ -431,7 +435,7 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
         let solid = format!("solid={name}");
         stub.picture(LARGER, &[&one[..], &[&solid], more].concat())
     };
-    let mut naive = [0; 4];
+    let mut naive = [0; 5];
     for view in views {
         let alone = [&view[..], &["shared planes=off"]].concat();
         let [cube, overcut] = ["tilted cube", "overcut cube"].map(|whole| show(whole, &view));
@@ -452,9 +456,36 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
         assert_eq!(overlap(&["show=hit"]), 0);
         naive[3] += overlap(&["show=hit", "shared planes=off"]);
     }
-    println!("each plane alone: {naive:?} wrong pixels of {}", 2 * 120 * 75);
-    // What the rule is for: without it, two of these break.
-    assert!(naive.iter().filter(|count| **count > 100).count() >= 2, "{naive:?}");
+    // A crack between what is united has solid before it: it is seen from within.
+    let within = ["camera eye=0.05,-0.35,-0.12", "camera target=0.6,0.1,0.3"];
+    let cube = show("tilted cube", &within);
+    assert_eq!(differing(&show("halves", &within), &cube), 0);
+    naive[4] = differing(&show("halves", &[&within[..], &["shared planes=off"]].concat()), &cube);
+    println!("each plane alone: {naive:?} wrong pixels of {0}, the last of {1}", 2 * 9000, 9000);
+    // What the rule is for: without it, all breaks but what is united and seen from outside.
+    assert!(naive[1..].iter().all(|count| *count > 100), "{naive:?}");
+}
+
+#[test]
+fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
+    let stub = Stub::new();
+    // The middle column looks at the line, to the last digits.
+    let view = ["camera eye=-0.35,-0.12,0.61", "camera target=0,0.05,0"];
+    let [thirds, cube] = ["thirds", "cube"].map(|name| {
+        let solid = format!("solid={name}");
+        let one = ["preset=one solid", "plane=off", "depth=0", "show=hit", &solid];
+        stub.picture("101x301", &[&one[..], &view].concat())
+    });
+    let mut cracks = 0;
+    for (i, (third, whole)) in thirds.pixels.iter().zip(&cube.pixels).enumerate() {
+        if third[2].to_bits() != whole[2].to_bits() {
+            assert_eq!(i % 101, 50, "{third:?} {whole:?}");
+            cracks += 1;
+        }
+    }
+    println!("{cracks} of 301 rays that meet the line stop there");
+    // One plane is one number, but three numbers have an order, which rounding may choose.
+    assert!(cracks > 0);
 }
 
 #[test]
@@ -601,11 +632,12 @@ fn fog_is_counted_on_the_way_outside_only() {
     let below = Exact::HalfSpace { normal: DVec3::Y, offset: f64::from(-0.6f32) };
     let (mut both, mut none, mut all) = (0, 0, 0);
     // From inside through the opening, from behind, and from before it into it.
-    for view in [
+    let views = [
         (DVec3::new(0.1, 0.2, 0.5), DVec3::new(0.9, -0.1, -0.4)),
         (DVec3::new(0.4, 0.3, 4.0), DVec3::ZERO),
         (DVec3::new(0.8, 0.9, -4.0), DVec3::ZERO),
-    ] {
+    ];
+    for view in views {
         let rays = stub.rays(view);
         for (name, inside, more) in [("room", true, "plane=on"), ("shell", false, "plane=off")] {
             let solid = Exact::Intersection(exact(&shape(name), &[cut]).into());
@@ -613,8 +645,8 @@ fn fog_is_counted_on_the_way_outside_only() {
             let show = |more: &[&str]| {
                 stub.seen(view, name, &[&sets[..], &plane, more, &["show=fog"]].concat())
             };
-            let (fog, hollow) = (show(&[]), show(&["hollow=on"]));
-            for ((ray, fog), hollow) in rays.iter().zip(&fog.pixels).zip(&hollow.pixels) {
+            let fog = show(&[]);
+            for (ray, fog) in rays.iter().zip(&fog.pixels) {
                 let [way, clear, t, _] = fog.map(f64::from);
                 let end = if t < 0.0 { 1e30 } else { t };
                 let mut within = covered(&solid.intervals(ray), end);
@@ -628,7 +660,6 @@ fn fog_is_counted_on_the_way_outside_only() {
                     "{name}: {ray:?} {way} {exact}"
                 );
                 assert!((clear - (-way / 2.0).exp()).abs() < 1e-5);
-                assert_eq!(hollow[0], if t < 0.0 { 1e30 } else { hollow[2] });
                 *if within == 0.0 {
                     &mut all
                 } else if exact < 1e-6 {
@@ -636,6 +667,12 @@ fn fog_is_counted_on_the_way_outside_only() {
                 } else {
                     &mut both
                 } += 1;
+            }
+            // Where fog is everywhere, nobody asks where a ray is: one view tells.
+            if view == views[0] {
+                for [way, _, t, _] in show(&["hollow=on"]).pixels {
+                    assert_eq!(way, if t < 0.0 { 1e30 } else { t }, "{name}");
+                }
             }
         }
     }
