@@ -238,12 +238,12 @@ fn times(
         instruments.push((rung, probe.instrument(primitive, rung, Way::Direct)?));
     }
     // The first time goes to the driver's compiler. The others say how often to repeat, and which rung is
-    // the cheapest: the best of a few, as whatever disturbs a dispatch makes it slower.
+    // the cheapest: the best of many, as whatever disturbs a dispatch makes it slower.
     let mut best = Vec::new();
     for (_, instrument) in &instruments {
         probe.time(instrument, batch, 1)?;
         let mut least = f64::INFINITY;
-        for _ in 0..5 {
+        for _ in 0..20 {
             least = least.min(probe.time(instrument, batch, 1)?);
         }
         best.push(least);
