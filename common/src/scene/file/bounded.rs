@@ -20,8 +20,14 @@ fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
     }
 }
 
+/// So many numbers, no fewer and no more: the reader of arrays would pass over what is too much.
+fn numbers<const N: usize, E: Error>(list: Vec<f64>) -> Result<[f64; N], E> {
+    let count = list.len();
+    list.try_into().map_err(|_| E::custom(format!("{count} numbers where there are {N}")))
+}
+
 fn three<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<DVec3, D::Error> {
-    let [x, y, z] = <[f64; 3]>::deserialize(from)?;
+    let [x, y, z] = numbers(Vec::deserialize(from)?)?;
     Ok(DVec3::new(check(x, low, high)?, check(y, low, high)?, check(z, low, high)?))
 }
 
@@ -81,7 +87,7 @@ pub fn lengths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec2, D::Error> {
 }
 
 fn two<'de, D: Deserializer<'de>>(from: D, low: f64) -> Result<Vec2, D::Error> {
-    let [x, z] = <[f64; 2]>::deserialize(from)?;
+    let [x, z] = numbers(Vec::deserialize(from)?)?;
     Ok(Vec2::new(check(x, low, FAR)? as f32, check(z, low, FAR)? as f32))
 }
 
@@ -92,7 +98,8 @@ pub fn height<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
 
 /// Half-spaces: a normal of any length but 0, and a distance.
 pub fn faces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 4]>, D::Error> {
-    let faces = Vec::<[f64; 4]>::deserialize(from)?;
+    let faces = Vec::<Vec<f64>>::deserialize(from)?;
+    let faces: Vec<[f64; 4]> = faces.into_iter().map(numbers).collect::<Result<_, _>>()?;
     for &[x, y, z, distance] in &faces {
         for part in [x, y, z, distance] {
             check(part, -FAR, FAR)?;

@@ -1,5 +1,6 @@
 //! From the tables of a scene file to what is rendered.
 
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use anyhow::Result;
@@ -33,16 +34,14 @@ impl Description {
         source.check(&self.boxes, MOST, "boxes")?;
         source.check(&self.solid, MOST, "solids")?;
         let mut model = self.model(path, source)?;
-        for paint in &self.material {
-            paint.get_ref().apply(&mut model.materials);
-        }
+        let materials = self.paint(&mut model.materials, source)?;
         let view = self.camera.get_ref();
         let View { eye, target, field_of_view } = *view;
         if eye.distance(target) < 1e-9 {
             let what = "the camera stands where it looks; move `eye` or `target`";
             return Err(source.error(self.camera.span().start, what));
         }
-        let instances = self.instances(&model, source)?;
+        let instances = self.instances(&model, &materials, source)?;
         let lights = self.light.iter().map(|lamp| {
             let lit = lamp.get_ref().light();
             lit.map_err(|what| source.error(lamp.span().start, what))
@@ -65,7 +64,7 @@ impl Description {
             depth: self.picture.depth,
             scene: Scene { model, instances, camera: Camera::new(eye, target, field_of_view) },
         };
-        self.add_shapes(&mut composition, source)?;
+        self.add_shapes(&mut composition, &materials, source)?;
         composition.prune();
         Ok(composition)
     }
@@ -83,15 +82,43 @@ impl Description {
                 error.to_string().replace("the OBJ file's folder", "the scene file's folder");
             source.error(named.span().start, &what)
         })?;
-        obj::load(Path::new(&found.shown))
+        if !found.path.is_file() {
+            let what = format!("model names {}, which is no file", quoted(named.get_ref()));
+            return Err(source.error(named.span().start, &what));
+        }
+        obj::load(&path.with_file_name(&found.name))
+    }
+
+    /// Adds and changes materials, and returns the number of each name.
+    fn paint(&self, materials: &mut Vec<Material>, source: &Source) -> Result<Numbers> {
+        let mut numbers = numbers(materials.iter().map(|material| &material.name));
+        let mut painted = HashSet::new();
+        for paint in &self.material {
+            let name = &paint.get_ref().name;
+            if !painted.insert(name) {
+                let what = format!("a second material {}", quoted(name));
+                return Err(source.error(paint.span().start, &what));
+            }
+            let number = *numbers.entry(name.clone()).or_insert_with(|| {
+                materials.push(Material { name: name.clone(), ..Material::default() });
+                materials.len() - 1
+            });
+            paint.get_ref().apply(&mut materials[number]);
+        }
+        Ok(numbers)
     }
 
     /// Pieces where they are put, or every mesh where its file has it.
-    fn instances(&self, model: &Model, source: &Source) -> Result<Vec<Instance>> {
+    fn instances(
+        &self,
+        model: &Model,
+        materials: &Numbers,
+        source: &Source,
+    ) -> Result<Vec<Instance>> {
         if self.piece.is_empty() && self.position.is_none() {
             return Ok(standing(model));
         }
-        let mut instances = place(&self.piece, model, source)?;
+        let mut instances = place(&self.piece, model, materials, source)?;
         if let Some(position) = &self.position {
             chess::place_position(model, position.get_ref(), &mut instances)
                 .map_err(|error| source.error(position.span().start, &error.to_string()))?;
@@ -99,10 +126,10 @@ impl Description {
         Ok(instances)
     }
 
-    fn add_shapes(&self, to: &mut Composition, source: &Source) -> Result<()> {
+    fn add_shapes(&self, to: &mut Composition, materials: &Numbers, source: &Source) -> Result<()> {
         let model = &to.scene.model;
         for ball in self.sphere.iter().map(Spanned::get_ref) {
-            let material = opaque(model, &ball.material, source)?;
+            let material = opaque(model, materials, &ball.material, source)?;
             to.spheres.push(Sphere { center: ball.center, radius: ball.radius, material });
         }
         for block in &self.boxes {
@@ -112,13 +139,13 @@ impl Description {
                 let what = "a box has its `high` above its `low` along every axis";
                 return Err(source.error(at, what));
             }
-            let material = opaque(model, &block.material, source)?;
+            let material = opaque(model, materials, &block.material, source)?;
             to.boxes.push(Box { low: block.low, high: block.high, material });
         }
         for body in &self.solid {
             let at = body.span().start;
             let body = body.get_ref();
-            let material = opaque(model, &body.material, source)?;
+            let material = opaque(model, materials, &body.material, source)?;
             let (solid, bounds) =
                 polytope::solid(body.center, &body.planes, material, &mut to.faces)
                     .map_err(|what| source.error(at, what))?;
@@ -140,17 +167,22 @@ fn standing(model: &Model) -> Vec<Instance> {
     model.meshes.iter().map(|mesh| mesh.material).enumerate().map(instance).collect()
 }
 
-fn place(pieces: &[Spanned<Piece>], model: &Model, source: &Source) -> Result<Vec<Instance>> {
+fn place(
+    pieces: &[Spanned<Piece>],
+    model: &Model,
+    materials: &Numbers,
+    source: &Source,
+) -> Result<Vec<Instance>> {
+    let meshes = numbers(model.meshes.iter().map(|mesh| &mesh.name));
     let placed = pieces.iter().map(|piece| {
         let Piece { mesh, at, turn, size, material } = piece.get_ref();
-        let named = model.meshes.iter().position(|known| known.name == *mesh.get_ref());
-        let mesh = named.ok_or_else(|| {
-            let known: Vec<_> = model.meshes.iter().take(20).map(|m| m.name.as_str()).collect();
-            let what = format!("no mesh {}; there is {}", quoted(mesh.get_ref()), known.join(", "));
+        let mesh = *meshes.get(mesh.get_ref()).ok_or_else(|| {
+            let known = some(model.meshes.iter().map(|mesh| &mesh.name));
+            let what = format!("no mesh {}; there is {known}", quoted(mesh.get_ref()));
             source.error(mesh.span().start, &what)
         })?;
         let material = match material {
-            Some(name) => find(model, name, source)?,
+            Some(name) => find(model, materials, name, source)?,
             None => model.meshes[mesh].material,
         };
         let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
@@ -160,23 +192,48 @@ fn place(pieces: &[Spanned<Piece>], model: &Model, source: &Source) -> Result<Ve
     placed.collect()
 }
 
-fn find(model: &Model, name: &Spanned<String>, source: &Source) -> Result<usize> {
-    let found = model.materials.iter().position(|material| material.name == *name.get_ref());
-    found.ok_or_else(|| {
-        let known: Vec<_> = model.materials.iter().take(20).map(|m| m.name.as_str()).collect();
-        let what = match known.is_empty() {
-            true => format!("no material {}; add a [[material]]", quoted(name.get_ref())),
-            false => {
-                format!("no material {}; there is {}", quoted(name.get_ref()), known.join(", "))
+/// What is called by a name, by position: the first of several.
+type Numbers = HashMap<String, usize>;
+
+fn numbers<'a>(names: impl Iterator<Item = &'a String>) -> Numbers {
+    let mut numbers = Numbers::new();
+    for (number, name) in names.enumerate() {
+        numbers.entry(name.clone()).or_insert(number);
+    }
+    numbers
+}
+
+/// The first of many names, on one line.
+fn some<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    let bare = |name: &String| quoted(name).trim_matches('"').to_owned();
+    names.take(20).map(bare).collect::<Vec<_>>().join(", ")
+}
+
+fn find(
+    model: &Model,
+    materials: &Numbers,
+    name: &Spanned<String>,
+    source: &Source,
+) -> Result<usize> {
+    materials.get(name.get_ref()).copied().ok_or_else(|| {
+        let what = match some(model.materials.iter().map(|material| &material.name)) {
+            none if none.is_empty() => {
+                format!("no material {}; add a [[material]]", quoted(name.get_ref()))
             }
+            known => format!("no material {}; there is {known}", quoted(name.get_ref())),
         };
         source.error(name.span().start, &what)
     })
 }
 
 /// A material of a shape, which no any-hit shader asks for holes or texture coordinates.
-fn opaque(model: &Model, name: &Spanned<String>, source: &Source) -> Result<u32> {
-    let number = find(model, name, source)?;
+fn opaque(
+    model: &Model,
+    materials: &Numbers,
+    name: &Spanned<String>,
+    source: &Source,
+) -> Result<u32> {
+    let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
     match material.has_cutout() || material.base_texture.is_some() {
         true => {
@@ -240,13 +297,7 @@ impl Land {
 }
 
 impl Paint {
-    fn apply(&self, materials: &mut Vec<Material>) {
-        let known = materials.iter().position(|material| material.name == self.name);
-        let number = known.unwrap_or_else(|| {
-            materials.push(Material { name: self.name.clone(), ..Material::default() });
-            materials.len() - 1
-        });
-        let material = &mut materials[number];
+    fn apply(&self, material: &mut Material) {
         material.base_color = self.color.unwrap_or(material.base_color);
         material.specular = self.specular.unwrap_or(material.specular);
         material.shininess = self.shininess.unwrap_or(material.shininess);
