@@ -317,4 +317,29 @@ fn the_page_lists_every_scene_and_every_key_of_the_file() {
     for effect in Effect::ALL {
         assert!(page.contains(&format!("| {} |", effect.name())), "{}", effect.name());
     }
+    // What the reader of files says that it knows, table by table.
+    let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
+    let lists = ["[[light]]", "[[material]]", "[[piece]]", "[[sphere]]", "[[box]]", "[[solid]]"];
+    let folder = tempfile::tempdir().unwrap();
+    for table in tables.iter().chain(&lists).chain(&[""]) {
+        let file = folder.path().join("s.toml");
+        std::fs::write(&file, format!("version = 1\n{table}\nunheard_of = 1\n")).unwrap();
+        let error = Composition::open(&file).err().unwrap().to_string();
+        let known = error.split_once("expected one of ").expect(&error).1;
+        let rows =
+            page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
+        let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];
+        for key in known.split(", ") {
+            let there = match table.is_empty() {
+                true => {
+                    page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
+                }
+                false => {
+                    let valued = format!("{} =", key.trim_end_matches('`'));
+                    rows.contains(key) || rows.contains(&valued)
+                }
+            };
+            assert!(there, "{table} {key} is not on the page");
+        }
+    }
 }
