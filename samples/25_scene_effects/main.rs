@@ -69,6 +69,8 @@ struct Demo {
     /// The one in use.
     current: usize,
     workshop: Workshop,
+    /// The pipeline that could not be made, and why; until another is called for.
+    failed: Option<(Recipe, String)>,
     costs: Vec<Cost>,
     camera: Camera,
     file: Option<PathBuf>,
@@ -125,6 +127,7 @@ impl Sample for Demo {
             tracers: Vec::new(),
             current: 0,
             workshop: Workshop::default(),
+            failed: None,
             costs: Vec::new(),
             camera,
             file,
@@ -172,7 +175,8 @@ impl Sample for Demo {
     // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        if let Some(error) = self.trouble.take() {
+        // A window goes on with the scene that it has, and tells.
+        if let Some(error) = self.trouble.take_if(|_| !self.interactive) {
             return Err(error);
         }
         let camera = self.camera.basis(frame.aspect());
@@ -230,6 +234,7 @@ impl Demo {
                 self.camera = scene.scene.camera;
                 (self.scene, self.geometry) = (scene, None);
                 (self.light, self.material) = (1, 0);
+                self.trouble = None;
             }
             Err(error) => self.trouble = Some(error),
         }
@@ -280,8 +285,12 @@ impl Demo {
     /// Takes the pipeline for the scene as it is now. While it is being made, the last one goes on.
     fn choose(&mut self, gpu: &Gpu) -> Result<()> {
         let geometry = self.geometry.as_ref().context("no scene")?;
-        if let Some((recipe, pipeline)) = self.workshop.done()? {
-            self.tracers.push(Tracer::new(gpu, geometry, recipe, pipeline)?);
+        match self.workshop.done() {
+            Some((recipe, Ok(made))) => {
+                self.tracers.push(Tracer::new(gpu, geometry, recipe, made)?);
+            }
+            Some((recipe, Err(error))) => self.failed = Some((recipe, format!("{error:#}"))),
+            None => {}
         }
         let recipe = self.recipe();
         let known = self.tracers.iter().position(|tracer| tracer.recipe == recipe);
@@ -291,7 +300,8 @@ impl Demo {
         }
         if known.is_some() || !self.interactive || old.is_none() {
             self.current = self.tracer(gpu, recipe)?;
-        } else {
+        } else if self.failed.as_ref().is_none_or(|(known, _)| *known != recipe) {
+            self.failed = None;
             self.workshop.begin(gpu, &geometry.scene.textures, recipe);
         }
         Ok(())

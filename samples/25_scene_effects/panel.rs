@@ -32,6 +32,12 @@ impl Demo {
 
     /// The effects, why they are in or out, and what they cost.
     pub fn tell(&self, c: &mut Controls) {
+        if let Some(error) = &self.trouble {
+            c.note("not opened", &format!("{error:#}"));
+        }
+        if let Some((_, why)) = &self.failed {
+            c.note("not compiled", why);
+        }
         for Finding { effect, needed, why } in self.findings() {
             let cost = self.costs.iter().find(|cost| cost.effect == effect);
             let cost = cost.map_or(String::new(), |cost| format!(" · {:.1} ms", cost.milliseconds));

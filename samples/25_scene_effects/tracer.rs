@@ -89,21 +89,11 @@ impl Workshop {
         }
     }
 
-    /// The pipeline that was begun, once it is made.
-    ///
-    /// # Errors
-    /// If it could not be.
-    pub fn done(&mut self) -> Result<Option<(Recipe, RayTracingPipeline)>> {
-        match self.order.take() {
-            Some((recipe, thread)) if thread.is_finished() => {
-                let made = thread.join().map_err(|_| anyhow!("making a pipeline panicked"))?;
-                Ok(Some((recipe, made?)))
-            }
-            unfinished => {
-                self.order = unfinished;
-                Ok(None)
-            }
-        }
+    /// The pipeline that was begun, once it is made; or why it cannot be.
+    pub fn done(&mut self) -> Option<(Recipe, Result<RayTracingPipeline>)> {
+        let (recipe, thread) = self.order.take_if(|(_, thread)| thread.is_finished())?;
+        let made = thread.join().unwrap_or_else(|_| Err(anyhow!("making a pipeline panicked")));
+        Some((recipe, made))
     }
     // ANCHOR_END: background
 }

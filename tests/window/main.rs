@@ -137,17 +137,22 @@ fn dragging_a_slider_never_freezes_the_panel() {
     assert!(longest < 250, "{longest} ms from input to picture");
 }
 
-#[test]
-fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
-    let _alone = alone();
-    let copy = tempfile::tempdir().expect("a temporary folder");
-    for folder in ["common", "02_basic"] {
-        let (from, to) = (run::root().join("shaders").join(folder), copy.path().join(folder));
+/// Copies folders of shaders, to be edited.
+fn copy_shaders(place: &Path, folders: &[&str]) {
+    for folder in folders {
+        let (from, to) = (run::root().join("shaders").join(folder), place.join(folder));
         std::fs::create_dir(&to).expect("a folder");
         for file in from.read_dir().expect("shaders").map(|file| file.expect("a shader").path()) {
             std::fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("a copy");
         }
     }
+}
+
+#[test]
+fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    copy_shaders(copy.path(), &["common", "02_basic"]);
     let sky = copy.path().join("02_basic/sky.rmiss");
     let good = std::fs::read_to_string(&sky).expect("the sky");
     let end = good.rfind('}').expect("a body");
@@ -252,4 +257,25 @@ fn the_readme_shows_this_window() {
         panic!("no {}: {error}; UPDATE=1 cargo test --test window writes it", file.display())
     });
     assert_eq!((shown.width(), shown.height()), (1280, 720));
+}
+
+#[test]
+fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    copy_shaders(copy.path(), &["common", "25_scene_effects"]);
+    let broken = "#version 460\nnonsense\n";
+    std::fs::write(copy.path().join("25_scene_effects/shadow.rmiss"), broken).expect("an edit");
+    // It casts no shadow until the box is ticked.
+    let scene = run::root().join("samples/assets/scenes/one_sphere.toml");
+    let scene = scene.to_str().expect("a plain path");
+    let arguments = ["--validate", "--size", "800x700", "--scene", scene];
+    let desk = Desk::open("25_scene_effects", &arguments, &[("SHADERS", copy.path())]);
+    let (before, _) = desk.picture();
+    desk.drag(LIGHT_SHADOWS, LIGHT_SHADOWS, 4);
+    for _ in 0..6 {
+        assert!(same(&desk.picture().0, &before), "the old pipeline goes on");
+    }
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
 }
