@@ -1,0 +1,94 @@
+//! The stages of a pipeline and the groups that they make.
+
+use anyhow::Result;
+use ash::vk;
+
+use crate::gpu::exact::exact;
+use crate::gpu::shader::{self, Shader};
+
+/// A hit group: what happens where a ray meets one kind of geometry.
+#[derive(Clone, Copy, Default)]
+pub struct HitGroup<'a> {
+    intersection: Option<&'a str>,
+    any_hit: Option<&'a str>,
+    closest_hit: Option<&'a str>,
+}
+
+impl<'a> HitGroup<'a> {
+    /// A group for triangles, which the device intersects itself.
+    pub fn triangles() -> Self {
+        Self::default()
+    }
+
+    /// A group for boxes, inside which `shader` reports hits.
+    pub fn procedural(shader: &'a str) -> Self {
+        Self { intersection: Some(shader), ..Self::default() }
+    }
+
+    /// Adds the shader that runs once, at the hit nearest to the ray's origin.
+    pub fn closest_hit(self, shader: &'a str) -> Self {
+        Self { closest_hit: Some(shader), ..self }
+    }
+
+    /// Adds the shader that runs at each hit of non-opaque geometry and may ignore it.
+    pub fn any_hit(self, shader: &'a str) -> Self {
+        Self { any_hit: Some(shader), ..self }
+    }
+}
+
+/// The shaders of a pipeline, each compiled once however many groups use it.
+pub(super) struct Stages<'a> {
+    pub folder: &'a str,
+    pub defines: &'a [(&'a str, String)],
+    pub exact: bool,
+    pub shaders: Vec<Shader>,
+}
+
+impl Stages<'_> {
+    /// The number of a stage, compiled if it is new.
+    pub fn add(&mut self, file: &str) -> Result<u32> {
+        let path = format!("{}/{file}", self.folder);
+        let known = self.shaders.iter().position(|shader| shader.path == path);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let mut shader = shader::compile_with(&path, self.defines)?;
+                if self.exact {
+                    shader.spirv = exact(&shader.spirv)?;
+                }
+                self.shaders.push(shader);
+                self.shaders.len() - 1
+            }
+        };
+        Ok(index as u32)
+    }
+
+    /// A hit group and its stages.
+    pub fn hit_group(
+        &mut self,
+        hit: &HitGroup,
+    ) -> Result<vk::RayTracingShaderGroupCreateInfoKHR<'static>> {
+        let ty = match hit.intersection {
+            Some(_) => vk::RayTracingShaderGroupTypeKHR::PROCEDURAL_HIT_GROUP,
+            None => vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP,
+        };
+        let mut stage =
+            |path: Option<&str>| path.map_or(Ok(vk::SHADER_UNUSED_KHR), |p| self.add(p));
+        Ok(vk::RayTracingShaderGroupCreateInfoKHR::default()
+            .ty(ty)
+            .general_shader(vk::SHADER_UNUSED_KHR)
+            .intersection_shader(stage(hit.intersection)?)
+            .any_hit_shader(stage(hit.any_hit)?)
+            .closest_hit_shader(stage(hit.closest_hit)?))
+    }
+}
+
+/// A group of one raygen, miss or callable shader.
+pub(super) fn general(stage: u32) -> vk::RayTracingShaderGroupCreateInfoKHR<'static> {
+    vk::RayTracingShaderGroupCreateInfoKHR::default()
+        .ty(vk::RayTracingShaderGroupTypeKHR::GENERAL)
+        .general_shader(stage)
+        .closest_hit_shader(vk::SHADER_UNUSED_KHR)
+        .any_hit_shader(vk::SHADER_UNUSED_KHR)
+        .intersection_shader(vk::SHADER_UNUSED_KHR)
+}
