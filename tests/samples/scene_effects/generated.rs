@@ -3,32 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use common::reference::random::Random;
 use common::scene::Effect::{self, *};
 use common::scene::Effects;
 
-/// Numbers that depend on a seed alone (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
-/// Generators", 2014).
-pub struct Random(pub u64);
-
-impl Random {
-    /// The next, in [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 40) as f64 / f64::from(1 << 24)
-    }
-
-    /// The next 64 bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// A number with two digits, so that text and float agree on it.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        ((low + (high - low) * self.unit()) * 100.0).round() / 100.0
-    }
+/// A number with two digits, so that text and float agree on it.
+fn between(random: &mut Random, low: f64, high: f64) -> f64 {
+    (random.between(low, high) * 100.0).round() / 100.0
 }
 
 /// What of a set a scene can call for: holes and textures are on triangles, a size is a shadow's, and a
@@ -117,7 +98,7 @@ map_d checks.png
 
 fn text(set: Effects, random: &mut Random) -> String {
     let has = |effect| set.has(effect);
-    let mut n = |low, high| random.between(low, high);
+    let mut n = |low, high| between(random, low, high);
     let mut text = format!(
         "version = 1\nmodel = \"model.obj\"\n[picture]\nsamples = {}\nlight_samples = 3\ndepth = 3\n",
         if has(AntiAliasing) { 2 } else { 1 }
