@@ -3,13 +3,7 @@
 // A start below the surface hits it again: acne. A start too far above it is beyond what stands close
 // by: leaks. For closest hit shaders, after common/offset.glsl: that has the hit.
 #include "common/start.glsl"
-
-const uint ORIGIN_NOTHING = 0;
-const uint ORIGIN_TMIN = 1;
-const uint ORIGIN_NORMAL = 2;
-const uint ORIGIN_INTEGERS = 3;
-const uint ORIGIN_REPROJECTED = 4;
-const uint ORIGIN_BOUND = 5;
+#include "common/origin_rungs.glsl"
 
 // The point that a ray leaves.
 struct Departure {
@@ -59,15 +53,6 @@ Start start_normal(Departure from) {
 // ANCHOR_END: naive
 
 // ANCHOR: integers
-// Up by so many floats: a step that grows with the coordinate. Near zero, where floats lie dense, a
-// fixed length instead (Waechter and Binder, Ray Tracing Gems, chapter 6; the constants are theirs).
-vec3 up_by_floats(vec3 point, vec3 normal) {
-    ivec3 steps = ivec3(256.0 * normal);
-    ivec3 bits = floatBitsToInt(point) + mix(steps, -steps, lessThan(point, vec3(0.0)));
-    vec3 near_zero = point + (1.0 / 65536.0) * normal;
-    return mix(intBitsToFloat(bits), near_zero, lessThan(abs(point), vec3(1.0 / 32.0)));
-}
-
 Start start_integers(Departure from) {
     return Start(up_by_floats(start_nothing().origin, from.normal), 0.0);
 }
