@@ -3,10 +3,10 @@
 //! - [`app`]: a program: arguments, controls, window, headless run, picture, report
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
 //! - [`scene`]: camera, light, mesh, material, OBJ and scene files, effects, chess, upload
-//! - [`reference`]: the same intersections on the CPU, in f64 and exact: what the GPU is held to
 //! - [`files`], [`usage`]: files written whole; the error that means "wrong arguments"
 //!
-//! Arrows point one way: samples → app → gpu; `scene` uses `gpu` only to upload, `reference` neither.
+//! Arrows point one way: samples → app → gpu; `scene` uses `gpu` only to upload. The crate `reference`,
+//! what the GPU is held to, knows none of them.
 //! A helper enters only once a chapter has shown it raw.
 
 // The macro `shader_struct!` names this crate by its outside name, here as in the samples.
@@ -15,7 +15,6 @@ extern crate self as common;
 pub mod app;
 pub mod files;
 pub mod gpu;
-pub mod reference;
 pub mod scene;
 pub mod usage;
 

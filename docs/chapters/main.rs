@@ -47,7 +47,7 @@ struct Arguments {
     command: Command,
 
     /// The project's root
-    #[arg(long, value_name = "DIR", global = true, default_value = env!("CARGO_MANIFEST_DIR"), hide_default_value = true)]
+    #[arg(long, value_name = "DIR", global = true, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), hide_default_value = true)]
     root: PathBuf,
 }
 

@@ -76,9 +76,9 @@ pub struct Project {
     pub manifest: String,
     /// The chapters, by number.
     pub chapters: Vec<Chapter>,
-    /// The programs.
+    /// The programs of all packages.
     pub bins: Vec<Target>,
-    /// The test programs.
+    /// The test programs of all packages.
     pub tests: Vec<Target>,
     /// What `cargo run` alone runs.
     pub default_run: Option<String>,
@@ -88,7 +88,7 @@ impl Project {
     /// Reads the project in the folder `root`.
     ///
     /// # Errors
-    /// If `Cargo.toml` is missing, or says what it should not.
+    /// If a `Cargo.toml` is missing, or says what it should not.
     pub fn open(root: &Path) -> Result<Self> {
         let manifest = read(&root.join("Cargo.toml"))?;
         let read: Manifest = toml::from_str(&manifest).map_err(|error| {
@@ -98,12 +98,21 @@ impl Project {
         })?;
         let named = |(name, chapter)| Chapter { name, ..chapter };
         let chapters = read.package.metadata.chapters.into_iter().map(named).collect();
+        let (mut bins, mut tests) = (read.bin, read.test);
+        for member in read.workspace.members.iter().filter(|member| *member != ".") {
+            let manifest = self::read(&root.join(member).join("Cargo.toml"))?;
+            let targets: Targets =
+                toml::from_str(&manifest).with_context(|| format!("{member}/Cargo.toml"))?;
+            let placed = |target: Target| Target { path: below(member, &target.path), ..target };
+            bins.extend(targets.bin.into_iter().map(placed));
+            tests.extend(targets.test.into_iter().map(placed));
+        }
         Ok(Self {
             root: root.to_owned(),
             manifest,
             chapters,
-            bins: read.bin,
-            tests: read.test,
+            bins,
+            tests,
             default_run: read.package.default_run,
         })
     }
@@ -167,6 +176,11 @@ impl Project {
         pages
     }
 
+    /// Whether a chapter is a package of its own, with dependencies and a test program that no other needs.
+    pub fn has_own_package(&self, chapter: &Chapter) -> bool {
+        self.has(&format!("samples/{}/Cargo.toml", chapter.name))
+    }
+
     /// The line of `Cargo.toml` on which `text` stands, from 1; 1 if it does not.
     pub fn manifest_line(&self, text: &str) -> usize {
         self.manifest.lines().position(|line| line.trim() == text).map_or(1, |index| index + 1)
@@ -188,9 +202,38 @@ pub const SUMMARY: &str = "docs/SUMMARY.md";
 struct Manifest {
     package: Package,
     #[serde(default)]
+    workspace: Workspace,
+    #[serde(default)]
     bin: Vec<Target>,
     #[serde(default)]
     test: Vec<Target>,
+}
+
+#[derive(Default, Deserialize)]
+struct Workspace {
+    #[serde(default)]
+    members: Vec<String>,
+}
+
+/// What the manifest of another package of the project says.
+#[derive(Deserialize)]
+struct Targets {
+    #[serde(default)]
+    bin: Vec<Target>,
+    #[serde(default)]
+    test: Vec<Target>,
+}
+
+/// The path `relative` to a folder, from the project's root.
+fn below(folder: &str, relative: &str) -> String {
+    let mut parts: Vec<&str> = folder.split('/').collect();
+    for part in relative.split('/') {
+        match part {
+            ".." => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
 }
 
 #[derive(Deserialize)]

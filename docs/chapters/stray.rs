@@ -53,6 +53,10 @@ fn why(
             (own || sources.code_says(&format!("\"{below}\"")), "no program names it")
         }
         _ if folder == "docs" && name == "book.toml" => (true, ""),
+        _ if name == "Cargo.toml" => {
+            let member = format!("\"{folder}\",");
+            (project.manifest.contains(&member), "it is no member of the workspace")
+        }
         _ => (linked.contains(file) || sources.says(file, name), "nothing mentions it"),
     };
     (!used).then(|| why.to_owned())

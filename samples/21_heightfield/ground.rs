@@ -1,6 +1,5 @@
 //! The ground on the host: what it is, in f64, and prepared for the shaders.
 
-use common::reference::heightfield::Heightfield;
 use glam::{DVec3, Vec3};
 
 /// How wide a hill is, and the pond beside it.
@@ -98,17 +97,15 @@ impl Landscape {
     }
     // ANCHOR_END: shape
 
-    /// The same in f64.
-    pub fn exact(&self) -> Heightfield {
-        let HeightfieldShape { k, a, fx, fz, b, gx, gz, lipschitz } = self.shape();
-        let [k, a, fx, fz, b, gx, gz, lipschitz] =
-            [k, a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
-        Heightfield { k, a, fx, fz, b, gx, gz, lipschitz }
-    }
-
-    /// The height of the ground.
+    /// The height of the ground, in f64: where pieces stand on it.
     pub fn height(&self, x: f32, z: f32) -> f64 {
-        self.exact().height(x.into(), z.into()).0
+        let HeightfieldShape { k, a, fx, fz, b, gx, gz, .. } = self.shape();
+        let [x, z, k, a, fx, fz, b, gx, gz] = [x, z, k, a, fx, fz, b, gx, gz].map(f64::from);
+        let wave = |u: f64| {
+            let v = u - u.round_ties_even();
+            8.0 * v * (1.0 - 2.0 * v.abs())
+        };
+        k * (a * wave(fx * x) * wave(fz * z + 0.25) + b * wave(gx * x + gz * z))
     }
 
     // ANCHOR: bounds
@@ -129,7 +126,9 @@ impl Landscape {
     /// By how much the height of a ray above the ground may be wrong that is computed in f32, for rays
     /// from `origin` (its absolute coordinates), wherever they are in the box.
     pub fn error(&self, origin: DVec3) -> f64 {
-        let Heightfield { k, a, fx, fz, b, gx, gz, lipschitz } = self.exact();
+        let HeightfieldShape { k, a, fx, fz, b, gx, gz, lipschitz } = self.shape();
+        let [k, a, fx, fz, b, gx, gz, lipschitz] =
+            [k, a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
         let (low, high) = self.bounds(0.0);
         let reach = low.abs().max(high.abs()).as_dvec3();
         // o + t·d: the product is no longer than origin and point together, and both round.

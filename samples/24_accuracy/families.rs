@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use common::reference::random::{Random, f32s};
-use common::reference::{ExactSurface, scene::Scene};
-use common::reference::{
+use glam::{DMat3, DVec3, Vec3};
+use reference::random::{Random, f32s};
+use reference::{ExactSurface, scene::Scene};
+use reference::{
     aabb::Aabb, capsule::Capsule, heightfield, instance::Ellipsoid, plane, scene, sphere, transform,
 };
-use glam::{DMat3, DVec3, Vec3};
 
 use crate::judge::{Expected, Hit};
 use crate::ladder::Primitive;
@@ -93,7 +93,7 @@ impl<'a> Truth<'a> {
             Shape::Box { low, high } => {
                 let (low, high) = (low.as_dvec3(), high.as_dvec3());
                 let hit = Aabb { low, high }.intersect_exact(&exact);
-                hit.map(|hit| common::reference::exact::to_f64(&hit.t))
+                hit.map(|hit| reference::exact::to_f64(&hit.t))
             }
             Shape::Plane { normal, distance } => {
                 let (normal, distance) = (normal.as_dvec3(), (*distance).into());

@@ -10,10 +10,10 @@ use common::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
     HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
 };
-use common::reference::Ray;
-use common::reference::sphere::Sphere;
 use common::scene::{Camera, CameraBasis, build_top, input_usage};
 use glam::{DVec3, Vec3};
+use reference::Ray;
+use reference::sphere::Sphere;
 use serde::Serialize;
 
 use crate::probe::{IDENTITY, instance};

@@ -1,7 +1,7 @@
 //! Is an answer right? The device's f32 against what is known exactly.
 
-use common::reference::ulp::ulp_error;
 use glam::{DVec3, Vec3};
+use reference::ulp::ulp_error;
 use serde::{Deserialize, Serialize};
 
 use crate::probe::{Answer, Ray, Way};

@@ -3,9 +3,9 @@
 use anyhow::{Context, Result};
 use common::app::chart::{Chart, Dot};
 use common::gpu::Gpu;
-use common::reference::Ray;
-use common::reference::sphere::Sphere;
 use glam::DVec3;
+use reference::Ray;
+use reference::sphere::Sphere;
 use serde::Serialize;
 
 use crate::families::Family;

@@ -7,7 +7,7 @@ use anyhow::Result;
 use common::app::Progress;
 use common::app::compare::{self, Ratio};
 use common::gpu::Gpu;
-use common::reference::ulp::ulp_error;
+use reference::ulp::ulp_error;
 use serde::Serialize;
 
 use crate::families::Family;

@@ -58,9 +58,9 @@ pub struct Ray {
 
 impl Ray {
     /// The same ray for the reference.
-    pub fn exact(&self) -> common::reference::Ray {
+    pub fn exact(&self) -> reference::Ray {
         let Self { origin, direction, tmin, tmax } = *self;
-        common::reference::Ray::from_f32(origin.to_array(), direction.to_array(), tmin, tmax)
+        reference::Ray::from_f32(origin.to_array(), direction.to_array(), tmin, tmax)
     }
 }
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
+use run::{program, root};
 use tempfile::TempDir;
 
 /// A project on disk, gone with its last user.
@@ -28,9 +29,8 @@ pub struct Outcome {
 /// The tool and the two programs, in a folder of their own.
 static PROGRAMS: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let sample = env!("CARGO_BIN_EXE_02_basic");
-    let tool = env!("CARGO_BIN_EXE_chapters");
-    for (program, name) in [(sample, "01_one"), (sample, "02_basic"), (tool, "chapters")] {
+    let (sample, tool) = (program("02_basic"), program("chapters"));
+    for (program, name) in [(&sample, "01_one"), (&sample, "02_basic"), (&tool, "chapters")] {
         fs::copy(program, folder.path().join(format!("{name}{EXE_SUFFIX}"))).expect("a program");
     }
     folder
@@ -42,7 +42,7 @@ static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
     for (path, text) in FILES {
         fixture.write(path, text);
     }
-    let real = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let real = root();
     for folder in ["samples/02_basic", "shaders/02_basic"] {
         copy(&real.join(folder), &fixture.path(folder));
     }

@@ -1,7 +1,6 @@
 //! What is generated, and no longer what the code says: found, and mended by `sync`.
 
 use std::fs;
-use std::path::Path;
 
 use crate::fixture::Fixture;
 use crate::{Case, expect};
@@ -127,5 +126,5 @@ fn stale_pictures_are_found_and_rendered_anew() {
 }
 
 fn golden() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/02_basic.png")
+    run::root().join("tests/golden/02_basic.png")
 }

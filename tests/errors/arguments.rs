@@ -1,6 +1,6 @@
 //! Options, controls, sizes, devices: wrong arguments end with 2 and say what would be right.
 
-use crate::{refused, refused_by, run, sample};
+use crate::{refused, refused_by, sample};
 
 #[test]
 fn options() {

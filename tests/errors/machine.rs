@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{refused_by, run, sample};
+use crate::{refused_by, sample};
 
 const SETUP: &str = "run ./setup";
 

@@ -5,8 +5,6 @@ mod arguments;
 mod machine;
 mod models;
 mod outputs;
-#[path = "../run/mod.rs"]
-mod run;
 mod scenes;
 mod shaders;
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::{refused_by, run, sample};
+use crate::{refused_by, sample};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 

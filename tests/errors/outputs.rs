@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
 
-use crate::{refused, run, sample, text};
+use crate::{refused, sample, text};
 
 #[test]
 fn files_that_cannot_be_written() {

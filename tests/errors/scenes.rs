@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{refused_by, run};
+use crate::refused_by;
 
 /// A scene that is right, up to the line that a case adds.
 const HEAD: &str =

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::{refused_by, run, sample};
+use crate::{refused_by, sample};
 
 /// A copy of `shaders/` in which `edit` has changed one file of the sample.
 fn folder(file: &str, edit: impl FnOnce(String) -> String) -> tempfile::TempDir {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::{cases, laboratory, run};
+use crate::{cases, laboratory};
 
 fn case(primitive: &str, shape: Value, expect: Value) -> Value {
     let ray = json!({"origin": [0, 0, 5], "dir": [0, 0, -1], "tmin": 0, "tmax": 100});

@@ -3,8 +3,7 @@
 
 mod bars;
 mod files;
-#[path = "../run/mod.rs"]
-mod run;
+mod view;
 
 use std::process::Output;
 

@@ -3,12 +3,12 @@
 use std::fmt;
 
 use common::app::Picture;
-use common::reference::Ray;
-use common::reference::scene::{Instance, Scene};
-use common::reference::transform::Transform;
-use common::reference::ulp::ulp_error;
-use common::reference::verdict::{Answer, Verdict};
 use common::scene::{self, Camera};
+use reference::Ray;
+use reference::scene::{Instance, Scene};
+use reference::transform::Transform;
+use reference::ulp::ulp_error;
+use reference::verdict::{Answer, Verdict};
 
 /// The reference's copy of a scene: the same f32 positions and matrices.
 pub fn reference(scene: &scene::Scene) -> Scene {

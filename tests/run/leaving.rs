@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use common::reference::Ray;
-use common::reference::hit::Hit;
-use common::reference::scene::Scene;
-use common::reference::verdict::Answer;
 use glam::DVec3;
+use reference::Ray;
+use reference::hit::Hit;
+use reference::scene::Scene;
+use reference::verdict::Answer;
 
 /// What became of a ray that left a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! 03_any_hit: cut-outs, transparency that no order can change, and the list of every hit.
 
 use common::app::Picture;
-use common::reference::Ray;
 use common::scene::{Model, Scene, Texture};
+use reference::Ray;
 
-use crate::run::exact::{answer, rays, reference};
-use crate::run::{bits, golden, render};
+use run::exact::{answer, rays, reference};
+use run::{bits, golden, render};
 
 const NAME: &str = "03_any_hit";
 const SIZE: &str = "240x150";

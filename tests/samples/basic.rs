@@ -2,8 +2,8 @@
 
 use common::scene::Scene;
 
-use crate::run::exact::{answer, judge, rays, reference};
-use crate::run::{bits, golden, render};
+use run::exact::{answer, judge, rays, reference};
+use run::{bits, golden, render};
 
 const SIZE: &str = "240x150";
 

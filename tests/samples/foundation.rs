@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::run::{bits, command, golden, refused, render};
+use run::{bits, command, golden, refused, render};
 
 const NAME: &str = "01_foundation";
 const SIZE: &str = "240x150";

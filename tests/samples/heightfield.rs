@@ -14,15 +14,15 @@ mod land;
 use std::collections::{BTreeMap, BTreeSet};
 
 use common::app::Picture;
-use common::reference::Ray;
 use common::scene::Sun;
 use glam::DVec3;
 use ground::Landscape;
 use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
+use reference::Ray;
 use world::{World, chess, traced};
 
-use crate::run::{bits, golden, plot, render};
+use run::{bits, golden, plot, render};
 
 const NAME: &str = "21_heightfield";
 /// What `show=hit` says of plane and ground, instead of an instance.
@@ -370,7 +370,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
 #[test]
 fn normals_are_those_of_the_height_function() {
     let alone = Alone::new();
-    let field = STEEP.exact();
+    let field = judged::exact(STEEP);
     let sets = ["preset=steep"];
     let show = |view| alone.shown("120x75", &[&sets[..], &[view]].concat());
     let [normals, hits] = ["show=normal", "show=hit"].map(show);

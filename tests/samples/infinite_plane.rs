@@ -1,15 +1,15 @@
 //! 12_infinite_plane: every rung held to the exact plane, and a plane that takes part in everything.
 
 use common::app::Picture;
-use common::reference::plane::Plane;
-use common::reference::sphere::Sphere;
-use common::reference::ulp::ulp_error;
-use common::reference::{Ray, Surface};
 use common::scene::{Camera, Scene, Sun};
 use glam::{DVec3, Vec3};
+use reference::plane::Plane;
+use reference::sphere::Sphere;
+use reference::ulp::ulp_error;
+use reference::{Ray, Surface};
 
-use crate::run::exact::{rays, reference};
-use crate::run::{bits, golden, render};
+use run::exact::{rays, reference};
+use run::{bits, golden, render};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -286,7 +286,7 @@ fn traced(sets: &[&str], bounce: u32) -> Vec<(Ray, [f32; 4])> {
 }
 
 /// The board preset as the reference sees it.
-fn pieces() -> common::reference::scene::Scene {
+fn pieces() -> reference::scene::Scene {
     let mut scene = Scene::chess().unwrap();
     let Scene { model, instances, .. } = &mut scene;
     instances.retain(|instance| {

@@ -3,14 +3,14 @@
 use std::cell::OnceCell;
 
 use common::app::Picture;
-use common::reference::scene::Scene as Exact;
-use common::reference::transform::{Transform, U};
-use common::reference::{Ray, hit::Hit};
 use common::scene::{self, Camera, Scene, Sun};
 use glam::{DMat3, DVec3, Vec3};
+use reference::scene::Scene as Exact;
+use reference::transform::{Transform, U};
+use reference::{Ray, hit::Hit};
 
-use crate::run::exact::{Tally, answer, judge, rays, reference};
-use crate::run::{Run, bits, golden, render};
+use run::exact::{Tally, answer, judge, rays, reference};
+use run::{Run, bits, golden, render};
 
 #[allow(dead_code)]
 #[path = "../../samples/09_instancing/formation.rs"]
@@ -458,7 +458,7 @@ fn wrong_controls_are_refused() {
     for (set, possible) in
         [("squares=0", "1 to 1000000"), ("normals=right", "matrix, device inverse, host inverse")]
     {
-        let (code, line) = crate::run::refused(NAME, &["--headless", "--set", set]);
+        let (code, line) = run::refused(NAME, &["--headless", "--set", set]);
         assert!(code == 2 && line.contains(possible), "{code}: {line}");
     }
 }

@@ -1,15 +1,15 @@
 //! 08_intersection: every hit held to the reference, and what each rung, margin and order is worth.
 
 use common::app::Picture;
-use common::reference::Ray;
-use common::reference::aabb::Aabb;
-use common::reference::sphere::Sphere;
-use common::reference::ulp::ulp_error;
 use common::scene::{Camera, Scene, Sun};
 use glam::DVec3;
+use reference::Ray;
+use reference::aabb::Aabb;
+use reference::sphere::Sphere;
+use reference::ulp::ulp_error;
 
-use crate::run::exact::{answer, rays};
-use crate::run::{bits, golden, render, root};
+use run::exact::{answer, rays};
+use run::{bits, golden, render, root};
 
 #[allow(dead_code)]
 #[path = "../../samples/08_intersection/shapes.rs"]
@@ -59,7 +59,7 @@ impl Exact {
             self.spheres[id as usize].intersect_exact(ray).map(|hit| hit.to_f64().t)
         } else {
             let hit = self.boxes[id as usize].intersect_exact(ray)?;
-            Some(common::reference::exact::to_f64(&hit.t))
+            Some(reference::exact::to_f64(&hit.t))
         }
     }
 

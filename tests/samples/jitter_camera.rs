@@ -9,8 +9,8 @@ use common::scene::Scene;
 use glam::DVec3;
 
 use self::points::{Scrambling, Sequence, sample_point};
-use crate::run::exact::{answer, judge, rays, reference};
-use crate::run::{bits, golden, render};
+use run::exact::{answer, judge, rays, reference};
+use run::{bits, golden, render};
 
 const NAME: &str = "04_jitter_camera";
 const SIZE: &str = "240x150";

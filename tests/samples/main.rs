@@ -1,6 +1,5 @@
 //! Every chapter, rendered headless and small, under validation: one module a chapter.
 
-mod accuracy;
 mod any_hit;
 mod basic;
 mod foundation;
@@ -11,8 +10,6 @@ mod intersection;
 mod jitter_camera;
 mod multi_closest_hit;
 mod reflection;
-#[path = "../run/mod.rs"]
-mod run;
 mod scene_effects;
 mod shadow_miss;
 mod solids;

@@ -7,8 +7,8 @@ use common::gpu::{Limits, sbt};
 use common::scene::{Instance, Scene};
 use serde_json::{Value, json};
 
-use crate::run::exact::{answer, judge, rays, reference};
-use crate::run::{Run, bits, command, golden, refusal, render, root};
+use run::exact::{answer, judge, rays, reference};
+use run::{Run, bits, command, golden, refusal, render, root};
 
 const NAME: &str = "07_multi_closest_hit";
 const SIZE: &str = "240x150";

@@ -4,14 +4,14 @@ mod plots;
 
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, RayTracingPipeline, Requirements};
-use common::reference::Ray;
-use common::reference::scene::Scene as Exact;
 use common::scene::{Camera, Light, Placement, Scene, Sun};
 use glam::{DVec3, Vec3};
+use reference::Ray;
+use reference::scene::Scene as Exact;
 
-use crate::run::exact::{answer, rays, reference};
-use crate::run::leaving::{Leaving, Tally};
-use crate::run::{bits, golden, refused, render};
+use run::exact::{answer, rays, reference};
+use run::leaving::{Leaving, Tally};
+use run::{bits, golden, refused, render};
 
 const NAME: &str = "06_reflection";
 const SIZE: &str = "120x75";

@@ -6,12 +6,12 @@ mod plots;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use common::reference::random::Random;
 use common::scene::Effect::*;
 use common::scene::{Composition, Effect, Effects, findings, needed};
+use reference::random::Random;
 use serde_json::{Value, json};
 
-use crate::run::{Run, bits, golden, render, root};
+use run::{Run, bits, golden, render, root};
 
 const NAME: &str = "25_scene_effects";
 

@@ -1,13 +1,13 @@
 //! 05_shadow_miss: shadows held to the reference, and what each choice must not change.
 
 use common::app::Picture;
-use common::reference::Ray;
-use common::reference::scene::Scene as Exact;
 use common::scene::{PointLight, Scene, Sun};
 use glam::{DVec3, Vec3};
+use reference::Ray;
+use reference::scene::Scene as Exact;
 
-use crate::run::exact::{answer, rays, reference};
-use crate::run::{bits, golden, render};
+use run::exact::{answer, rays, reference};
+use run::{bits, golden, render};
 
 const NAME: &str = "05_shadow_miss";
 const SIZE: &str = "240x150";

@@ -3,17 +3,17 @@
 use std::fmt;
 
 use common::app::Picture;
-use common::reference::Ray;
-use common::reference::solid::Solid as Exact;
-use common::reference::solid::bound::{Found, Stray, Verdict};
-use common::reference::sphere::Sphere;
-use common::reference::transform::{Transform, U};
-use common::reference::ulp::ulp_error;
 use common::scene::{Camera, Sun, transform};
 use glam::{Affine3A, DVec3, Vec3};
+use reference::Ray;
+use reference::solid::Solid as Exact;
+use reference::solid::bound::{Found, Stray, Verdict};
+use reference::sphere::Sphere;
+use reference::transform::{Transform, U};
+use reference::ulp::ulp_error;
 
-use crate::run::exact::rays;
-use crate::run::{bits, golden, render};
+use run::exact::rays;
+use run::{bits, golden, render};
 
 #[path = "../../samples/22_solids/pieces.rs"]
 mod pieces;

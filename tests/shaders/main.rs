@@ -1,8 +1,5 @@
 //! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
 
-#[path = "../run/mod.rs"]
-mod run;
-
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -14,8 +14,6 @@ use x11rb::protocol::xproto::{
 };
 use x11rb::rust_connection::RustConnection;
 
-use crate::run;
-
 /// How long anything may take before a test fails.
 const PATIENCE: Duration = Duration::from_secs(20);
 

@@ -5,8 +5,6 @@
 #![cfg(unix)]
 
 mod desk;
-#[path = "../run/mod.rs"]
-mod run;
 
 use std::path::Path;
 use std::process::Output;

@@ -1,10 +1,10 @@
 //! The ground as the reference has it, and a verdict on where a rung says that a ray meets it.
 
-use common::reference::heightfield::Heightfield;
-use common::reference::{Ray, Surface};
 use glam::DVec3;
+use reference::heightfield::Heightfield;
+use reference::{Ray, Surface};
 
-use super::ground::Landscape;
+use super::ground::{HeightfieldShape, Landscape};
 
 /// What is wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,13 +31,20 @@ pub struct Exact {
     pub error: f64,
 }
 
+/// A landscape in f64, from the very numbers that the shaders get.
+pub fn exact(landscape: Landscape) -> Heightfield {
+    let HeightfieldShape { k, a, fx, fz, b, gx, gz, lipschitz } = landscape.shape();
+    let [k, a, fx, fz, b, gx, gz, lipschitz] = [k, a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
+    Heightfield { k, a, fx, fz, b, gx, gz, lipschitz }
+}
+
 impl Exact {
     /// For rays whose origins have coordinates no larger than those.
     pub fn new(landscape: Landscape, origin: DVec3) -> Self {
         // What lies on the ground may be above the box by rounding; the box's sides count.
         let (low, high) = landscape.bounds(1e-2);
         let error = landscape.error(origin.abs());
-        Self { field: landscape.exact(), low: low.as_dvec3(), high: high.as_dvec3(), error }
+        Self { field: exact(landscape), low: low.as_dvec3(), high: high.as_dvec3(), error }
     }
 
     pub fn height_above(&self, ray: &Ray, t: f64) -> f64 {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use common::app::Picture;
-use common::reference::Ray;
+use reference::Ray;
 
 use super::ground::Landscape;
 use super::judged::{Exact, Verdict};

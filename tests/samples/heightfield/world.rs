@@ -1,15 +1,15 @@
 //! The ground among other things, as the reference sees them.
 
-use common::reference::Ray;
-use common::reference::plane::Plane;
-use common::reference::scene::Scene as ExactScene;
 use common::scene::Scene;
 use glam::{DVec3, Vec3A};
+use reference::Ray;
+use reference::plane::Plane;
+use reference::scene::Scene as ExactScene;
 
 use super::ground::{Landscape, MIDDLE};
 use super::judged::Exact;
 use super::{GROUND, HILLS, LAKE, PLANE, land, shown};
-use crate::run::exact::reference;
+use run::exact::reference;
 
 /// What a ray meets first, as `show=hit` says it.
 pub struct World {

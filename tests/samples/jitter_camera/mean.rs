@@ -3,7 +3,7 @@
 use common::app::Picture;
 
 use super::{SMALL, run};
-use crate::run::{bits, render};
+use run::{bits, render};
 
 /// Frames after which the mean must still be right.
 const MANY: u32 = 100_000;

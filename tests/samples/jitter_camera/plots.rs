@@ -5,8 +5,8 @@ use common::app::Picture;
 
 use super::points::{Scrambling, Sequence, sample_point};
 use super::{NAME, error, offsets, part_below, run, shrunk};
-use crate::run::plot::{Axis, Chart, Series, crops, draw};
-use crate::run::render;
+use run::plot::{Axis, Chart, Series, crops, draw};
+use run::render;
 
 /// The sequences, each with the scrambling that suits it.
 const SEQUENCES: [(&str, &str, Sequence, Scrambling); 4] = [

@@ -4,7 +4,7 @@
 use common::app::Picture;
 
 use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
-use crate::run::plot::crops;
+use run::plot::crops;
 
 /// The whole of a picture.
 fn whole(picture: &Picture) -> (&Picture, [u32; 4]) {

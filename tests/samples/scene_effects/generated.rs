@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::reference::random::Random;
 use common::scene::Effect::{self, *};
 use common::scene::Effects;
+use reference::random::Random;
 
 /// A number with two digits, so that text and float agree on it.
 fn between(random: &mut Random, low: f64, high: f64) -> f64 {

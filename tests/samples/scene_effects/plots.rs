@@ -4,8 +4,8 @@
 use serde_json::Value;
 
 use super::{NAME, SCENES};
-use crate::run::command;
-use crate::run::plot::{Axis, Chart, Series, draw};
+use run::command;
+use run::plot::{Axis, Chart, Series, draw};
 
 /// A report of a run without validation, which would be timed as well. The driver's cache is off, so that
 /// each pipeline is compiled.

@@ -69,11 +69,12 @@ fn no_display() -> anyhow::Error {
 
 /// `RUST_LOG=common=debug` tells of every frame, `info` of the longest wait; without it all is silent.
 fn log_if_asked() {
-    use tracing_subscriber::filter::{EnvFilter, LevelFilter};
-    let filter = EnvFilter::builder().with_default_directive(LevelFilter::OFF.into());
-    let log = tracing_subscriber::fmt().with_writer(std::io::stderr);
+    use tracing_subscriber::{filter::Targets, fmt, prelude::*};
+    let asked = std::env::var("RUST_LOG").unwrap_or_default();
+    let Ok(targets) = asked.parse::<Targets>() else { return };
+    let layer = fmt::layer().with_ansi(false).with_writer(std::io::stderr);
     // A program that has set up its own keeps it.
-    let _ = log.with_env_filter(filter.from_env_lossy()).try_init();
+    let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();
 }
 
 struct Program<'a, S> {

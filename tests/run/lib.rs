@@ -1,12 +1,13 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
-#![allow(dead_code)] // Each test binary uses a part of it.
 
 pub mod exact;
 pub mod leaving;
 pub mod plot;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::{Mutex, PoisonError};
 
 use common::app::Picture;
 use serde_json::Value;
@@ -21,12 +22,35 @@ pub struct Run {
 
 /// A command that runs the binary `name` in the project's root.
 pub fn command(name: &str) -> Command {
-    let folder =
-        Path::new(env!("CARGO_BIN_EXE_02_basic")).parent().expect("a binary lies in a folder");
-    let mut command =
-        Command::new(folder.join(name).with_extension(std::env::consts::EXE_EXTENSION));
-    command.current_dir(env!("CARGO_MANIFEST_DIR"));
+    let mut command = Command::new(program(name));
+    command.current_dir(root());
     command
+}
+
+/// Where the binary `name` lies, built from today's sources.
+pub fn program(name: &str) -> PathBuf {
+    // Cargo builds a package's binaries for that package's tests, and names them. Others are built here.
+    if let Some(own) = std::env::var_os(format!("CARGO_BIN_EXE_{name}")) {
+        return own.into();
+    }
+    static BUILT: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    // This test lies in target/debug/deps.
+    let test = std::env::current_exe().expect("a test has a file");
+    let folder = test.parent().and_then(Path::parent).expect("it lies in a folder of Cargo's");
+    if !built.contains(name) {
+        let profile = match folder.file_name() {
+            Some(debug) if debug == "debug" => "dev",
+            other => other.and_then(|name| name.to_str()).expect("a profile's name"),
+        };
+        let cargo = Command::new(env!("CARGO"))
+            .args(["build", "--quiet", "--profile", profile, "--bin", name])
+            .current_dir(root())
+            .status();
+        assert!(cargo.expect("cargo starts").success(), "{name} does not build");
+        built.insert(name.to_owned());
+    }
+    folder.join(name).with_extension(std::env::consts::EXE_EXTENSION)
 }
 
 /// Renders headless under validation; a failure or a message is a failed test.
@@ -93,7 +117,7 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
 
 /// The project's root.
 pub fn root() -> PathBuf {
-    env!("CARGO_MANIFEST_DIR").into()
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("tests/run lies in it").into()
 }
 
 /// Bits of a picture, for comparisons that allow no difference.

@@ -13,7 +13,7 @@ use super::surd::Surd;
 use super::ulp::ulp_error;
 use super::{Ray, Surface, triangle};
 
-const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/hard_cases.json");
+const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hard_cases.json");
 
 /// An input: exactly an f32, written as a decimal of f64.
 fn number(value: &Value) -> f64 {

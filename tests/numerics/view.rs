@@ -1,9 +1,9 @@
-//! 24_accuracy: the window's picture, and what it says of each rung. All else is in tests/numerics.
+//! 24_accuracy: the window's picture, and what it says of each rung. All else is beside this.
 
 use common::app::Picture;
 use serde_json::Value;
 
-use crate::run::{bits, command, golden, refused, render};
+use run::{bits, command, golden, refused, render};
 
 const NAME: &str = "24_accuracy";
 const SIZE: &str = "96x60";
