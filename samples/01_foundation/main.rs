@@ -47,6 +47,10 @@ fn run() -> Result<()> {
     let refused = [
         (!args.sets.is_empty(), "has no controls"),
         (args.compare.is_some(), "has no controls to compare"),
+        (
+            args.compile_for.is_some(),
+            "makes its pipeline by itself: --compile-for is for 02 and on",
+        ),
         (args.scene.is_some(), "brings its own triangle and takes no --scene"),
         (args.unordered, "has one triangle: there is nothing to order"),
     ];

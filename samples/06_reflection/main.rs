@@ -83,7 +83,7 @@ impl Sample for Demo {
         let model = setup.scene_or(Scene::chess_of_metal)?;
         let camera = model.camera;
         let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
-        let mut demo = Self {
+        Ok(Self {
             model,
             scene,
             placement: Placement::default(),
@@ -105,9 +105,7 @@ impl Sample for Demo {
             moved: 0,
             bounce: 0,
             show: 0,
-        };
-        demo.choose_pipeline(gpu)?;
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

@@ -94,7 +94,7 @@ impl Sample for Demo {
         let ordering = setup.options.ordering;
         let build = Build { scene: shapes::CHESS, count: 10_000, ordering, margin: true };
         let shapes = ShapesOnGpu::new(gpu, &model, &scene, build, camera.eye.as_vec3())?;
-        let mut demo = Self {
+        Ok(Self {
             model,
             scene,
             shapes,
@@ -111,9 +111,7 @@ impl Sample for Demo {
             build,
             distance: 100.0,
             rungs: Rungs { sphere: 2, aabb: 1 },
-        };
-        demo.choose_pipeline(gpu)?;
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

@@ -125,7 +125,7 @@ impl Sample for Demo {
         let world = Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?;
         let reflections: Vec<Vec3> = model.model.materials.iter().map(scenes::reflection).collect();
         let reflections = Buffer::with_data(gpu, "reflections", &reflections, input_usage())?;
-        let mut demo = Self {
+        Ok(Self {
             model,
             scene,
             placed: (0, Placement::default()),
@@ -156,9 +156,7 @@ impl Sample for Demo {
             board,
             rung: 3,
             plane_test: 0,
-        };
-        demo.choose_pipeline(gpu)?;
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

@@ -129,7 +129,7 @@ impl Sample for Demo {
         let world = Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?;
         let reflections: Vec<Vec3> = model.model.materials.iter().map(scenes::reflection).collect();
         let reflections = Buffer::with_data(gpu, "reflections", &reflections, input_usage())?;
-        let mut demo = Self {
+        Ok(Self {
             model,
             scene,
             land,
@@ -161,9 +161,7 @@ impl Sample for Demo {
             landscape,
             ground: Ground::default(),
             rung: 3,
-        };
-        demo.choose_pipeline(gpu)?;
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

@@ -154,7 +154,7 @@ impl Sample for Demo {
         let world = Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?;
         let reflections: Vec<Vec3> = model.model.materials.iter().map(scenes::reflection).collect();
         let reflections = Buffer::with_data(gpu, "reflections", &reflections, input_usage())?;
-        let mut demo = Self {
+        Ok(Self {
             model,
             scene: on_gpu,
             solids,
@@ -189,9 +189,7 @@ impl Sample for Demo {
             modifiers,
             fog,
             section_distance: 5.0,
-        };
-        demo.choose_pipeline(gpu, fog::NONE)?;
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

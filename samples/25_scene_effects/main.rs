@@ -119,7 +119,7 @@ impl Sample for Demo {
         ]);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;
-        let mut demo = Self {
+        Ok(Self {
             scene,
             geometry: None,
             repainted: false,
@@ -140,13 +140,7 @@ impl Sample for Demo {
             trouble: None,
             interactive: setup.interactive,
             options: setup.options,
-        };
-        // A window watches the shaders in use; a script may still choose another scene.
-        if demo.interactive {
-            demo.upload(gpu, camera.eye.as_vec3())?;
-            demo.choose(gpu)?;
-        }
-        Ok(demo)
+        })
     }
 
     // ANCHOR: controls

@@ -6,7 +6,8 @@ use std::thread::JoinHandle;
 
 use anyhow::{Result, anyhow};
 use common::gpu::{
-    AccelerationStructure, Gpu, RayTracingPipeline, Reflection, ShaderBindingTable, TextureTable,
+    AccelerationStructure, Gpu, RayTracingPipeline, Reflection, ShaderBindingTable, Stage,
+    TextureTable,
 };
 use serde_json::{Value, json};
 
@@ -47,8 +48,8 @@ impl Tracer {
     /// # Errors
     /// If a module is none.
     pub fn report(&self) -> Result<Value> {
-        let RayTracingPipeline { stages, modules, groups, build_time, .. } = &self.pipeline;
-        let stages = stages.iter().zip(modules).map(|(path, words)| {
+        let RayTracingPipeline { blueprint, groups, build_time, .. } = &self.pipeline;
+        let stages = blueprint.stages.iter().map(|Stage { path, words, .. }| {
             let contents = serde_json::to_value(Reflection::of(words)?.contents())?;
             Ok(json!({ "path": path, "words": words.len(), "module": contents }))
         });

@@ -6,6 +6,7 @@ use ash::vk;
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
+use super::compile_for::Family;
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
@@ -64,6 +65,14 @@ pub struct Args {
     #[arg(long, value_name = "FILE.obj")]
     pub scene: Option<PathBuf>,
 
+    /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
+    #[arg(long, value_name = "FAMILY", value_enum)]
+    pub compile_for: Option<Family>,
+
+    /// Make the pipelines on standard input for the family in the environment: the child of --compile-for
+    #[arg(long, hide = true)]
+    pub answer_compile_for: bool,
+
     /// Compile these shaders and exit: how a window tries an edit, as a compiler may abort on one
     #[arg(long, hide = true, num_args = 1.., value_name = "PATH")]
     pub compile: Vec<String>,
@@ -74,6 +83,11 @@ pub struct Args {
 }
 
 impl Args {
+    /// Whether no window is to be opened.
+    pub fn is_headless(&self) -> bool {
+        self.headless || self.list_controls || self.compare.is_some() || self.compile_for.is_some()
+    }
+
     /// Parses the process's arguments.
     ///
     /// Prints the help and ends the process if that is asked for.

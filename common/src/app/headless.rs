@@ -8,8 +8,8 @@ use ash::vk;
 
 use super::args::Args;
 use super::{
-    Format, Frame, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, controls,
-    output,
+    Format, Frame, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, compile_for,
+    controls, output,
 };
 use crate::files;
 use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
@@ -84,6 +84,14 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         output::print(&format!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table()))?;
     }
 
+    let compiled_for = match args.compile_for {
+        Some(family) => compile_for::compile_for(family, &gpu.statistics().blueprints)?,
+        None => Vec::new(),
+    };
+    if args.compile_for.is_some() && args.report != Some("-".into()) {
+        output::print(&compile_for::table(&compiled_for))?;
+    }
+
     if let Some(out) = &args.out {
         let (width, height) = (args.size.width, args.size.height);
         Picture { width, height, pixels: image.read()? }.save(out)?;
@@ -110,6 +118,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             bytes_allocated: gpu.allocated_bytes(),
             validation_messages: gpu.validation().all(),
             comparison,
+            compiled_for,
             chapter: sample.report()?,
         }
         .save(path)?;

@@ -3,6 +3,7 @@
 mod args;
 pub mod chart;
 pub mod compare;
+pub mod compile_for;
 pub mod controls;
 mod headless;
 pub mod output;
@@ -90,7 +91,7 @@ impl Setup {
     /// The setup that arguments ask for.
     pub fn new(args: &Args) -> Self {
         let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
-        let interactive = !args.headless && !args.list_controls && args.compare.is_none();
+        let interactive = !args.is_headless();
         Self { options, interactive, scene: args.scene.clone(), scene_taken: Cell::new(false) }
     }
 
@@ -169,7 +170,10 @@ pub fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if !args.compile.is_empty() {
         return Ok(());
     }
-    if args.headless || args.list_controls || args.compare.is_some() {
+    if args.answer_compile_for {
+        return compile_for::answer(&S::requirements());
+    }
+    if args.is_headless() {
         return headless::<S>(name, args);
     }
     window::open::<S>(name, args)

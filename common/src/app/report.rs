@@ -6,6 +6,7 @@ use anyhow::Result;
 use serde::Serialize;
 
 use super::compare::Comparison;
+use super::compile_for::CompiledFor;
 use super::output;
 use crate::files::write_whole;
 
@@ -46,6 +47,8 @@ pub struct Report {
     pub validation_messages: Vec<String>,
     /// What `--compare` measured.
     pub comparison: Option<Comparison>,
+    /// What `--compile-for` found out, a row a program.
+    pub compiled_for: Vec<CompiledFor>,
     /// What the chapter itself has to tell.
     pub chapter: serde_json::Value,
 }

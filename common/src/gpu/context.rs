@@ -15,7 +15,9 @@ use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
+use super::blueprint::Blueprint;
 use super::device::{self, Candidate};
+use super::executable::Executable;
 use super::layout::StructLayout;
 use super::limits::Limits;
 use super::requirements::Requirements;
@@ -57,6 +59,8 @@ pub struct GpuContext {
     pub ray_tracing_pipeline: khr::ray_tracing_pipeline::Device,
     /// `VK_KHR_push_descriptor`.
     pub push_descriptor: khr::push_descriptor::Device,
+    /// `VK_KHR_pipeline_executable_properties`, where it was wished for and is there.
+    pub executable_properties: Option<khr::pipeline_executable_properties::Device>,
     /// The instance's commands.
     pub instance: Instance,
     /// The loader.
@@ -96,6 +100,10 @@ pub struct Statistics {
     pub stages: Vec<String>,
     /// Shader groups in all pipelines.
     pub groups: usize,
+    /// What every pipeline was made from, in the order in which they were made.
+    pub blueprints: Vec<Arc<Blueprint>>,
+    /// What the driver's compiler says of the last pipeline, where it was wished for and does.
+    pub executables: Vec<Executable>,
 }
 
 struct Debug {
@@ -182,23 +190,7 @@ impl Gpu {
     ) -> Result<Self> {
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;
-        let priorities = [1.0];
-        let queues = [vk::DeviceQueueCreateInfo::default()
-            .queue_family_index(queue_family)
-            .queue_priorities(&priorities)];
-        let extensions = requirements.extensions();
-        let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
-        let device = requirements.features(&chosen.offered).with_chain(
-            |name| extensions.contains(&name),
-            |features| {
-                let info = vk::DeviceCreateInfo::default()
-                    .queue_create_infos(&queues)
-                    .enabled_extension_names(&names)
-                    .push_next(features);
-                // SAFETY: the device offers these features and extensions: `choose` has checked.
-                unsafe { instance.create_device(physical_device, &info, None) }
-            },
-        )?;
+        let device = device::create(&instance, chosen, requirements)?;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -233,6 +225,10 @@ impl Gpu {
             acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
+            executable_properties: requirements
+                .extensions(&chosen.offered)
+                .contains(&khr::pipeline_executable_properties::NAME)
+                .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
             limits: Limits::of(&instance, physical_device, queue_family),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
@@ -366,7 +362,7 @@ impl Gpu {
     }
 }
 
-fn create_instance(
+pub(super) fn create_instance(
     entry: &Entry,
     messages: Option<&Messages>,
     window: Option<&WindowHandles>,

@@ -3,7 +3,7 @@
 use std::ffi::CStr;
 
 use anyhow::{Context, Result, bail, ensure};
-use ash::{Entry, Instance, khr, vk};
+use ash::{Device, Entry, Instance, khr, vk};
 
 use super::context::WindowHandles;
 use super::requirements::{Features, Requirements};
@@ -207,6 +207,35 @@ pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candida
         Some(best) => Ok(best),
         None => bail!("no device can run this: {explained}; {INSTALL}"),
     }
+}
+
+/// Opens a device with one queue, and with just the features and extensions that are asked for.
+///
+/// # Errors
+/// If the device cannot be opened.
+pub fn create(
+    instance: &Instance,
+    chosen: &Candidate,
+    requirements: &Requirements,
+) -> Result<Device> {
+    let priorities = [1.0];
+    let queues = [vk::DeviceQueueCreateInfo::default()
+        .queue_family_index(chosen.queue_family.context("no compute queue")?)
+        .queue_priorities(&priorities)];
+    let extensions = requirements.extensions(&chosen.offered);
+    let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
+    let device = requirements.features(&chosen.offered).with_chain(
+        |name| extensions.contains(&name),
+        |features| {
+            let info = vk::DeviceCreateInfo::default()
+                .queue_create_infos(&queues)
+                .enabled_extension_names(&names)
+                .push_next(features);
+            // SAFETY: the device offers these features and extensions: `candidates` has checked.
+            unsafe { instance.create_device(chosen.handle, &info, None) }
+        },
+    );
+    Ok(device?)
 }
 
 #[cfg(test)]

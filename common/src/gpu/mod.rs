@@ -2,14 +2,17 @@
 
 mod accel;
 pub mod barrier;
+mod blueprint;
 mod buffer;
 mod contents;
 mod context;
 mod device;
 mod exact;
+mod executable;
 mod image;
 mod layout;
 mod limits;
+pub mod null;
 pub mod order;
 mod pipeline;
 mod requirements;
@@ -21,9 +24,11 @@ mod timing;
 mod validation;
 
 pub use accel::{AccelerationStructure, BuildOptions, Geometry};
+pub use blueprint::{Blueprint, Group, Stage};
 pub use buffer::Buffer;
 pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions, Statistics, WindowHandles, device_lines, load};
+pub use executable::Executable;
 pub use image::{Image, transition, whole};
 pub use layout::{Address, Bound, Reflection, ShaderStruct, StructLayout};
 pub use limits::Limits;

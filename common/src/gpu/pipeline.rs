@@ -3,6 +3,7 @@
 mod builder;
 mod stages;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::{Result, ensure};
@@ -11,6 +12,7 @@ use ash::vk;
 pub use builder::PipelineBuilder;
 pub use stages::HitGroup;
 
+use super::blueprint::Blueprint;
 use super::layout::ShaderStruct;
 use super::{AccelerationStructure, Buffer, Gpu, Image};
 
@@ -52,18 +54,13 @@ pub struct RayTracingPipeline {
     pub handle: vk::Pipeline,
     /// The pipeline layout.
     pub layout: vk::PipelineLayout,
-    /// The name it was given.
-    pub name: String,
+    /// What it was made from.
+    pub blueprint: Arc<Blueprint>,
     /// How many groups there are of each kind: raygen, miss, hit, callable.
     pub groups: [usize; 4],
-    /// The shader stages in use, by path below `shaders/`.
-    pub stages: Vec<String>,
-    /// What the driver was given of each: the words of its module.
-    pub modules: Vec<Vec<u32>>,
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
     bindings: Vec<Binding>,
-    push_size: usize,
     textures: Option<vk::DescriptorSet>,
     set_layout: vk::DescriptorSetLayout,
     gpu: Gpu,
@@ -89,15 +86,15 @@ impl RayTracingPipeline {
         ensure!(
             kinds == self.bindings,
             "pipeline '{}' binds {:?}, not {kinds:?}",
-            self.name,
+            self.blueprint.name,
             self.bindings
         );
         let bytes = bytemuck::bytes_of(push);
         ensure!(
-            bytes.len() == self.push_size,
+            bytes.len() == self.blueprint.push_size as usize,
             "pipeline '{}' takes {} bytes of push constants, not {}",
-            self.name,
-            self.push_size,
+            self.blueprint.name,
+            self.blueprint.push_size,
             bytes.len()
         );
         let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
@@ -162,7 +159,7 @@ impl Descriptor<'_> {
 }
 
 /// The stages that a push constant or descriptor is visible in.
-const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
     vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
         | vk::ShaderStageFlags::MISS_KHR.as_raw()
         | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()

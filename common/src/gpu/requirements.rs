@@ -25,6 +25,7 @@ pub struct Features {
     vulkan13: vk::PhysicalDeviceVulkan13Features<'static>,
     acceleration_structure: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
     ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
+    executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
 impl Features {
@@ -36,9 +37,17 @@ impl Features {
         has: impl Fn(&CStr) -> bool,
         f: impl FnOnce(&mut vk::PhysicalDeviceFeatures2) -> R,
     ) -> R {
-        let Self { core, vulkan12, vulkan13, acceleration_structure, ray_tracing_pipeline } = self;
+        let Self {
+            core,
+            vulkan12,
+            vulkan13,
+            acceleration_structure,
+            ray_tracing_pipeline,
+            executable,
+        } = self;
         // Copies carry the chain, so that no structure keeps a pointer to its neighbour afterwards.
-        let mut links = (*vulkan12, *vulkan13, *acceleration_structure, *ray_tracing_pipeline);
+        let mut links =
+            (*vulkan12, *vulkan13, *acceleration_structure, *ray_tracing_pipeline, *executable);
         let mut root = vk::PhysicalDeviceFeatures2::default()
             .features(*core)
             .push_next(&mut links.0)
@@ -49,6 +58,9 @@ impl Features {
         if has(khr::ray_tracing_pipeline::NAME) {
             root = root.push_next(&mut links.3);
         }
+        if has(khr::pipeline_executable_properties::NAME) {
+            root = root.push_next(&mut links.4);
+        }
         let result = f(&mut root);
         *core = root.features;
         let unlinked = std::ptr::null_mut();
@@ -58,6 +70,10 @@ impl Features {
             vk::PhysicalDeviceAccelerationStructureFeaturesKHR { p_next: unlinked, ..links.2 };
         *ray_tracing_pipeline =
             vk::PhysicalDeviceRayTracingPipelineFeaturesKHR { p_next: unlinked, ..links.3 };
+        *executable = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR {
+            p_next: unlinked,
+            ..links.4
+        };
         result
     }
 }
@@ -134,6 +150,17 @@ impl Requirements {
         self
     }
 
+    /// What the driver's compiler says of each pipeline, where it does: [`Statistics`](super::Statistics)
+    /// keeps it.
+    pub fn compiler_figures_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(khr::pipeline_executable_properties::NAME),
+            "pipelineExecutableInfo",
+            executable.pipeline_executable_info
+        ));
+        self
+    }
+
     /// What drawing to a window adds: the swapchain and dynamic rendering for the panel.
     pub fn window(mut self) -> Self {
         self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
@@ -141,10 +168,10 @@ impl Requirements {
         self
     }
 
-    /// Every extension to enable, each once.
-    pub fn extensions(&self) -> Vec<&'static CStr> {
+    /// Every extension to enable, each once: of the wishes, those that `offered` grants.
+    pub fn extensions(&self, offered: &Features) -> Vec<&'static CStr> {
         let mut all = self.extensions.clone();
-        all.extend(self.list.iter().filter_map(|requirement| requirement.extension));
+        all.extend(self.granted(offered).filter_map(|requirement| requirement.extension));
         all.sort_unstable();
         all.dedup();
         all
@@ -152,13 +179,18 @@ impl Requirements {
 
     /// The features to enable: those asked for, those wished for that `offered` has, and no other.
     pub fn features(&self, offered: &Features) -> Features {
-        let mut offered = *offered;
         let mut features = Features::default();
-        let granted = self.wishes.iter().filter(|wish| *(wish.bit)(&mut offered) == vk::TRUE);
-        for requirement in self.list.iter().chain(granted) {
+        for requirement in self.granted(offered) {
             *(requirement.bit)(&mut features) = vk::TRUE;
         }
         features
+    }
+
+    /// What is asked for, and what is wished for and offered.
+    fn granted(&self, offered: &Features) -> impl Iterator<Item = &Requirement> {
+        let mut offered = *offered;
+        let wishes = self.wishes.iter().filter(move |wish| *(wish.bit)(&mut offered) == vk::TRUE);
+        self.list.iter().chain(wishes)
     }
 
     /// What a device with these extensions and features lacks, by name; empty if it is suitable.
@@ -168,7 +200,7 @@ impl Requirements {
         offered: &Features,
     ) -> Vec<String> {
         let mut offered = *offered;
-        let extensions = self.extensions();
+        let extensions = self.extensions(&Features::default());
         let lacking = extensions.iter().filter(|name| !has_extension(name));
         let mut missing: Vec<String> =
             lacking.map(|name| name.to_string_lossy().into_owned()).collect();
@@ -213,6 +245,7 @@ mod tests {
         features = Requirements::ray_tracing().textures().features(&Features::default());
         assert_eq!(features.vulkan12.runtime_descriptor_array, vk::TRUE);
     }
+
     #[test]
     fn a_wish_is_granted_where_it_is_offered_and_refuses_no_device() {
         let wishing = Requirements::ray_tracing().float64_where_offered();
@@ -221,5 +254,10 @@ mod tests {
         assert!(wishing.missing(|_| true, &offered).is_empty());
         offered.core.shader_float64 = vk::TRUE;
         assert_eq!(wishing.features(&offered).core.shader_float64, vk::TRUE);
+        let wishing = wishing.compiler_figures_where_offered();
+        let name = khr::pipeline_executable_properties::NAME;
+        assert!(!wishing.extensions(&offered).contains(&name));
+        offered.executable.pipeline_executable_info = vk::TRUE;
+        assert!(wishing.extensions(&offered).contains(&name));
     }
 }

@@ -149,7 +149,7 @@ impl ShaderBindingTable {
         let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
             | vk::BufferUsageFlags::TRANSFER_DST;
-        let name = format!("{} shader binding table", pipeline.name);
+        let name = format!("{} shader binding table", pipeline.blueprint.name);
         let alignment = gpu.limits.shader_group_base_alignment;
         let buffer = Buffer::aligned(gpu, &name, layout.size, usage, alignment)?;
         buffer.write(0, &bytes).context("cannot fill the shader binding table")?;

@@ -1,7 +1,7 @@
 //! The texture table: every texture of a scene in one array, which any shader indexes by number.
 
 use anyhow::Result;
-use ash::vk;
+use ash::{Device, vk};
 
 use super::{Gpu, Image};
 
@@ -13,7 +13,7 @@ pub struct TextureTable {
     pub set: vk::DescriptorSet,
     pool: vk::DescriptorPool,
     sampler: vk::Sampler,
-    _images: Vec<Image>,
+    images: Vec<Image>,
     gpu: Gpu,
 }
 
@@ -29,11 +29,6 @@ impl TextureTable {
             images.push(Image::texture(gpu, "no texture", texel, &[255; 4], false)?);
         }
         let count = images.len() as u32;
-        let bindings = [vk::DescriptorSetLayoutBinding::default()
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-            .descriptor_count(count)
-            .stage_flags(vk::ShaderStageFlags::ALL)];
-        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
         let sizes = [vk::DescriptorPoolSize::default()
             .ty(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
             .descriptor_count(count)];
@@ -46,12 +41,12 @@ impl TextureTable {
             set: vk::DescriptorSet::null(),
             pool: vk::DescriptorPool::null(),
             sampler: vk::Sampler::null(),
-            _images: images,
+            images: images,
             gpu: gpu.clone(),
         };
         // SAFETY: the device is alive; whatever was made is destroyed with the table.
         unsafe {
-            table.layout = gpu.device.create_descriptor_set_layout(&info, None)?;
+            table.layout = Self::layout(&gpu.device, count)?;
             table.pool = gpu.device.create_descriptor_pool(&pool_info, None)?;
             table.sampler = gpu.device.create_sampler(&sampler_info, None)?;
             let layouts = [table.layout];
@@ -61,7 +56,7 @@ impl TextureTable {
             table.set = gpu.device.allocate_descriptor_sets(&allocate)?[0];
         }
         let infos: Vec<_> = table
-            ._images
+            .images
             .iter()
             .map(|image| {
                 vk::DescriptorImageInfo::default()
@@ -78,6 +73,25 @@ impl TextureTable {
         unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
         gpu.name_object(table.set, "texture table");
         Ok(table)
+    }
+
+    /// How many textures it has; at least one.
+    pub fn count(&self) -> u32 {
+        self.images.len() as u32
+    }
+
+    /// The layout of a table of `count` textures.
+    ///
+    /// # Errors
+    /// If the device has no memory left.
+    pub fn layout(device: &Device, count: u32) -> Result<vk::DescriptorSetLayout> {
+        let bindings = [vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_count(count)
+            .stage_flags(vk::ShaderStageFlags::ALL)];
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        // SAFETY: the device is alive; the layout is the caller's.
+        Ok(unsafe { device.create_descriptor_set_layout(&info, None)? })
     }
 }
 

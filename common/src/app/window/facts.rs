@@ -1,5 +1,7 @@
 //! What the panel and the title tell of the run.
 
+use crate::gpu::Executable;
+
 /// What the panel tells of the run.
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
@@ -17,6 +19,8 @@ pub struct Facts {
     pub full: [u32; 2],
     /// How many pictures have been accumulated, if the sample does that.
     pub accumulated: Option<u32>,
+    /// What the driver says of the programs of the pipeline made last, if it does.
+    pub programs: Vec<Executable>,
 }
 
 impl Facts {

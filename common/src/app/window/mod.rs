@@ -4,6 +4,7 @@
 //! by the panel's animations, by a picture that is to sharpen or accumulate, and by edited shaders.
 
 mod bookmarks;
+mod compiler;
 mod dots;
 mod facts;
 mod history;

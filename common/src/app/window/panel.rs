@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Align, Align2, Area, Context, Id, Layout, RichText, ScrollArea, Sense, Ui};
 
+use super::compiler;
 use super::facts::{Facts, rays};
 use super::history::History;
 use super::keys::{self, Ask};
@@ -183,6 +184,7 @@ impl Panel {
         });
         ui.add_space(2.0);
         self.history.show(ui);
+        compiler::show(ui, &facts.programs);
     }
 
     fn warning(&self, ui: &mut Ui) {
@@ -265,6 +267,10 @@ mod tests {
     }
 
     fn harness() -> Harness<'static, Demo> {
+        harness_with(Facts::default())
+    }
+
+    fn harness_with(facts: Facts) -> Harness<'static, Demo> {
         let demo = Demo {
             panel: Panel::new("test"),
             height: 5.0,
@@ -278,15 +284,31 @@ mod tests {
         };
         let builder = Harness::builder().with_size(vec2(960.0, 700.0));
         builder.build_ui_state(
-            |ui, demo: &mut Demo| {
+            move |ui, demo: &mut Demo| {
                 let mut panel = std::mem::replace(&mut demo.panel, Panel::new("test"));
-                let outcome = panel.show(ui, &Facts::default(), &mut |c| demo.controls(c));
+                let outcome = panel.show(ui, &facts, &mut |c| demo.controls(c));
                 demo.panel = panel;
                 demo.changes += usize::from(outcome.changed);
                 demo.asked.extend(outcome.asked);
             },
             demo,
         )
+    }
+
+    #[test]
+    fn a_driver_that_tells_of_its_programs_is_quoted_when_asked() {
+        let program = crate::gpu::Executable {
+            name: "raygen".to_owned(),
+            statistics: vec![("Register Count".to_owned(), 48.0)],
+            ..Default::default()
+        };
+        let mut harness = harness_with(Facts { programs: vec![program], ..Facts::default() });
+        harness.run();
+        assert!(harness.query_by_label("Register Count").is_none(), "folded away at first");
+        harness.get_by_label("compiler: 1 program").click();
+        harness.run();
+        harness.get_by_label("Register Count");
+        harness.get_by_label("48");
     }
 
     #[test]

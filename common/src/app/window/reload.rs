@@ -16,6 +16,7 @@ const DEBOUNCE: Duration = Duration::from_millis(60);
 
 /// Watches the files that a sample's shaders are made of.
 pub struct Reload {
+    learnt: usize,
     stages: Vec<String>,
     files: Vec<String>,
     bound: Vec<Bound>,
@@ -30,6 +31,7 @@ impl Reload {
     /// Watches the folder of all shaders. Where the system cannot watch it, F5 still reloads.
     pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
         Self {
+            learnt: 0,
             stages: Vec::new(),
             files: Vec::new(),
             bound: Vec::new(),
@@ -46,6 +48,11 @@ impl Reload {
     /// # Errors
     /// If one of them does not compile any more.
     pub fn learn(&mut self, stages: &[String]) -> Result<()> {
+        // The list only grows, by each pipeline that is made.
+        if stages.len() == self.learnt {
+            return Ok(());
+        }
+        self.learnt = stages.len();
         let (mut files, mut bound) = (Vec::new(), Vec::new());
         for stage in stages {
             // They have just been compiled, so this reads the cache.

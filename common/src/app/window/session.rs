@@ -71,7 +71,7 @@ impl<S: Sample> Session<S> {
             window: window.window_handle().context("the window has no handle")?.as_raw(),
         };
         let gpu = Gpu::new(&GpuOptions {
-            requirements: S::requirements().window(),
+            requirements: S::requirements().window().compiler_figures_where_offered(),
             device: args.device.as_deref(),
             validate: args.validate,
             window: Some(handles),
@@ -86,8 +86,6 @@ impl<S: Sample> Session<S> {
         for (control, value) in &args.sets {
             controls::set(control, value, |c| sample.controls(c))?;
         }
-        let mut reload = Reload::new(proxy);
-        reload.learn(&gpu.statistics().stages)?;
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);
@@ -102,7 +100,7 @@ impl<S: Sample> Session<S> {
                 software: gpu.software,
                 ..Facts::default()
             },
-            reload,
+            reload: Reload::new(proxy),
             egui: egui_winit::State::new(
                 context,
                 ViewportId::ROOT,
@@ -122,6 +120,7 @@ impl<S: Sample> Session<S> {
         };
         // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
         session.view.step(args.size, Hands::Off)?;
+        session.learn();
         session.window.set_visible(true);
         session.window.request_redraw();
         Ok(session)
@@ -207,6 +206,7 @@ impl<S: Sample> Session<S> {
             return Ok(false);
         }
         let stepped = self.view.step(extent, outcome.hands)?;
+        self.learn();
         if let Some(written) = self.view.take_picture(&self.facts.name) {
             self.panel.tell(match written {
                 Ok(path) => format!("wrote {}", path.display()),
@@ -314,13 +314,11 @@ impl<S: Sample> Session<S> {
             setup.check()?;
             self.panel.navigation.forget_home();
             sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
-            self.reload.learn(&self.gpu.statistics().stages)?;
-            Ok(sample)
+            self.view.replace(sample)
         });
         match made {
-            Ok(sample) => {
+            Ok(()) => {
                 self.args = args;
-                self.view.replace(sample);
                 self.panel.error = None;
             }
             Err(error) => self.panel.error = Some(format!("{error:#}")),
@@ -338,8 +336,15 @@ impl<S: Sample> Session<S> {
             // A control may have gone, or take other values: then the new one stands.
             let _ = controls::set(&control.name, &control.value, |c| sample.controls(c));
         }
-        self.reload.learn(&self.gpu.statistics().stages)?;
-        self.view.replace(sample);
-        Ok(())
+        self.view.replace(sample)
+    }
+
+    /// Watches the shaders of the pipelines that there are by now.
+    fn learn(&mut self) {
+        let statistics = self.gpu.statistics();
+        if let Err(error) = self.reload.learn(&statistics.stages) {
+            self.panel.error = Some(format!("{error:#}"));
+        }
+        self.facts.programs = statistics.executables;
     }
 }

@@ -74,11 +74,20 @@ impl<S: Sample> View<S> {
         self.pace.input(Instant::now());
     }
 
-    /// Takes the place of the sample; the last picture stays until the next is there.
-    pub fn replace(&mut self, sample: S) {
-        self.sample = sample;
+    /// Takes the place of the sample, once a first picture shows that it can; the old one stays if not.
+    ///
+    /// # Errors
+    /// If the new sample cannot render.
+    pub fn replace(&mut self, sample: S) -> Result<()> {
+        let old = std::mem::replace(&mut self.sample, sample);
         self.changed = true;
         self.pace.restart(Instant::now());
+        let tried = self.render(self.image.extent);
+        if tried.is_err() {
+            self.sample = old;
+            self.changed = true;
+        }
+        tried.map(drop)
     }
 
     /// Writes the next full picture, which will be rendered at once.

@@ -1,15 +1,18 @@
 //! A pipeline put together line by line.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
 use super::stages::{HitGroup, Stages, general};
-use super::{Binding, RayTracingPipeline, STAGES};
-use crate::gpu::Gpu;
+use super::{Binding, RayTracingPipeline};
+use crate::gpu::blueprint::{Blueprint, Stage};
 use crate::gpu::layout::{Reflection, ShaderStruct, StructLayout};
+use crate::gpu::shader::Shader;
 use crate::gpu::texture::TextureTable;
+use crate::gpu::{Executable, Gpu};
 
 /// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`].
 pub struct PipelineBuilder<'a> {
@@ -170,129 +173,61 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &stages.shaders {
             Reflection::of(&shader.spirv)?.check(&shader.path, &shared)?;
         }
+        let stage = |shader: Shader| Stage {
+            path: shader.path,
+            stage: shader.stage.as_raw(),
+            words: shader.spirv,
+        };
+        let blueprint = Arc::new(Blueprint {
+            name: self.name.to_owned(),
+            stages: stages.shaders.into_iter().map(stage).collect(),
+            groups,
+            constants: self.constants,
+            bindings: self.bindings.iter().map(|kind| kind.descriptor_type().as_raw()).collect(),
+            textures: self.textures.map(TextureTable::count),
+            push_size: push_size as u32,
+            recursion: self.recursion,
+            flags: self.flags.as_raw(),
+        });
         let mut pipeline = RayTracingPipeline {
             handle: vk::Pipeline::null(),
             layout: vk::PipelineLayout::null(),
-            name: self.name.to_owned(),
             groups: [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()],
-            stages: stages.shaders.iter().map(|shader| shader.path.clone()).collect(),
-            modules: Vec::new(),
             build_time: Duration::ZERO,
-            push_size,
             textures: self.textures.map(|table| table.set),
-            set_layout: push_descriptor_layout(gpu, &self.bindings)?,
-            bindings: self.bindings.clone(),
+            set_layout: blueprint.set_layout(&gpu.device)?,
+            bindings: self.bindings,
+            blueprint,
             gpu: gpu.clone(),
         };
-        pipeline.layout = self.pipeline_layout(gpu, pipeline.set_layout, push_size as u32)?;
-        pipeline.handle = self
-            .create(gpu, &stages, &groups, pipeline.layout)
+        let sets: Vec<_> = std::iter::once(pipeline.set_layout)
+            .chain(self.textures.map(|table| table.layout))
+            .collect();
+        pipeline.layout = pipeline.blueprint.layout(&gpu.device, &sets)?;
+        let flags = match gpu.executable_properties {
+            Some(_) => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
+            None => vk::PipelineCreateFlags::empty(),
+        };
+        let name_module = |module, path: &str| gpu.name_object(module, path);
+        pipeline.handle = pipeline
+            .blueprint
+            .create(&gpu.device, &gpu.ray_tracing_pipeline, pipeline.layout, flags, name_module)
             .with_context(|| format!("cannot make the pipeline '{}'", self.name))?;
-        pipeline.modules = stages.shaders.into_iter().map(|shader| shader.spirv).collect();
         gpu.name_object(pipeline.handle, self.name);
         gpu.name_object(pipeline.layout, self.name);
         pipeline.build_time = start.elapsed();
+        let executables = match &gpu.executable_properties {
+            Some(device) => Executable::all(device, pipeline.handle)?,
+            None => Vec::new(),
+        };
         gpu.count(|statistics| {
+            let Blueprint { stages, groups, .. } = &*pipeline.blueprint;
             statistics.pipeline_time += pipeline.build_time;
-            statistics.stages.extend(pipeline.stages.iter().cloned());
+            statistics.stages.extend(stages.iter().map(|stage| stage.path.clone()));
             statistics.groups += groups.len();
+            statistics.blueprints.push(pipeline.blueprint.clone());
+            statistics.executables = executables;
         });
         Ok(pipeline)
     }
-
-    fn pipeline_layout(
-        &self,
-        gpu: &Gpu,
-        set: vk::DescriptorSetLayout,
-        push_size: u32,
-    ) -> Result<vk::PipelineLayout> {
-        let mut sets = vec![set];
-        sets.extend(self.textures.map(|table| table.layout));
-        let ranges = [vk::PushConstantRange::default().stage_flags(STAGES).size(push_size)];
-        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
-        if push_size > 0 {
-            info = info.push_constant_ranges(&ranges);
-        }
-        // SAFETY: the set layouts are alive.
-        Ok(unsafe { gpu.device.create_pipeline_layout(&info, None)? })
-    }
-
-    fn create(
-        &self,
-        gpu: &Gpu,
-        stages: &Stages,
-        groups: &[vk::RayTracingShaderGroupCreateInfoKHR],
-        layout: vk::PipelineLayout,
-    ) -> Result<vk::Pipeline> {
-        let entries: Vec<_> = (0..self.constants.len())
-            .map(|i| {
-                vk::SpecializationMapEntry::default()
-                    .constant_id(self.constants[i].0)
-                    .offset(4 * i as u32)
-                    .size(4)
-            })
-            .collect();
-        let values: Vec<u32> = self.constants.iter().map(|&(_, value)| value).collect();
-        let specialization = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(bytemuck::cast_slice(&values));
-        let mut created = Vec::new();
-        let result = (|| -> Result<vk::Pipeline> {
-            let mut infos = Vec::new();
-            for shader in &stages.shaders {
-                let info = vk::ShaderModuleCreateInfo::default().code(&shader.spirv);
-                // SAFETY: the words are a valid module, compiled by glslang.
-                let module = unsafe { gpu.device.create_shader_module(&info, None)? };
-                created.push(module);
-                gpu.name_object(module, &shader.path);
-                infos.push(
-                    vk::PipelineShaderStageCreateInfo::default()
-                        .stage(shader.stage)
-                        .module(module)
-                        .name(c"main")
-                        .specialization_info(&specialization),
-                );
-            }
-            let info = [vk::RayTracingPipelineCreateInfoKHR::default()
-                .flags(self.flags)
-                .stages(&infos)
-                .groups(groups)
-                .max_pipeline_ray_recursion_depth(self.recursion)
-                .layout(layout)];
-            // SAFETY: every stage index of the groups is within the stages; all handles are alive.
-            let pipelines = unsafe {
-                gpu.ray_tracing_pipeline.create_ray_tracing_pipelines(
-                    vk::DeferredOperationKHR::null(),
-                    vk::PipelineCache::null(),
-                    &info,
-                    None,
-                )
-            };
-            Ok(pipelines.map_err(|(_, error)| error)?[0])
-        })();
-        for module in created {
-            // SAFETY: a module is not needed once the pipeline is made.
-            unsafe { gpu.device.destroy_shader_module(module, None) };
-        }
-        result
-    }
-}
-
-fn push_descriptor_layout(gpu: &Gpu, bindings: &[Binding]) -> Result<vk::DescriptorSetLayout> {
-    let slots: Vec<_> = bindings
-        .iter()
-        .enumerate()
-        .map(|(index, binding)| {
-            vk::DescriptorSetLayoutBinding::default()
-                .binding(index as u32)
-                .descriptor_type(binding.descriptor_type())
-                .descriptor_count(1)
-                .stage_flags(STAGES)
-        })
-        .collect();
-    let info = vk::DescriptorSetLayoutCreateInfo::default()
-        .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
-        .bindings(&slots);
-    // SAFETY: the device is alive; the layout is destroyed with the pipeline.
-    Ok(unsafe { gpu.device.create_descriptor_set_layout(&info, None)? })
 }

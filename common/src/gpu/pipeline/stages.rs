@@ -3,6 +3,7 @@
 use anyhow::Result;
 use ash::vk;
 
+use crate::gpu::blueprint::Group;
 use crate::gpu::exact::exact;
 use crate::gpu::shader::{self, Shader};
 
@@ -64,31 +65,30 @@ impl Stages<'_> {
     }
 
     /// A hit group and its stages.
-    pub fn hit_group(
-        &mut self,
-        hit: &HitGroup,
-    ) -> Result<vk::RayTracingShaderGroupCreateInfoKHR<'static>> {
-        let ty = match hit.intersection {
+    pub fn hit_group(&mut self, hit: &HitGroup) -> Result<Group> {
+        let kind = match hit.intersection {
             Some(_) => vk::RayTracingShaderGroupTypeKHR::PROCEDURAL_HIT_GROUP,
             None => vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP,
         };
         let mut stage =
             |path: Option<&str>| path.map_or(Ok(vk::SHADER_UNUSED_KHR), |p| self.add(p));
-        Ok(vk::RayTracingShaderGroupCreateInfoKHR::default()
-            .ty(ty)
-            .general_shader(vk::SHADER_UNUSED_KHR)
-            .intersection_shader(stage(hit.intersection)?)
-            .any_hit_shader(stage(hit.any_hit)?)
-            .closest_hit_shader(stage(hit.closest_hit)?))
+        Ok(Group {
+            kind: kind.as_raw(),
+            general: vk::SHADER_UNUSED_KHR,
+            intersection: stage(hit.intersection)?,
+            any_hit: stage(hit.any_hit)?,
+            closest_hit: stage(hit.closest_hit)?,
+        })
     }
 }
 
 /// A group of one raygen, miss or callable shader.
-pub(super) fn general(stage: u32) -> vk::RayTracingShaderGroupCreateInfoKHR<'static> {
-    vk::RayTracingShaderGroupCreateInfoKHR::default()
-        .ty(vk::RayTracingShaderGroupTypeKHR::GENERAL)
-        .general_shader(stage)
-        .closest_hit_shader(vk::SHADER_UNUSED_KHR)
-        .any_hit_shader(vk::SHADER_UNUSED_KHR)
-        .intersection_shader(vk::SHADER_UNUSED_KHR)
+pub(super) fn general(stage: u32) -> Group {
+    Group {
+        kind: vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw(),
+        general: stage,
+        intersection: vk::SHADER_UNUSED_KHR,
+        any_hit: vk::SHADER_UNUSED_KHR,
+        closest_hit: vk::SHADER_UNUSED_KHR,
+    }
 }

@@ -1,0 +1,229 @@
+//! `--compile-for`: what a GPU's own compiler makes of a sample's pipelines, on a machine without that GPU.
+//!
+//! The sample runs on whatever device there is and makes its pipelines. What they were made from goes to
+//! a child process for each family, in which Mesa's RADV compiles it for a device that is not there
+//! ([`gpu::null`](crate::gpu::null)). The figures are that compiler's estimates, not times.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+
+use anyhow::{Context, Result, anyhow, bail};
+use ash::vk;
+use clap::ValueEnum;
+use serde::Serialize;
+
+use super::output;
+use crate::gpu::{Blueprint, Executable, Requirements, null};
+
+/// A family of GPUs that RADV compiles ray tracing pipelines for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Family {
+    /// RDNA2
+    Navi21,
+    /// RDNA3
+    Navi31,
+    /// RDNA4
+    Gfx1201,
+    /// All of them
+    All,
+}
+
+impl Family {
+    /// The families that are meant, by RADV's names.
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Navi21 => &["navi21"],
+            Self::Navi31 => &["navi31"],
+            Self::Gfx1201 => &["gfx1201"],
+            Self::All => &["navi21", "navi31", "gfx1201"],
+        }
+    }
+}
+
+/// What RADV says of one program of a pipeline. All figures are its compiler's: comparable between programs
+/// of one shape, and no times.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CompiledFor {
+    /// RADV's name for the family.
+    pub family: &'static str,
+    /// The pipeline, where the sample has several: its name and its number.
+    pub pipeline: String,
+    /// The driver's name for the program.
+    pub executable: String,
+    /// The stages that the program was made of.
+    pub stage: String,
+    /// Vector registers a lane.
+    pub registers: u64,
+    /// Registers, scalar and vector, that did not fit and live in memory.
+    pub spilled_registers: u64,
+    /// Bytes of memory a wave, for spilled registers, stack and arrays.
+    pub scratch_bytes: u64,
+    /// Bytes of machine code.
+    pub code_bytes: u64,
+    /// Machine instructions.
+    pub instructions: u64,
+    /// Waves that one SIMD unit can hold at a time: more hide more waiting.
+    pub waves: u64,
+    /// Invocations a wave.
+    pub wave_size: u32,
+    /// Estimated cycles from the program's start to its end, loops counted as the compiler assumes.
+    pub latency: u64,
+    /// Estimated cycles between the ends of two waves where there are many.
+    pub inverse_throughput: u64,
+}
+
+/// What the compiler of each family makes of these pipelines.
+///
+/// # Errors
+/// If there is no RADV, with what to install, or if it refuses a pipeline.
+pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<CompiledFor>> {
+    let mut different: Vec<&Blueprint> = Vec::new();
+    for blueprint in blueprints {
+        if !different.contains(&&**blueprint) {
+            different.push(blueprint);
+        }
+    }
+    let manifest = manifest()?;
+    let question = serde_json::to_vec(&different)?;
+    let mut all = Vec::new();
+    for &family in family.names() {
+        let programs = ask(family, &manifest, &question)
+            .with_context(|| format!("cannot compile for {family}"))?;
+        for (number, (programs, blueprint)) in programs.iter().zip(&different).enumerate() {
+            let pipeline = match different.len() {
+                1 => blueprint.name.clone(),
+                _ => format!("{} ({})", blueprint.name, number + 1),
+            };
+            let told = programs.iter().map(|program| CompiledFor::new(family, &pipeline, program));
+            all.extend(told);
+        }
+    }
+    Ok(all)
+}
+
+/// The child's part: reads pipelines from standard input, and prints what the null device makes of them.
+///
+/// # Errors
+/// If there is no null device, or it refuses.
+pub fn answer(requirements: &Requirements) -> Result<()> {
+    let blueprints: Vec<Blueprint> = serde_json::from_reader(std::io::stdin().lock())
+        .context("no pipelines on standard input")?;
+    let answer = null::compile(requirements, &blueprints)?;
+    output::print(&serde_json::to_string(&answer)?)
+}
+
+fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Vec<Vec<Executable>>> {
+    let this = std::env::current_exe().context("cannot tell where this program lies")?;
+    let mut child = Command::new(this)
+        .arg("--answer-compile-for")
+        .env("RADV_FORCE_FAMILY", family)
+        .env("VK_DRIVER_FILES", manifest)
+        .env_remove("VK_ICD_FILENAMES")
+        .env_remove("VK_INSTANCE_LAYERS")
+        .env_remove("VULKAN_LOADER")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .context("cannot start this program again")?;
+    let mut stdin = child.stdin.take().context("a child without standard input")?;
+    // A child that has failed reads no further; its own words say why.
+    let _ = stdin.write_all(question);
+    drop(stdin);
+    let output = child.wait_with_output()?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        let why = said.lines().find_map(|line| line.strip_prefix("error: "));
+        bail!("{}", why.map_or_else(|| output.status.to_string(), str::to_owned));
+    }
+    serde_json::from_slice(&output.stdout).context("the child's answer is none")
+}
+
+/// RADV's manifest, by which the loader finds it.
+fn manifest() -> Result<PathBuf> {
+    let shared = std::env::var("XDG_DATA_DIRS").unwrap_or_default();
+    let shared = shared.split(':').filter(|folder| !folder.is_empty());
+    let folders = ["/etc", "/usr/local/share", "/usr/share"].into_iter().chain(shared);
+    let mut manifests: Vec<PathBuf> = folders
+        .filter_map(|folder| Path::new(folder).join("vulkan/icd.d").read_dir().ok())
+        .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
+        .collect();
+    // On systems of several architectures there is one for each: radeon_icd.x86_64.json.
+    let fit = format!("radeon_icd.{}.json", std::env::consts::ARCH);
+    manifests.sort();
+    let named = |wanted: &str| manifests.iter().find(|path| path.ends_with(wanted)).cloned();
+    named(&fit).or_else(|| named("radeon_icd.json")).ok_or_else(|| {
+        anyhow!(
+            "--compile-for needs Mesa's Vulkan driver for AMD (RADV), which is not installed: install \
+             mesa-vulkan-drivers on Debian, Ubuntu or Fedora, vulkan-radeon on Arch"
+        )
+    })
+}
+
+impl CompiledFor {
+    fn new(family: &'static str, pipeline: &str, program: &Executable) -> Self {
+        let figure = |name: &str| program.figure(name).unwrap_or_default() as u64;
+        Self {
+            family,
+            pipeline: pipeline.to_owned(),
+            executable: program.name.clone(),
+            stage: stages(program.stages),
+            registers: figure("VGPRs"),
+            spilled_registers: figure("Spilled SGPRs") + figure("Spilled VGPRs"),
+            scratch_bytes: figure("Scratch size"),
+            code_bytes: figure("Code size"),
+            instructions: figure("Instructions"),
+            waves: figure("Subgroups per SIMD"),
+            wave_size: program.subgroup_size,
+            latency: figure("Latency"),
+            inverse_throughput: figure("Inverse Throughput"),
+        }
+    }
+}
+
+/// The names of the stages in `VkShaderStageFlags`.
+fn stages(flags: u32) -> String {
+    let names = [
+        (vk::ShaderStageFlags::RAYGEN_KHR, "raygen"),
+        (vk::ShaderStageFlags::MISS_KHR, "miss"),
+        (vk::ShaderStageFlags::CLOSEST_HIT_KHR, "closest hit"),
+        (vk::ShaderStageFlags::ANY_HIT_KHR, "any-hit"),
+        (vk::ShaderStageFlags::INTERSECTION_KHR, "intersection"),
+        (vk::ShaderStageFlags::CALLABLE_KHR, "callable"),
+        (vk::ShaderStageFlags::COMPUTE, "compute"),
+    ];
+    let flags = vk::ShaderStageFlags::from_raw(flags);
+    let found = names.into_iter().filter(|(flag, _)| flags.contains(*flag));
+    found.map(|(_, name)| name).collect::<Vec<_>>().join(" + ")
+}
+
+/// The figures as a table that reads as text and as Markdown.
+pub fn table(rows: &[CompiledFor]) -> String {
+    let mut text = String::from(
+        "| family | pipeline | program | stage | registers | spilled | scratch, bytes | code, bytes \
+         | instructions | waves | latency | inverse throughput |\n|---|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+    );
+    for row in rows {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} of {} | {} | {} |",
+            row.family,
+            row.pipeline,
+            row.executable,
+            row.stage,
+            row.registers,
+            row.spilled_registers,
+            row.scratch_bytes,
+            row.code_bytes,
+            row.instructions,
+            row.waves,
+            row.wave_size,
+            row.latency,
+            row.inverse_throughput
+        );
+    }
+    text + "\nEstimates of Mesa's compiler for AMD GPUs: comparable between programs of one shape, no times.\n"
+}
