@@ -16,7 +16,8 @@ use clap::ValueEnum;
 use serde::Serialize;
 
 use super::output;
-use crate::gpu::{Blueprint, Executable, Requirements, null};
+use crate::gpu::null::{self, Compiled};
+use crate::gpu::{Blueprint, Executable, Requirements};
 
 /// A family of GPUs that RADV compiles ray tracing pipelines for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -49,6 +50,8 @@ impl Family {
 pub struct CompiledFor {
     /// RADV's name for the family.
     pub family: &'static str,
+    /// The compiler and its version, on which the figures depend.
+    pub compiler: String,
     /// The pipeline, where the sample has several: its name and its number.
     pub pipeline: String,
     /// The driver's name for the program.
@@ -90,14 +93,16 @@ pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<
     let question = serde_json::to_vec(&different)?;
     let mut all = Vec::new();
     for &family in family.names() {
-        let programs = ask(family, &manifest, &question)
+        let Compiled { driver, pipelines } = ask(family, &manifest, &question)
             .with_context(|| format!("cannot compile for {family}"))?;
-        for (number, (programs, blueprint)) in programs.iter().zip(&different).enumerate() {
+        for (number, (programs, blueprint)) in pipelines.iter().zip(&different).enumerate() {
             let pipeline = match different.len() {
                 1 => blueprint.name.clone(),
                 _ => format!("{} ({})", blueprint.name, number + 1),
             };
-            let told = programs.iter().map(|program| CompiledFor::new(family, &pipeline, program));
+            let told = programs
+                .iter()
+                .map(|program| CompiledFor::new(family, &driver, &pipeline, program));
             all.extend(told);
         }
     }
@@ -115,7 +120,7 @@ pub fn answer(requirements: &Requirements) -> Result<()> {
     output::print(&serde_json::to_string(&answer)?)
 }
 
-fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Vec<Vec<Executable>>> {
+fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Compiled> {
     let this = std::env::current_exe().context("cannot tell where this program lies")?;
     let mut child = Command::new(this)
         .arg("--answer-compile-for")
@@ -164,10 +169,11 @@ fn manifest() -> Result<PathBuf> {
 }
 
 impl CompiledFor {
-    fn new(family: &'static str, pipeline: &str, program: &Executable) -> Self {
+    fn new(family: &'static str, compiler: &str, pipeline: &str, program: &Executable) -> Self {
         let figure = |name: &str| program.figure(name).unwrap_or_default() as u64;
         Self {
             family,
+            compiler: compiler.to_owned(),
             pipeline: pipeline.to_owned(),
             executable: program.name.clone(),
             stage: stages(program.stages),

@@ -5,11 +5,21 @@
 
 use anyhow::{Context, Result, ensure};
 use ash::{Device, khr, vk};
+use serde::{Deserialize, Serialize};
 
 use super::blueprint::Blueprint;
 use super::context::create_instance;
 use super::requirements::Requirements;
 use super::{Executable, TextureTable, device, load};
+
+/// What a compiler makes of pipelines.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Compiled {
+    /// The driver and its version, in its maker's words: figures depend on it.
+    pub driver: String,
+    /// The programs of each pipeline.
+    pub pipelines: Vec<Vec<Executable>>,
+}
 
 /// What the null device makes of each pipeline.
 ///
@@ -18,10 +28,7 @@ use super::{Executable, TextureTable, device, load};
 ///
 /// # Errors
 /// If there is no such device, if it lacks what the sample needs, or if its compiler refuses.
-pub fn compile(
-    requirements: &Requirements,
-    blueprints: &[Blueprint],
-) -> Result<Vec<Vec<Executable>>> {
+pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<Compiled> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let entry = load()?;
     let (instance, _) = create_instance(&entry, None, None)?;
@@ -33,13 +40,13 @@ pub fn compile(
         let device = device::create(&instance, &null, &requirements)?;
         let ray_tracing_pipeline = khr::ray_tracing_pipeline::Device::new(&instance, &device);
         let properties = khr::pipeline_executable_properties::Device::new(&instance, &device);
-        let all = blueprints
+        let pipelines: Result<_> = blueprints
             .iter()
             .map(|blueprint| one(&device, &ray_tracing_pipeline, &properties, blueprint))
             .collect();
         // SAFETY: nothing made from the device is left.
         unsafe { device.destroy_device(None) };
-        all
+        Ok(Compiled { driver: null.driver, pipelines: pipelines? })
     })();
     // SAFETY: nothing made from the instance is left.
     unsafe { instance.destroy_instance(None) };
