@@ -1,13 +1,15 @@
 //! 05 · Shadow miss: a second miss shader answers one question, "does this ray reach the light?".
 //!
 //! New since 02_basic: the miss shader `shadow.rmiss` with a payload of one bool, the ray flags of a
-//! shadow ray, an origin that its own surface cannot shadow, point lights, and soft shadows.
+//! shadow ray, an origin that its own surface cannot shadow, point lights, and soft shadows. The hit
+//! shader reports what was met, and the raygen shader traces every ray.
 
 use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable,
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
+    Variants,
 };
 use common::scene::{
     Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
@@ -21,17 +23,22 @@ fn main() -> ExitCode {
 
 struct Demo {
     scene: SceneOnGpu,
-    pipeline: RayTracingPipeline,
-    sbt: ShaderBindingTable,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
     lamp: PointLight,
     light: u32,
     light_size: f32,
     light_samples: u32,
+    constants: Constants,
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: u32,
     shadow_rays: u32,
     smooth_terminator: bool,
-    show: u32,
 }
 
 common::shader_struct! {
@@ -41,9 +48,6 @@ common::shader_struct! {
         scene: SceneAddresses,
         light: Light,
         light_samples: u32,
-        shadow_rays: u32,
-        smooth_terminator: u32,
-        show: u32,
     }
 }
 
@@ -56,33 +60,16 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .miss("shadow.rmiss")
-            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-            .recursion(2)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .build(gpu)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        // ANCHOR_END: pipeline
         Ok(Self {
             scene,
-            pipeline,
-            sbt,
+            pipelines: Variants::default(),
             camera,
             sun: Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
             lamp: PointLight::default(),
             light: 0,
             light_size: 0.0,
             light_samples: 16,
-            shadow_rays: 0,
-            smooth_terminator: true,
-            show: 0,
+            constants: Constants { show: 0, shadow_rays: 0, smooth_terminator: true },
         })
     }
 
@@ -90,15 +77,16 @@ impl Sample for Demo {
     fn controls(&mut self, c: &mut Controls) {
         let views =
             ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         c.choice("light", &mut self.light, &["directional", "point"]);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
         c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("light samples", &mut self.light_samples, 1..=64);
-        c.choice("shadow rays", &mut self.shadow_rays, &["first hit", "nearest hit", "off"]);
-        c.checkbox("smooth terminator", &mut self.smooth_terminator);
+        let rays = ["first hit", "nearest hit", "off"];
+        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -113,17 +101,40 @@ impl Sample for Demo {
                 _ => Light::point(&self.lamp, self.light_size),
             },
             light_samples: self.light_samples,
-            shadow_rays: self.shadow_rays,
-            smooth_terminator: self.smooth_terminator.into(),
-            show: self.show,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
-        self.sbt.trace(frame.cmd, frame.image.extent);
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.image.extent);
         // ANCHOR_END: trace
         Ok(())
     }
 }
+
+// ANCHOR: pipeline
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.shadow_rays)
+        .constant(2, constants.smooth_terminator.into())
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

@@ -5,66 +5,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/offset.glsl"
+#include "hit.glsl"
+#include "place.glsl"
 
-layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-layout(location = 0) rayPayloadInEXT vec4 payload;
-layout(location = 1) rayPayloadEXT bool lit;
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
-// ANCHOR: shadow
-// Whether nothing lies between a point and the light, or a point of the light.
-bool is_lit(vec3 origin, vec3 to_light) {
-    // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
-    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
-        | gl_RayFlagsOpaqueEXT;
-    if (push.shadow_rays == SHADOW_NEAREST_HIT) {
-        flags &= ~gl_RayFlagsTerminateOnFirstHitEXT;
-    }
-    lit = false;
-    traceRayEXT(
-        tlas,
-        flags,
-        0xff,                       // cull mask: every instance
-        0,                          // sbtRecordOffset: no hit shader runs
-        1,                          // sbtRecordStride: one record a geometry
-        1,                          // missIndex: shadow.rmiss
-        origin,
-        0.0,                        // tmin: the origin lies off the surface
-        to_light,
-        light_end(push.light),      // tmax
-        1                           // payload location
-    );
-    return lit;
-}
-// ANCHOR_END: shadow
-
-// ANCHOR: visibility
-// What part of the light is seen, 0 to 1, by a surface whose normal is `up`. One ray tells if the light
-// has no size.
-float visibility(vec3 origin, vec3 up) {
-    if (push.shadow_rays == SHADOW_OFF) {
-        return 1.0;
-    }
-    bool soft = push.light.size > 0.0;
-    uint count = soft ? push.light_samples : 1;
-    vec2 start = random(gl_LaunchIDEXT.xy, 0, 0, DIMENSION_LIGHT).xy;
-    uint seen = 0;
-    for (uint i = 0; i < count; i++) {
-        vec2 point = soft ? disk_point(i, count, start) : vec2(0.0);
-        vec3 to_light = towards_light(push.light, origin, point);
-        // What is below the surface, the surface itself hides; that needs no ray.
-        if (dot(up, to_light) > 0.0 && is_lit(origin, to_light)) {
-            seen++;
-        }
-    }
-    return float(seen) / float(count);
-}
-// ANCHOR_END: visibility
-
-// The nearest hit: normal, material and light give the colour.
+// The nearest hit: what surface it is, and where.
 void main() {
     // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
@@ -72,54 +21,24 @@ void main() {
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
     // ANCHOR_END: fetch
-    // ANCHOR: normal
+    // ANCHOR: report
+    place(hit, instance, triangle, weights);
+    hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    vec3 view = -gl_WorldRayDirectionEXT;
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
-    HitPoint hit = hit_point(instance, triangle, weights);
-    normal = faceforward(normal, -hit.normal, normal);
-    // ANCHOR_END: normal
-    // Taken down before a shadow ray is traced: afterwards the software driver takes these for that
-    // ray's own.
-    vec4 identity = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+    hit.lift = vec3(0.0);
+    if (SMOOTH_TERMINATOR) {
+        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
+    }
 
-    vec3 base = material.base_color;
+    hit.color = material.base_color;
     if (material.base_texture >= 0) {
-        base *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
-    // ANCHOR: light
-    vec3 origin = origin_above(hit);
-    vec3 up = hit.normal;
-    if (push.smooth_terminator != 0) {
-        vec3 lift = lift_to_smooth(hit, instance, triangle, weights);
-        origin += lift;
-        up = lift == vec3(0.0) ? up : normal;
-    }
-    float visible = visibility(origin, up);
-    vec3 light = normalize(towards_light(push.light, origin, vec2(0.0)));
-    vec3 color = material.emission + base * ambient(normal);
-    color += visible * arriving_light(push.light, origin)
-        * reflect_light(base, material.specular, material.shininess, normal, view, light);
-    // ANCHOR_END: light
-
-    payload = vec4(color, 1.0);
-    if (push.show == SHOW_NORMAL) {
-        payload.rgb = 0.5 + 0.5 * normal;
-    }
-    if (push.show == SHOW_TRIANGLE) {
-        payload.rgb = false_color(triangle);
-    }
-    if (push.show == SHOW_HIT) {
-        payload = identity;
-    }
-    if (push.show == SHOW_DIRECTION) {
-        payload = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
-    }
-    if (push.show == SHOW_SHADOW) {
-        payload.rgb = vec3(visible);
-    }
-    if (push.show == SHOW_ORIGIN) {
-        payload = vec4(origin, visible);
-    }
+    hit.material = instance.material;
+    hit.triangle = triangle;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    // ANCHOR_END: report
 }

@@ -7,6 +7,7 @@
 use std::ffi::{CStr, CString};
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -77,10 +78,15 @@ pub struct GpuContext {
     pub driver: String,
     /// Whether it is a driver that runs on the CPU.
     pub software: bool,
+    /// Whether there is a window: someone who would rather see the last picture than wait for the next.
+    pub is_watched: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
+    /// How many pipelines are being made by other threads.
+    pub(super) building: AtomicUsize,
+    complaints: Mutex<Vec<String>>,
     statistics: Mutex<Statistics>,
     shared_structs: Mutex<Vec<StructLayout>>,
     command_pool: Mutex<vk::CommandPool>,
@@ -176,7 +182,9 @@ impl Gpu {
                 return Err(error);
             }
         };
-        Self::open(entry, instance, &chosen, &options.requirements, messages, has_debug_utils)
+        let is_watched = options.window.is_some();
+        let wanted = &options.requirements;
+        Self::open(entry, instance, &chosen, wanted, messages, has_debug_utils, is_watched)
             .with_context(|| format!("cannot open {}", chosen.name))
     }
 
@@ -187,6 +195,7 @@ impl Gpu {
         requirements: &Requirements,
         messages: Option<Arc<Messages>>,
         has_debug_utils: bool,
+        is_watched: bool,
     ) -> Result<Self> {
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;
@@ -233,7 +242,10 @@ impl Gpu {
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             software: chosen.kind == vk::PhysicalDeviceType::CPU,
+            is_watched,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
+            building: AtomicUsize::new(0),
+            complaints: Mutex::default(),
             statistics: Mutex::default(),
             shared_structs: Mutex::default(),
             command_pool: Mutex::new(command_pool),
@@ -344,6 +356,21 @@ impl Gpu {
     /// What [`Gpu::share_structs`] has declared so far.
     pub(super) fn shared_structs(&self) -> Vec<StructLayout> {
         self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Whether a pipeline is being made by another thread: the picture will change once it is there.
+    pub fn is_building(&self) -> bool {
+        self.building.load(Ordering::Relaxed) > 0
+    }
+
+    /// Keeps what went wrong without stopping anything, for whoever watches.
+    pub fn complain(&self, what: String) {
+        self.complaints.lock().unwrap_or_else(PoisonError::into_inner).push(what);
+    }
+
+    /// Takes what [`Gpu::complain`] has kept.
+    pub fn complaints(&self) -> Vec<String> {
+        std::mem::take(&mut *self.complaints.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// What has been built so far.

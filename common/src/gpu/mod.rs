@@ -22,6 +22,7 @@ mod swapchain;
 mod texture;
 mod timing;
 mod validation;
+mod variants;
 
 pub use accel::{AccelerationStructure, BuildOptions, Geometry};
 pub use blueprint::{Blueprint, Group, Stage};
@@ -39,3 +40,4 @@ pub use swapchain::{Acquired, Swapchain};
 pub use texture::TextureTable;
 pub use timing::Timer;
 pub use validation::Messages;
+pub use variants::{Make, Variant, Variants};

@@ -346,5 +346,8 @@ impl<S: Sample> Session<S> {
             self.panel.error = Some(format!("{error:#}"));
         }
         self.facts.programs = statistics.executables;
+        if let Some(complaint) = self.gpu.complaints().pop() {
+            self.panel.error = Some(complaint);
+        }
     }
 }

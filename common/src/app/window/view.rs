@@ -104,7 +104,8 @@ impl<S: Sample> View<S> {
             self.full = full;
             self.change();
         }
-        let improves = self.sample.accumulates() || self.sample.is_busy();
+        let busy = self.sample.is_busy() || self.gpu.is_building();
+        let improves = self.sample.accumulates() || busy;
         let step = if self.picture_due && !self.pace.is_sharp() {
             self.pace.full(full)
         } else {
@@ -114,7 +115,12 @@ impl<S: Sample> View<S> {
             Step::Render(extent) => extent,
             Step::Keep(until) => return Ok(Stepped::Kept(until)),
         };
+        let was_building = self.gpu.is_building();
         let telling = self.render(extent)?;
+        if was_building && !self.gpu.is_building() {
+            // What was waited for is there: frames of the old pipeline are not to be mixed with it.
+            self.change();
+        }
         Ok(Stepped::New { milliseconds: self.milliseconds, full: extent == full, telling })
     }
 

@@ -1,0 +1,117 @@
+//! A pipeline for each set of constants that was asked for, made when it is first wanted.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::thread::JoinHandle;
+
+use anyhow::{Context, Result, anyhow};
+
+use super::{Gpu, RayTracingPipeline, ShaderBindingTable, TextureTable};
+
+/// Makes a variant's pipeline: the chapter's own `pipeline`.
+pub type Make<V> = fn(&Gpu, &TextureTable, V) -> Result<RayTracingPipeline>;
+
+/// The pipelines of a sample, each with what it was made for.
+///
+/// Where someone watches, a variant that is not there yet is made by another thread while the old picture
+/// stays; a run without a window waits for it.
+pub struct Variants<V> {
+    made: Vec<Variant<V>>,
+    current: usize,
+    order: Option<Order<V>>,
+    /// What could not be made, until something else is wanted.
+    refused: Option<V>,
+}
+
+/// A pipeline that another thread is making. The device counts it until it is taken.
+struct Order<V> {
+    key: V,
+    thread: Option<JoinHandle<Result<RayTracingPipeline>>>,
+    gpu: Gpu,
+}
+
+/// A pipeline, its table, and what it was made for.
+pub struct Variant<V> {
+    /// What it was made for.
+    pub key: V,
+    /// The pipeline.
+    pub pipeline: RayTracingPipeline,
+    /// Its table.
+    pub sbt: ShaderBindingTable,
+}
+
+impl<V> Default for Variants<V> {
+    fn default() -> Self {
+        Self { made: Vec::new(), current: 0, order: None, refused: None }
+    }
+}
+
+impl<V: Copy + PartialEq + Send + 'static> Variants<V> {
+    /// The pipeline for `wanted`; in a window, the last one for as long as it is being made.
+    ///
+    /// # Errors
+    /// If it cannot be made. In a window with a picture that is told, and the last pipeline goes on.
+    pub fn choose(
+        &mut self,
+        gpu: &Gpu,
+        textures: &Arc<TextureTable>,
+        wanted: V,
+        make: Make<V>,
+    ) -> Result<&Variant<V>> {
+        if let Some(mut order) = self.order.take_if(|order| order.is_finished()) {
+            match order.finish() {
+                Ok(pipeline) => self.keep(gpu, order.key, pipeline)?,
+                Err(error) => {
+                    gpu.complain(format!("{error:#}"));
+                    self.refused = Some(order.key);
+                }
+            }
+        }
+        let known = self.made.iter().position(|variant| variant.key == wanted);
+        if let Some(known) = known {
+            self.current = known;
+        } else if self.made.is_empty() || !gpu.is_watched {
+            let pipeline = make(gpu, textures, wanted)?;
+            self.keep(gpu, wanted, pipeline)?;
+        } else if self.order.is_none() && self.refused != Some(wanted) {
+            self.order = Some(Order::begin(gpu, textures, wanted, make));
+            self.refused = None;
+        }
+        self.made.get(self.current).context("no pipeline")
+    }
+
+    fn keep(&mut self, gpu: &Gpu, key: V, pipeline: RayTracingPipeline) -> Result<()> {
+        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+        self.current = self.made.len();
+        self.made.push(Variant { key, pipeline, sbt });
+        Ok(())
+    }
+}
+
+impl<V: Copy + Send + 'static> Order<V> {
+    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V>) -> Self {
+        gpu.building.fetch_add(1, Ordering::Relaxed);
+        let (device, textures) = (gpu.clone(), textures.clone());
+        let thread = std::thread::spawn(move || make(&device, &textures, key));
+        Self { key, thread: Some(thread), gpu: gpu.clone() }
+    }
+
+    fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    fn finish(&mut self) -> Result<RayTracingPipeline> {
+        let thread = self.thread.take().context("taken before")?;
+        thread.join().unwrap_or_else(|_| Err(anyhow!("making a pipeline panicked")))
+    }
+}
+
+impl<V> Drop for Order<V> {
+    fn drop(&mut self) {
+        // What is half made must not outlive the window.
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        self.gpu.building.fetch_sub(1, Ordering::Relaxed);
+    }
+}
