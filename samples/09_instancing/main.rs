@@ -164,12 +164,12 @@ impl Sample for Demo {
         if c.choice("scene", &mut self.build.scene, &formation::SCENES) {
             self.camera = formation::camera(self.build.scene);
         }
-        // A million squares take 400 MB as instances, a thousand take 250 MB as copies.
-        let most = if self.build.geometry == 0 { 1_000_000 } else { 1_000 };
-        c.integer("squares", &mut self.build.squares, 1..=most);
         if c.choice("geometry", &mut self.build.geometry, &["instances", "copies"]) {
             self.build.squares = self.build.squares.min(1_000);
         }
+        // A million squares take 400 MB as instances, a thousand take 250 MB as copies.
+        let most = if self.build.geometry == 0 { 1_000_000 } else { 1_000 };
+        c.integer("squares", &mut self.build.squares, 1..=most);
         c.slider("far", &mut self.far, 0.0..=1e7);
         c.choice("coordinates", &mut self.coordinates, &["world", "camera-relative", "both"]);
         c.choice("camera sees", &mut self.camera_sees, &SEEN.map(|(name, _)| name));

@@ -91,3 +91,20 @@ fn a_rung_of_another_ladder_is_refused() {
     let output = command(NAME).args(["--headless", "--measure", "x", "--only", "torus"]).output();
     assert_eq!(output.unwrap().status.code(), Some(2));
 }
+
+#[test]
+fn the_order_of_settings_does_not_matter() {
+    let [a, b, c] = ["primitive=capsule", "rung=two-float", "distance=50"];
+    for order in [[a, b, c], [a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
+        let sets = order.iter().flat_map(|set| ["--set", set]);
+        let output = command(NAME).arg("--list-controls").args(sets).output().unwrap();
+        let list = String::from_utf8_lossy(&output.stdout);
+        for set in order {
+            let (control, value) = set.split_once('=').unwrap();
+            let is_set = |line: &str| {
+                line.starts_with(&format!("{control}\t")) && line.ends_with(&format!("\t{value}"))
+            };
+            assert!(list.lines().any(is_set), "{order:?}: {set} is not in\n{list}");
+        }
+    }
+}

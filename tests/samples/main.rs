@@ -11,5 +11,6 @@ mod jitter_camera;
 mod multi_closest_hit;
 mod reflection;
 mod scene_effects;
+mod settings;
 mod shadow_miss;
 mod solids;

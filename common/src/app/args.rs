@@ -37,7 +37,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 
-    /// Set a control, as its name and a value; repeatable
+    /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
+    /// whatever theirs; a name given again acts after all before it
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 

@@ -222,23 +222,25 @@ pub fn list(declare: impl FnOnce(&mut Controls)) -> Vec<Listed> {
     listed
 }
 
-struct Setting<'a> {
-    name: &'a str,
-    text: &'a str,
+/// Controls on their way to new values, each with its name and text.
+struct Settings<'a> {
+    waiting: Vec<(&'a str, &'a str)>,
     seen: Vec<String>,
-    result: Option<Result<(), String>>,
+    refused: Option<String>,
 }
 
-impl Visit for Setting<'_> {
+impl Visit for Settings<'_> {
     fn visit(&mut self, name: &str, value: Value) -> bool {
         self.seen.push(name.to_owned());
-        if name != self.name {
-            return false;
-        }
+        let wanted = self.waiting.iter().position(|&(waiting, _)| waiting == name);
+        let Some(wanted) = wanted.filter(|_| self.refused.is_none()) else { return false };
+        let (_, text) = self.waiting.remove(wanted);
         let possible = value.possible();
-        let set = value.set(self.text);
-        let refused = || format!("control '{name}' cannot be '{}': it takes {possible}", self.text);
-        self.result = Some(set.ok_or_else(refused));
+        let set = value.set(text);
+        if set.is_none() {
+            self.refused =
+                Some(format!("control '{name}' cannot be '{text}': it takes {possible}"));
+        }
         set.is_some()
     }
 }
@@ -247,11 +249,47 @@ impl Visit for Setting<'_> {
 ///
 /// # Errors
 /// If there is none of that name, or the value is not possible; the line lists what is.
-pub fn set(name: &str, text: &str, declare: impl FnOnce(&mut Controls)) -> Result<(), Usage> {
-    let mut setting = Setting { name, text, seen: Vec::new(), result: None };
-    declare(&mut Controls::new(&mut setting));
-    let none = || Err(format!("no control '{name}'; there is {}", setting.seen.join(", ")));
-    setting.result.unwrap_or_else(none).map_err(Usage)
+pub fn set(name: &str, text: &str, mut declare: impl FnMut(&mut Controls)) -> Result<(), Usage> {
+    round(vec![(name, text)], &mut declare)
+}
+
+/// Sets controls, each given by name and text, as they are declared and not as they are given: a preset
+/// that comes last does not undo what was set beside it. A name that is given again begins another round
+/// after those before it, so that one control can choose what the next ones are about.
+///
+/// # Errors
+/// As [`set`].
+pub fn set_all(
+    sets: &[(String, String)],
+    mut declare: impl FnMut(&mut Controls),
+) -> Result<(), Usage> {
+    let mut waiting: Vec<(&str, &str)> = Vec::new();
+    for (name, text) in sets {
+        if waiting.iter().any(|(other, _)| other == name) {
+            round(std::mem::take(&mut waiting), &mut declare)?;
+        }
+        waiting.push((name, text));
+    }
+    round(waiting, &mut declare)
+}
+
+/// Sets controls of different names.
+fn round(waiting: Vec<(&str, &str)>, declare: &mut impl FnMut(&mut Controls)) -> Result<(), Usage> {
+    let mut settings = Settings { waiting, seen: Vec::new(), refused: None };
+    while let Some(&(name, _)) = settings.waiting.first() {
+        let count = settings.waiting.len();
+        settings.seen.clear();
+        declare(&mut Controls::new(&mut settings));
+        if let Some(refused) = settings.refused {
+            return Err(Usage(refused));
+        }
+        // A control may be declared only after a later one was set.
+        if settings.waiting.len() == count {
+            let there_is = settings.seen.join(", ");
+            return Err(Usage(format!("no control '{name}'; there is {there_is}")));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -295,6 +333,62 @@ mod tests {
         set_on(&mut sample, "field of view", "30").unwrap();
         assert_eq!((sample.show, sample.tint), (1, Vec3::new(0.5, 0.25, 1.0)));
         assert_eq!((sample.camera.eye, sample.camera.fov_y), (DVec3::new(1e6, 2.0, -3.5), 30.0));
+    }
+
+    /// A preset, what it brings, and a control that is there for one preset alone, declared before it.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    struct Presets {
+        preset: u32,
+        height: f32,
+        extra: f32,
+    }
+
+    impl Presets {
+        fn controls(&mut self, c: &mut Controls) {
+            if self.preset == 1 {
+                c.slider("extra", &mut self.extra, 0.0..=10.0);
+            }
+            if c.choice("preset", &mut self.preset, &["low", "high"]) {
+                self.height = [1.0, 9.0][self.preset as usize];
+            }
+            c.slider("height", &mut self.height, 0.0..=10.0);
+        }
+
+        fn with(sets: &[&str]) -> Result<Self, String> {
+            let pair = |set: &&str| {
+                let (name, text) = set.split_once('=').unwrap();
+                (name.to_owned(), text.to_owned())
+            };
+            let sets: Vec<_> = sets.iter().map(pair).collect();
+            let mut presets = Self::default();
+            set_all(&sets, |c| presets.controls(c)).map_err(|usage| usage.0)?;
+            Ok(presets)
+        }
+    }
+
+    #[test]
+    fn the_order_of_settings_does_not_matter() {
+        let expected = Ok(Presets { preset: 1, height: 5.0, extra: 3.0 });
+        let [a, b, c] = ["preset=high", "height=5", "extra=3"];
+        for sets in [[a, b, c], [a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
+            assert_eq!(Presets::with(&sets), expected, "{sets:?}");
+        }
+        assert_eq!(Presets::with(&["height=5", "preset=high"]).unwrap().height, 5.0);
+        assert_eq!(Presets::with(&["preset=high"]).unwrap().height, 9.0);
+        assert_eq!(Presets::with(&[]), Ok(Presets::default()));
+    }
+
+    #[test]
+    fn a_name_given_again_begins_another_round() {
+        let again = Presets::with(&["height=5", "preset=high", "preset=low"]).unwrap();
+        assert_eq!((again.preset, again.height), (0, 1.0));
+        let last = Presets::with(&["height=5", "height=6"]).unwrap();
+        assert_eq!(last.height, 6.0);
+        // Whatever stands in the way of the rest is told.
+        let wrong = Presets::with(&["height=11", "height=6"]).unwrap_err();
+        assert!(wrong.contains("'height' cannot be '11'"), "{wrong}");
+        let absent = Presets::with(&["height=5", "extra=3"]).unwrap_err();
+        assert_eq!(absent, "no control 'extra'; there is preset, height");
     }
 
     #[test]

@@ -33,9 +33,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let setup = Setup::new(args);
     let mut sample = S::new(&gpu, &setup)?;
     setup.check()?;
-    for (control, value) in &args.sets {
-        controls::set(control, value, |c| sample.controls(c))?;
-    }
+    controls::set_all(&args.sets, |c| sample.controls(c))?;
     if args.list_controls {
         for control in controls::list(|c| sample.controls(c)) {
             let controls::Listed { name, kind, possible, value } = control;

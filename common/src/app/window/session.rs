@@ -83,9 +83,7 @@ impl<S: Sample> Session<S> {
         let mut panel = Panel::new(name);
         // The camera that the chapter chose is home, whatever `--set` makes of it.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
-        for (control, value) in &args.sets {
-            controls::set(control, value, |c| sample.controls(c))?;
-        }
+        controls::set_all(&args.sets, |c| sample.controls(c))?;
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);

@@ -1,0 +1,34 @@
+//! `--set` in any order: a preset, a scene or a primitive brings values of its own, and never takes back
+//! what was set beside it.
+
+/// The values of all controls after settings.
+fn values(name: &str, sets: &[&str]) -> Vec<String> {
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    let output = run::command(name).arg("--list-controls").args(sets).output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{name}: {errors}");
+    String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+}
+
+/// Every setting is in force, whether what brings values of its own comes first or last.
+fn held(name: &str, sets: [&str; 3]) {
+    let [a, b, c] = sets;
+    let last = values(name, &[c, b, a]);
+    for set in sets {
+        let (control, value) = set.split_once('=').unwrap();
+        let is_control = |line: &&String| line.split('\t').next() == Some(control);
+        let line = last.iter().find(is_control).unwrap_or_else(|| panic!("{name}: no {control}"));
+        assert_eq!(line.split('\t').next_back(), Some(value), "{name}: {line}");
+    }
+    assert_eq!(values(name, &sets), last, "{name} {sets:?}");
+}
+
+#[test]
+fn the_order_of_settings_does_not_matter() {
+    held("08_intersection", ["scene=one sphere", "distance=50", "camera eye=1,2,3"]);
+    held("09_instancing", ["geometry=copies", "squares=900", "camera eye=1,2,3"]);
+    held("12_infinite_plane", ["preset=pov", "plane distance=0.5", "camera eye=1,2,3"]);
+    held("21_heightfield", ["preset=steep", "steepness=3", "sun azimuth=10"]);
+    held("22_solids", ["preset=one solid", "fog distance=7", "light=both"]);
+    held("25_scene_effects", ["scene=lake", "depth=2", "light size=0.25"]);
+}
