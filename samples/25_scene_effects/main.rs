@@ -16,6 +16,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use ash::vk;
+use common::app::output;
 use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements, ShaderStruct};
 use common::scene::plane::Plane;
 use common::scene::{
@@ -105,6 +106,7 @@ impl Sample for Demo {
         let number = if file.is_some() { FILE } else { EVERYTHING };
         let path = file.clone().unwrap_or_else(|| path(EVERYTHING));
         let scene = Composition::open(&path)?;
+        output::warn(&scene.scene.model.warnings);
         gpu.share_structs(&[
             World::LAYOUT,
             Plane::LAYOUT,
@@ -225,6 +227,7 @@ impl Demo {
         let path = self.file.as_ref().filter(|_| self.number == FILE).unwrap_or(&own);
         match Composition::open(path) {
             Ok(scene) => {
+                output::warn(&scene.scene.model.warnings);
                 self.camera = scene.scene.camera;
                 (self.scene, self.geometry) = (scene, None);
                 (self.light, self.material) = (1, 0);

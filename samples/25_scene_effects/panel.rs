@@ -35,6 +35,9 @@ impl Demo {
         if let Some(error) = &self.trouble {
             c.note("not opened", &format!("{error:#}"));
         }
+        for warning in &self.scene.scene.model.warnings {
+            c.note("warning", warning);
+        }
         if let Some((_, why)) = &self.failed {
             c.note("not compiled", why);
         }

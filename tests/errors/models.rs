@@ -1,4 +1,5 @@
-//! `--scene`: whatever is wrong with a model is refused with file and line.
+//! `--scene`: what is wrong with a model is told with file and line. A model that can do without is shown,
+//! another is refused.
 
 use std::fs;
 use std::path::Path;
@@ -52,8 +53,6 @@ fn objects_that_are_wrong() {
         ("f 1 2 0", "model.obj:4: face index 0 is out of range"),
         ("f 1 2 -4", "model.obj:4: face index -4 is out of range"),
         ("f 1 2 99999999999999999999", "model.obj:4: face index"),
-        ("f 1/1 2 3", "model.obj:4: texture coordinate index 1 is out of range"),
-        ("f 1//1 2 3", "model.obj:4: normal index 1 is out of range"),
         ("f 1 2", "model.obj:4: a face has 2 corners; it needs at least 3"),
         ("f a b c", "model.obj:4: face index \"a\" is not a whole number"),
     ] {
@@ -93,8 +92,6 @@ fn materials_that_are_wrong() {
         ("newmtl a\nKd 1 1\n", "m.mtl:2: Kd has 2 numbers"),
         ("newmtl a\nd 2\n", "m.mtl:2: d is 2; it cannot be more than 1"),
         ("Kd 1 1 1\n", "m.mtl:1: Kd stands before the first newmtl"),
-        ("newmtl b\n", "model.obj:2: the material \"a\" is not defined"),
-        ("newmtl a\nmap_Kd gone.png\n", "m.mtl:2: map_Kd names \"gone.png\", which is not there"),
         (
             "newmtl a\nKd 0.5 0",
             "m.mtl:2: Kd has 2 numbers; a colour has 3, or 1 for a grey; the file ends in this line, perhaps cut off",
@@ -102,34 +99,78 @@ fn materials_that_are_wrong() {
     ] {
         files_refused(&[("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &[words]);
     }
-    files_refused(
-        &[("model.obj", obj.as_bytes())],
-        &["model.obj:1: mtllib names \"m.mtl\", which"],
-    );
     let mtllib = "mtllib ../m.mtl\n";
     let outside = ["model.obj:1: mtllib names \"../m.mtl\", outside the OBJ file's folder"];
     files_refused(&[("model.obj", mtllib.as_bytes())], &outside);
 }
 
 #[test]
-fn textures_that_are_wrong() {
+fn textures_outside_the_folder() {
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
-    let png = picture();
-    let files = |mtl: &'static str, texture: &[u8], words: &str| {
-        let files = [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", texture)];
-        files_refused(&files, &[words]);
-    };
-    let map = "newmtl a\nmap_Kd t.png\n";
-    let texture = "m.mtl:2: the texture t.png: ";
-    files(map, b"\xff\xd8\xff\xe0 a JPEG file", &format!("{texture}is not a PNG file"));
-    files(map, b"", &format!("{texture}is not a PNG file"));
-    for cut in [20, png.len() / 2, png.len() - 20] {
-        files(map, &png[..cut], &format!("{texture}cannot be decoded, it is damaged or cut off"));
-    }
     for name in ["../t.png", "/etc/passwd", "a/../../t.png", "C:\\t.png"] {
         let mtl = format!("newmtl a\nmap_d {name}\n");
         let files = [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
         files_refused(&files, &["m.mtl:2: map_d names ", "outside the OBJ file's folder"]);
+    }
+}
+
+/// The model is shown, in spite of what these lines say; each starts with the words.
+#[track_caller]
+fn files_warned(files: &[(&str, &[u8])], lines: &[&str]) {
+    let (_folder, mut command) = command(files);
+    let output = command.arg("--validate").output().expect("the sample starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    assert_eq!(errors.lines().count(), lines.len(), "{errors}");
+    for (actual, line) in errors.lines().zip(lines) {
+        assert!(actual.starts_with(&format!("warning: {line}")), "'{line}' is not in: {errors}");
+    }
+}
+
+#[test]
+fn models_that_can_do_without() {
+    let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (face, line) in [
+        ("f 1/1 2 3", "model.obj:4: texture coordinate index 1 is out of range: the file has 0 "),
+        ("f 1//1 2//2 3", "model.obj:4: normal index 1 is out of range: the file has 0 normals"),
+        ("group a\nf 1 2 3", "model.obj:4: \"group\" is not a keyword of an OBJ file"),
+    ] {
+        files_warned(&[("model.obj", format!("{vertices}{face}\n").as_bytes())], &[line]);
+    }
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}usemtl a\nf 1 2 3\n");
+    let twice = "model.obj:2: the material \"a\" is not defined; the mtllib files hold";
+    for (mtl, line) in [
+        ("newmtl b\n", format!("{twice} \"b\"; a grey stands for it (2 in all)").as_str()),
+        ("newmtl a\nmap_Kd gone.png\n", "m.mtl:2: map_Kd names \"gone.png\", which is not there"),
+        ("newmtl a\nmap_Kd\n", "m.mtl:2: map_Kd is not followed by a name"),
+        ("newmtl a\nmap_Kd -bm 0.2 t.png\n", "m.mtl:2: map_Kd has the option -bm, which is not"),
+        ("newmtl a\nKd spectral a.rfl\n", "m.mtl:2: Kd has the form spectral, which is not"),
+        ("newmtl a\nnewmtl a\n", "m.mtl:2: the material \"a\" is defined at m.mtl:1 already"),
+    ] {
+        let picture = picture();
+        let files = [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", &picture)];
+        files_warned(&files, &[line]);
+    }
+    files_warned(
+        &[("model.obj", obj.as_bytes())],
+        &["model.obj:1: mtllib names \"m.mtl\", which is not there", twice],
+    );
+}
+
+#[test]
+fn textures_that_a_model_can_do_without() {
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let png = picture();
+    let map = "newmtl a\nmap_Kd t.png\n";
+    let warned = |texture: &[u8], line: &str| {
+        let files = [("model.obj", obj.as_bytes()), ("m.mtl", map.as_bytes()), ("t.png", texture)];
+        files_warned(&files, &[line]);
+    };
+    let texture = "m.mtl:2: the texture t.png: ";
+    warned(b"\xff\xd8\xff\xe0 a JPEG file", &format!("{texture}is not a PNG file"));
+    warned(b"", &format!("{texture}is not a PNG file"));
+    for cut in [20, png.len() / 2, png.len() - 20] {
+        warned(&png[..cut], &format!("{texture}cannot be decoded, it is damaged or cut off"));
     }
 }
 
@@ -139,6 +180,64 @@ fn picture() -> Vec<u8> {
     let image = image::RgbaImage::from_fn(16, 16, |x, y| image::Rgba([x as u8, y as u8, 0, 255]));
     image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
+}
+
+/// As Blender writes: an object, names with a dot, texture coordinates, smoothing off.
+const BLENDER: &str = "# Blender 4.1.1\n# www.blender.org\nmtllib model.mtl\no Cube.001\n\
+    v 1.000000 1.000000 -1.000000\nv 1.000000 -1.000000 -1.000000\nv 1.000000 1.000000 1.000000\n\
+    v 1.000000 -1.000000 1.000000\nvn 1.0000 -0.0000 -0.0000\nvt 0.625000 0.500000\n\
+    vt 0.375000 0.500000\nvt 0.375000 0.750000\nvt 0.625000 0.750000\ns 0\nusemtl Material.001\n\
+    f 1/1/1 3/4/1 4/3/1 2/2/1\n";
+const BLENDER_MTL: &str = "# Blender 4.1.1 MTL File: 'None'\n# www.blender.org\n\n\
+    newmtl Material.001\nNs 250.000000\nKa 1.000000 1.000000 1.000000\n\
+    Kd 0.800000 0.300000 0.100000\nKs 0.500000 0.500000 0.500000\nKe 0.000000 0.000000 0.000000\n\
+    Ni 1.450000\nd 1.000000\nillum 2\nPr 0.500000\nmap_Bump -bm 0.200000 bump.png\n";
+
+/// As 3ds Max writes: CR LF, two spaces after `v`, counts in comments, groups, spaces at the end.
+const MAX: &str = "# 3ds Max Wavefront OBJ Exporter v0.97b - (c)2007 guruware\r\n\
+    # File Created: 12.03.2011 17:41:02\r\n\r\nmtllib model.mtl\r\n\r\n#\r\n# object Plane01\r\n\
+    #\r\n\r\nv  -10.0000 0.0000 10.0000\r\nv  10.0000 0.0000 10.0000\r\n\
+    v  -10.0000 0.0000 -10.0000\r\nv  10.0000 0.0000 -10.0000\r\n# 4 vertices\r\n\r\n\
+    vn 0.0000 1.0000 -0.0000\r\n# 1 vertex normals\r\n\r\nvt 0.0000 0.0000 0.0000\r\n\
+    vt 1.0000 0.0000 0.0000\r\nvt 0.0000 1.0000 0.0000\r\nvt 1.0000 1.0000 0.0000\r\n\
+    # 4 texture coords\r\n\r\ng Plane01\r\nusemtl 01 - Default\r\ns 1\r\n\
+    f 3/3/1 1/1/1 2/2/1 \r\nf 2/2/1 4/4/1 3/3/1 \r\n# 2 polygons\r\n\r\n";
+const MAX_MTL: &str = "newmtl 01 - Default\r\n\tNs 10.0000\r\n\tNi 1.5000\r\n\td 1.0000\r\n\
+    \tTr 0.0000\r\n\tTf 1.0000 1.0000 1.0000 \r\n\tillum 2\r\n\tKa 0.5880 0.5880 0.5880\r\n\
+    \tKd 0.5880 0.5880 0.5880\r\n\tKs 0.0000 0.0000 0.0000\r\n\tKe 0.0000 0.0000 0.0000\r\n";
+
+/// As MeshLab writes a scan: colours beside the positions, normals, `v//vn`.
+const MESHLAB: &str = "####\n#\n# OBJ File Generated by Meshlab\n#\n####\n# Object scan.obj\n#\n\
+    # Vertices: 4\n# Faces: 2\n#\n####\n\
+    vn -0.577350 -0.577350 -0.577350\nv 0.000000 0.000000 0.000000 0.803922 0.764706 0.690196\n\
+    vn 0.000000 0.000000 3.141593\nv 1.000000 0.000000 0.000000 0.803922 0.764706 0.690196\n\
+    vn 0.000000 0.000000 3.141593\nv 0.000000 1.000000 0.000000 0.780392 0.745098 0.670588\n\
+    vn 0.000000 0.000000 3.141593\nv 0.500000 0.500000 1e-3 0.780392 0.745098 0.670588\n\
+    # 4 vertices, 0 vertices normals\n\nf 1//1 2//2 3//3\nf 2//2 4//4 3//3\n# 2 faces, 0 coords \
+    texture\n\n# End of File\n";
+
+/// As modellers write by hand or from curves: indices from the end, a polygon of six corners over several
+/// lines, lines and points and free-form surfaces beside it.
+const RELATIVE: &str = "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 2 2 0\nv 1 3 0\nv 0 2 0\nvt 0 0\nvt 1 0\n\
+    vt 1 0.5\nvt 1 1\nvt 0.5 1\nvt 0 1\nvn 0 0 1\ng outline hexagon\nf -6/-6/-1 -5/-5/-1 \\\n\
+    -4/-4/-1 -3/-3/-1 \\\n  -2/-2/-1 -1/-1/-1\nl -6 -5 -4\np -1\ncstype rat bspline\ndeg 2\n\
+    curv 0 1 -6 -5 -4\nparm u 0 0 0 1 1 1\nend\ncall other.obj\n";
+
+#[test]
+fn files_of_other_exporters() {
+    for (name, obj, mtl, warnings) in [
+        ("Blender", BLENDER, BLENDER_MTL, &[][..]),
+        ("3ds Max", MAX, MAX_MTL, &[]),
+        ("MeshLab", MESHLAB, "", &[]),
+        ("relative", RELATIVE, "", &["model.obj:25: \"call\" is not a keyword"]),
+    ] {
+        println!("{name}");
+        let files = [("model.obj", obj.as_bytes()), ("model.mtl", mtl.as_bytes())];
+        files_warned(&files, warnings);
+    }
+    let gone = "model.obj:3: mtllib names \"model.mtl\", which is not there";
+    let grey = "model.obj:15: the material \"Material.001\" is not defined";
+    files_warned(&[("model.obj", BLENDER.as_bytes())], &[gone, grey]);
 }
 
 #[test]

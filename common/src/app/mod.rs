@@ -101,16 +101,17 @@ impl Setup {
         self.scene.as_deref()
     }
 
-    /// The scene that `--scene` names, else the chapter's own.
+    /// The scene that `--scene` names, else the chapter's own. What is wrong with a file, and not so wrong
+    /// that it cannot be shown, goes to standard error.
     ///
     /// # Errors
     /// If a file is missing or wrong.
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
         self.scene_taken.set(true);
-        match &self.scene {
-            Some(path) => Scene::open(path),
-            None => own(),
-        }
+        let Some(path) = &self.scene else { return own() };
+        let scene = Scene::open(path)?;
+        output::warn(&scene.model.warnings);
+        Ok(scene)
     }
 
     /// Fails if a scene was given to a sample that takes none.

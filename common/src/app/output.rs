@@ -20,3 +20,10 @@ pub fn print(text: &str) -> Result<()> {
 pub fn complain(line: &str) {
     let _ = writeln!(stderr(), "{line}");
 }
+
+/// Writes what is wrong with an input that is used all the same to standard error, a line each.
+pub fn warn(warnings: &[String]) {
+    for warning in warnings {
+        complain(&format!("warning: {warning}"));
+    }
+}

@@ -16,6 +16,7 @@ mod records;
 mod text;
 mod texture;
 mod upload;
+mod warnings;
 mod world;
 
 pub use camera::{Camera, CameraBasis};

@@ -8,14 +8,14 @@ use std::path::Path;
 use anyhow::{Result, anyhow};
 use glam::{Vec2, Vec3};
 
-use super::material::{Material, MaterialLibrary};
+use super::material::Material;
 use super::mesh::{Mesh, Vertex};
 use super::obj_check::Check;
 use super::text::{Folder, Limits, Text, shown};
 use super::texture::Texture;
 
 /// All that an OBJ file holds and names.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// The meshes in the file's order; at least one, none without triangles.
     pub meshes: Vec<Mesh>,
@@ -23,6 +23,9 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// The textures that materials index.
     pub textures: Vec<Texture>,
+    /// What is wrong with the files and what stands for it, a line for each kind, with file and line of
+    /// the first and the count of all.
+    pub warnings: Vec<String>,
 }
 
 /// Reads an OBJ file with its MTL files and PNG textures.
@@ -33,9 +36,13 @@ pub struct Model {
 /// are turned to Vulkan's, v downwards; corners without get (0, 0). Faces without material get
 /// [`Material::default`]. Lines, points, curved surfaces and vertex colours are passed over.
 ///
+/// Files of the world are often incomplete. An MTL file or a texture that cannot be had, a material that
+/// is not defined, a normal or texture coordinate out of range, a statement of another format: the model
+/// comes without, and with a line in [`Model::warnings`].
+///
 /// # Errors
-/// If any of the files is missing, wrong, too large, or outside the OBJ file's folder; the message is
-/// one line with file and line number.
+/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, or if
+/// one is too large or outside the OBJ file's folder; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
     load_within(path, &Limits::DEFAULT)
 }
@@ -43,15 +50,15 @@ pub fn load(path: &Path) -> Result<Model> {
 fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     let folder = Folder::of(path)?;
     let text = Text::read(path, shown(path), limits.obj_bytes)?;
-    let check = Check::run(&text, &folder, limits)?;
-    let MaterialLibrary { mut materials, textures, .. } = check.library;
+    let Check { plain, library, mut warnings, .. } = Check::run(&text, &folder, limits)?;
+    let (mut materials, textures) = library.finish(limits, &mut warnings);
 
     let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
     // Only names and positions: what the materials hold was read in the check.
     let names =
         materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
     let names = |_: &Path| Ok((Vec::new(), names.clone().collect()));
-    let parsed = tobj::load_obj_buf(&mut check.plain.as_bytes(), &options, names);
+    let parsed = tobj::load_obj_buf(&mut plain.as_bytes(), &options, names);
     let (models, _) = parsed.map_err(|error| anyhow!("{}: tobj: {error}", text.shown))?;
 
     let models = models.into_iter().filter(|model| !model.mesh.indices.is_empty());
@@ -60,7 +67,7 @@ fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     if meshes.iter().any(|mesh| mesh.material == default) {
         materials.push(Material::default());
     }
-    Ok(Model { meshes, materials, textures: textures.load(limits)? })
+    Ok(Model { meshes, materials, textures, warnings: warnings.lines() })
 }
 
 /// A mesh as shaders want it: normals of unit length, texture coordinates from the top.
@@ -115,8 +122,8 @@ pub(super) mod tests {
 
     pub const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-    /// Writes files into a folder of their own and reads `model.obj`, in which errors are one line;
-    /// its paths are relative to the folder.
+    /// Writes files into a folder of their own and reads `model.obj`. Errors and warnings are one line;
+    /// their paths are relative to the folder.
     pub fn load_files(files: &[(&str, &[u8])], limits: &Limits) -> Result<Model, String> {
         let folder = tempfile::tempdir().unwrap();
         for (name, bytes) in files {
@@ -124,12 +131,21 @@ pub(super) mod tests {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             std::fs::write(path, bytes).unwrap();
         }
-        load_within(&folder.path().join("model.obj"), limits).map_err(|error| {
-            let line = format!("{error:#}")
-                .replace(&format!("{}{MAIN_SEPARATOR}", folder.path().display()), "");
+        let relative = |line: String| {
+            let line = line.replace(&format!("{}{MAIN_SEPARATOR}", folder.path().display()), "");
             assert!(!line.contains('\n'), "{line}");
             line
-        })
+        };
+        let loaded = load_within(&folder.path().join("model.obj"), limits);
+        let mut model = loaded.map_err(|error| relative(format!("{error:#}")))?;
+        model.warnings = model.warnings.into_iter().map(relative).collect();
+        Ok(model)
+    }
+
+    /// The warnings for a model that loads.
+    #[track_caller]
+    pub fn warnings(files: &[(&str, &[u8])]) -> Vec<String> {
+        load_files(files, &Limits::DEFAULT).unwrap().warnings
     }
 
     pub fn load_text(obj: &str) -> Result<Model, String> {

@@ -1,13 +1,17 @@
 //! The check of an OBJ file before it is parsed, statement by statement: model files are not to be
 //! trusted, and whatever is wrong in one has a line number.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::Vec3;
 
-use super::material::MaterialLibrary;
-use super::text::{Folder, Limits, Text, name, numbers, quoted, uncommented};
+use super::material::{MaterialLibrary, material_name};
+use super::text::{
+    Folder, Limits, Missing, Named, Statement, Text, name, numbers, quoted, uncommented,
+};
+use super::warnings::{Kind, Warnings};
 
 /// Corners that are given no normal or no texture coordinates index these; what they mean is decided
 /// where the parsed mesh is turned into one for shaders.
@@ -16,12 +20,24 @@ const PREAMBLE: &str = "mtllib all\nvn 0 0 0\nvt 0 1\n";
 /// The most corners of one face.
 const CORNERS: usize = 1024;
 
+/// The uses of a material that was not defined when it was met.
+struct Undefined {
+    count: usize,
+    /// How many others were met before it.
+    order: usize,
+    place: String,
+}
+
 /// One walk through the statements of an OBJ file.
 pub(super) struct Check<'a> {
     /// The text that tobj parses.
     pub plain: String,
     /// The materials of the MTL files that were met.
     pub library: MaterialLibrary,
+    /// What is wrong, but not so wrong that the model cannot be shown.
+    pub warnings: Warnings,
+    /// The materials that were used before any MTL file defined them, each with how often and where first.
+    undefined: HashMap<String, Undefined>,
     positions: usize,
     coordinates: usize,
     normals: usize,
@@ -40,6 +56,8 @@ impl<'a> Check<'a> {
         let mut check = Self {
             plain: PREAMBLE.to_owned(),
             library: MaterialLibrary::default(),
+            warnings: Warnings::default(),
+            undefined: HashMap::new(),
             positions: 0,
             coordinates: 0,
             normals: 0,
@@ -48,29 +66,87 @@ impl<'a> Check<'a> {
             has_objects: false,
             limits,
         };
+        let mut stray = None;
         for statement in text.statements() {
             let (keyword, rest) = statement.split().map_err(|error| statement.at(error))?;
             if keyword == "mtllib" {
-                // Several files may be named, and one name may have spaces: the latter comes first.
-                let files = match folder.find(keyword, rest, None) {
-                    Err(_) if rest.contains(char::is_whitespace) => rest
-                        .split_whitespace()
-                        .map(|part| folder.find(keyword, part, None))
-                        .collect(),
-                    found => found.map(|file| vec![file]),
-                };
-                for file in files.map_err(|error| statement.at(error))? {
-                    check.library.read(&file, folder, limits)?;
+                for file in check.libraries(rest, &statement, folder)? {
+                    check.library.read(&file, folder, limits, &mut check.warnings)?;
                 }
-            } else {
-                check.statement(keyword, rest).map_err(|error| statement.at(error))?;
+            } else if let Some(error) =
+                check.statement(keyword, rest, &statement).map_err(|error| statement.at(error))?
+            {
+                check.warnings.add(Kind::Keyword, &statement, || &error);
+                stray.get_or_insert_with(|| statement.at(error));
             }
         }
-        ensure!(check.triangles > 0, "{}: has no faces", text.shown);
+        // What is without faces and of other statements is no OBJ file: that is what to tell.
+        match stray {
+            Some(stray) if check.triangles == 0 => return Err(stray),
+            _ => ensure!(check.triangles > 0, "{}: has no faces", text.shown),
+        }
+        check.tell_undefined();
         Ok(check)
     }
 
-    fn statement(&mut self, keyword: &str, rest: &str) -> Result<()> {
+    /// The MTL files that a statement names: one with spaces in its name, or several.
+    fn libraries(
+        &mut self,
+        rest: &str,
+        statement: &Statement,
+        folder: &Folder,
+    ) -> Result<Vec<Named>> {
+        let mut missing = match folder.find("mtllib", rest, None) {
+            Ok(file) => return Ok(vec![file]),
+            Err(error) => vec![error],
+        };
+        let mut files = Vec::new();
+        if rest.contains(char::is_whitespace) {
+            let found = rest.split_whitespace().map(|part| folder.find("mtllib", part, None));
+            let (found, parts): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
+            files.extend(found.into_iter().flatten());
+            let parts: Vec<_> = parts.into_iter().filter_map(Result::err).collect();
+            // If none of several is there, it was perhaps one with spaces in its name.
+            if !files.is_empty() || parts.iter().any(|error| !error.is::<Missing>()) {
+                missing = parts;
+            }
+        }
+        for error in missing {
+            if !error.is::<Missing>() {
+                return Err(statement.at(error));
+            }
+            self.warnings.add(Kind::Library, statement, || &error);
+        }
+        Ok(files)
+    }
+
+    /// Takes note of a material that is not defined; MTL files may still come.
+    fn uses(&mut self, material: &str, statement: &Statement) {
+        if !self.library.defines(material) {
+            let order = self.undefined.len();
+            let first = || Undefined { count: 0, order, place: statement.place() };
+            self.undefined.entry(material.to_owned()).or_insert_with(first).count += 1;
+        }
+    }
+
+    /// Warns of the materials that no MTL file defines.
+    fn tell_undefined(&mut self) {
+        let mut uses: Vec<_> = self.undefined.iter().collect();
+        uses.retain(|(name, _)| !self.library.defines(name));
+        uses.sort_by_key(|(_, uses)| uses.order);
+        for (name, Undefined { count, place, .. }) in uses {
+            let first = || format!("{place}: {}", self.library.undefined(name));
+            self.warnings.add_many(Kind::Material, *count, first);
+        }
+    }
+
+    /// Takes a statement other than `mtllib`; gives back what is wrong if it is none of an OBJ file.
+    fn statement(
+        &mut self,
+        keyword: &str,
+        rest: &str,
+        statement: &Statement,
+    ) -> Result<Option<anyhow::Error>> {
         let limit = self.limits.elements;
         let within = |count: usize, what| {
             ensure!(count <= limit, "more than {limit} {what}, the most that are read");
@@ -111,7 +187,7 @@ impl<'a> Check<'a> {
                 self.write(keyword, rest, 3);
             }
             "f" => {
-                let corners = self.face(uncommented(rest))?;
+                let corners = self.face(uncommented(rest), statement)?;
                 ensure!(corners >= 3, "a face has {corners} corners; it needs at least 3");
                 self.triangles += corners - 2;
                 within(self.triangles, "triangles")?;
@@ -122,19 +198,22 @@ impl<'a> Check<'a> {
             }
             "g" if !self.has_objects => self.start_mesh("o", rest)?,
             "usemtl" => {
-                self.library.find(name(keyword, rest)?)?;
-                self.start_mesh(keyword, rest)?;
+                let material = material_name(keyword, rest)?;
+                self.uses(material, statement);
+                self.start_mesh(keyword, material)?;
             }
             "g" | "s" | "mg" | "l" | "p" | "vp" | "deg" | "bmat" | "step" | "cstype" | "curv"
             | "curv2" | "surf" | "parm" | "trim" | "hole" | "scrv" | "sp" | "end" | "con"
             | "bevel" | "c_interp" | "d_interp" | "lod" | "usemap" | "maplib" | "shadow_obj"
             | "trace_obj" | "ctech" | "stech" => {}
-            _ => bail!(
-                "{} is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are",
-                quoted(keyword)
-            ),
+            _ => {
+                return Ok(Some(anyhow!(
+                    "{} is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are",
+                    quoted(keyword)
+                )));
+            }
         }
-        Ok(())
+        Ok(None)
     }
 
     fn write(&mut self, keyword: &str, rest: &str, words: usize) {
@@ -158,7 +237,7 @@ impl<'a> Check<'a> {
         Ok(())
     }
 
-    fn face(&mut self, rest: &str) -> Result<usize> {
+    fn face(&mut self, rest: &str, statement: &Statement) -> Result<usize> {
         self.plain.push('f');
         let mut corners = 0;
         for corner in rest.split_whitespace() {
@@ -175,16 +254,24 @@ impl<'a> Check<'a> {
                 "the corner {} has too many parts; v, v/vt, v//vn or v/vt/vn is right",
                 quoted(corner)
             );
-            let v = index(v, self.positions, "face", "positions")?;
-            // The preamble's come first.
-            let vt = match vt {
-                "" => 1,
-                vt => 1 + index(vt, self.coordinates, "texture coordinate", "texture coordinates")?,
+            let v = index(v, "face")?;
+            let v = position(v, self.positions)
+                .with_context(|| out_of_range(v, "face", self.positions, "positions"))?;
+            // The preamble's come first, and stand for what is not given or out of range.
+            let mut other = |word: &str, kind, count, of: &str, what| -> Result<usize> {
+                if word.is_empty() {
+                    return Ok(1);
+                }
+                let index = index(word, of)?;
+                if let Some(position) = position(index, count) {
+                    return Ok(1 + position);
+                }
+                self.warnings.add(kind, statement, || out_of_range(index, of, count, what));
+                Ok(1)
             };
-            let vn = match vn {
-                "" => 1,
-                vn => 1 + index(vn, self.normals, "normal", "normals")?,
-            };
+            let (of, what) = ("texture coordinate", "texture coordinates");
+            let vt = other(vt, Kind::Coordinate, self.coordinates, of, what)?;
+            let vn = other(vn, Kind::Normal, self.normals, "normal", "normals")?;
             write!(self.plain, " {v}/{vt}/{vn}")?;
         }
         self.plain.push('\n');
@@ -192,18 +279,25 @@ impl<'a> Check<'a> {
     }
 }
 
-/// An index of a face as a position from 1. Negative ones count back from the last of `count`.
-fn index(word: &str, count: usize, of: &str, what: &str) -> Result<usize> {
-    let index: i64 = word
-        .parse()
-        .ok()
-        .with_context(|| format!("{of} index {} is not a whole number", quoted(word)))?;
-    ensure!(index != 0, "{of} index 0 is out of range: indices start at 1, or at -1 backwards");
+/// An index of a face; it may be out of range.
+fn index(word: &str, of: &str) -> Result<i64> {
+    let index = word.parse().ok();
+    index.with_context(|| format!("{of} index {} is not a whole number", quoted(word)))
+}
+
+/// An index as a position from 1, if it is in range. Negative ones count back from the last of `count`.
+fn position(index: i64, count: usize) -> Option<usize> {
     let position = if index > 0 { index } else { index.saturating_add(count as i64 + 1) };
-    let position = usize::try_from(position).ok().filter(|position| (1..=count).contains(position));
-    position.with_context(|| {
-        format!("{of} index {index} is out of range: the file has {count} {what} up to this line")
-    })
+    usize::try_from(position).ok().filter(|position| (1..=count).contains(position))
+}
+
+fn out_of_range(index: i64, of: &str, count: usize, what: &str) -> String {
+    match index {
+        0 => format!("{of} index 0 is out of range: indices start at 1, or at -1 backwards"),
+        _ => format!(
+            "{of} index {index} is out of range: the file has {count} {what} up to this line"
+        ),
+    }
 }
 
 #[cfg(test)]
@@ -280,12 +374,6 @@ mod tests {
             "f 1 2 0",
             "face index 0 is out of range: indices start at 1, or at -1 backwards",
         );
-        let coordinate = format!("texture coordinate index 2{whole} 1 texture coordinates");
-        line_refused("f 1/1 2/2 3/1", &format!("{coordinate} up to this line"));
-        line_refused(
-            "f 1//1 2//-2 3//1",
-            &format!("normal index -2{whole} 1 normals up to this line"),
-        );
         line_refused("f 1 2 3.5", "face index \"3.5\" is not a whole number");
         line_refused("f 1 2 /1", "face index \"\" is not a whole number");
         line_refused(
@@ -300,6 +388,65 @@ mod tests {
             &format!("f{}", " 1".repeat(1025)),
             "a face has more than 1024 corners, the most that are read",
         );
+    }
+
+    /// After four positions, one normal and one texture coordinate, lines from 7 on are warned of.
+    #[track_caller]
+    fn lines_warned(lines: &str, warnings: &[&str]) {
+        let good = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\n";
+        let model = load_text(&format!("{good}{lines}\nf 1 2 3\n")).unwrap();
+        assert_eq!(model.warnings, warnings);
+    }
+
+    #[test]
+    fn indices_that_a_model_can_do_without() {
+        let whole = "is out of range: the file has 1";
+        let none = "the corner has none";
+        let flat = "the triangle's own stands for it";
+        lines_warned(
+            "f 1/1 2/2 3/1",
+            &[&format!(
+                "model.obj:7: texture coordinate index 2 {whole} texture coordinates up to this \
+                 line; {none} (1 in all)"
+            )],
+        );
+        lines_warned(
+            "f 1//1 2//-2 3//1\nf 1//9 2//1 3//0",
+            &[&format!(
+                "model.obj:7: normal index -2 {whole} normals up to this line; {flat} (3 in all)"
+            )],
+        );
+        lines_warned(
+            "f 1//0 2/0 3/1/0",
+            &[
+                &format!(
+                    "model.obj:7: normal index 0 is out of range: indices start at 1, or at -1 \
+                     backwards; {flat} (2 in all)"
+                ),
+                &format!(
+                    "model.obj:7: texture coordinate index 0 is out of range: indices start at 1, \
+                     or at -1 backwards; {none} (1 in all)"
+                ),
+            ],
+        );
+        let model = load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//2 3/8\n").unwrap();
+        let vertices = &model.meshes[0].vertices;
+        let normals: Vec<_> = vertices.iter().map(|vertex| vertex.normal).collect();
+        assert_eq!(normals, [Vec3::X, Vec3::Z, Vec3::Z]);
+        assert!(vertices.iter().all(|vertex| vertex.uv == glam::Vec2::ZERO));
+        line_refused("f 1//x 2 3", "normal index \"x\" is not a whole number");
+    }
+
+    #[test]
+    fn statements_of_other_formats_are_passed_over() {
+        let hint =
+            "is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are";
+        let warning = format!("model.obj:7: \"group\" {hint}; the line is passed over (2 in all)");
+        lines_warned("group a b\ncurve 1 2\nF 1 2", &[&warning.replace("2 in", "3 in")]);
+        lines_warned("group\nxyz", &[&warning]);
+        let known = "l 1 2\np 1\ns off\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\nlod 2\n\
+                     bevel on\nshadow_obj a.obj\nmg 1 0.5";
+        lines_warned(known, &[]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! opened only inside the folder of the OBJ file.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
@@ -178,7 +179,7 @@ impl Statement<'_> {
     }
 
     /// The error with its place before it, and a hint if the file ends within this line.
-    pub fn at(&self, error: anyhow::Error) -> anyhow::Error {
+    pub fn at(&self, error: impl Display) -> anyhow::Error {
         let hint = if self.cut { "; the file ends in this line, perhaps cut off" } else { "" };
         anyhow!("{}: {error}{hint}", self.place())
     }
@@ -236,6 +237,19 @@ pub(super) struct Folder {
     root: PathBuf,
 }
 
+/// A file that is named and cannot be had: a model may do without, unlike one that reaches out of its
+/// folder.
+#[derive(Debug)]
+pub(super) struct Missing(String);
+
+impl Display for Missing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Missing {}
+
 /// A file that a model names.
 pub(super) struct Named {
     /// Its path, links resolved.
@@ -265,8 +279,11 @@ impl Folder {
     /// OBJ file.
     ///
     /// # Errors
-    /// If it is missing, or outside the folder, directly or through a symbolic link.
+    /// [`Missing`] if it is not there or no name is given; another if it is outside the folder, directly
+    /// or through a symbolic link.
     pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
+        let missing = |what: String| anyhow!(Missing(format!("{keyword} {what}")));
+        ensure!(!named.is_empty(), missing("is not followed by a name".to_owned()));
         let name = name(keyword, named)?;
         let outside = || {
             let name = quoted(name);
@@ -284,8 +301,8 @@ impl Folder {
         let mut path = from.and_then(|from| from.path.parent()).unwrap_or(&self.root).to_owned();
         path.extend(parts.filter(|part| *part != Component::CurDir));
         let path = path.canonicalize().map_err(|error| match error.kind() {
-            ErrorKind::NotFound => anyhow!("{keyword} names {}, which is not there", quoted(name)),
-            _ => anyhow!("{keyword} names {}, which cannot be read: {error}", quoted(name)),
+            ErrorKind::NotFound => missing(format!("names {}, which is not there", quoted(name))),
+            _ => missing(format!("names {}, which cannot be read: {error}", quoted(name))),
         })?;
         let inside = path.strip_prefix(&self.root).map_err(|_| outside())?;
         let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();

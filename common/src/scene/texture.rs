@@ -9,6 +9,7 @@ use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder};
 
 use super::text::{Limits, Named, open};
+use super::warnings::{Kind, Warnings};
 
 /// An image of 8 bits a channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,20 +69,31 @@ impl TextureFiles {
         index
     }
 
-    /// Decodes all of them, in order.
-    ///
-    /// # Errors
-    /// If one cannot be decoded or they are too large, with the line that names it.
-    pub fn load(self, limits: &Limits) -> Result<Vec<Texture>> {
+    /// Decodes all of them, in order, and says which texture each file has become. One that cannot be
+    /// decoded, or is too large beside those before it, is warned of with the line that names it.
+    pub fn load(
+        self,
+        limits: &Limits,
+        warnings: &mut Warnings,
+    ) -> (Vec<Texture>, Vec<Option<usize>>) {
         let mut left = limits.texture_bytes;
-        self.files
-            .into_iter()
-            .map(|file| {
-                let place = file.place.clone();
-                let texture = file.decode(&mut left, limits);
-                texture.map_err(|error| anyhow!("{place}: the texture {error}"))
-            })
-            .collect()
+        let mut textures = Vec::new();
+        let decode = |file: TextureFile| {
+            let place = file.place.clone();
+            match file.decode(&mut left, limits) {
+                Ok(texture) => {
+                    textures.push(texture);
+                    Some(textures.len() - 1)
+                }
+                Err(error) => {
+                    let first = || format!("{place}: the texture {error}");
+                    warnings.add_many(Kind::Texture, 1, first);
+                    None
+                }
+            }
+        };
+        let positions = self.files.into_iter().map(decode).collect();
+        (textures, positions)
     }
 }
 
@@ -149,26 +161,35 @@ pub(super) mod tests {
         encoded(RgbImage::from_raw(texels.len() as u32, 1, texels.concat()).unwrap())
     }
 
-    fn load_within(
-        mtl: &str,
-        files: &[(&str, &[u8])],
-        limits: &Limits,
-    ) -> Result<(Vec<Material>, Vec<Texture>), String> {
+    fn load(mtl: &str, files: &[(&str, &[u8])]) -> Result<(Vec<Material>, Vec<Texture>), String> {
         let obj = format!("mtllib m.mtl\n{TRIANGLE}");
         let mut all: Vec<(&str, &[u8])> =
             vec![("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
         all.extend_from_slice(files);
-        load_files(&all, limits).map(|model| (model.materials, model.textures))
+        load_files(&all, &Limits::DEFAULT).map(|model| (model.materials, model.textures))
     }
 
-    fn load(mtl: &str, files: &[(&str, &[u8])]) -> Result<(Vec<Material>, Vec<Texture>), String> {
-        load_within(mtl, files, &Limits::DEFAULT)
-    }
-
+    /// Line 2 of `m.mtl` is refused.
     #[track_caller]
     fn refused(line: &str, file: &[u8], message: &str) {
         let error = load(&format!("newmtl a\n{line}\n"), &[("t.png", file)]).unwrap_err();
         assert_eq!(error, format!("m.mtl:2: {message}"));
+    }
+
+    /// Line 2 of `m.mtl` is warned of by a line that starts so, and the colour is the plain one.
+    #[track_caller]
+    fn warned(line: &str, file: &[u8], start: &str) {
+        let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+        let mtl = format!("newmtl a\n{line}\n");
+        let files: [(&str, &[u8]); 3] =
+            [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", file)];
+        let model = load_files(&files, &Limits::DEFAULT).unwrap();
+        let [warning] = &model.warnings[..] else { panic!("{:?}", model.warnings) };
+        let end = "; the plain colour stands for it (1 in all)";
+        assert!(warning.starts_with(&format!("m.mtl:2: {start}")), "{warning}");
+        assert!(warning.ends_with(end), "{warning}");
+        let plain = Material { name: "a".to_owned(), ..Material::default() };
+        assert_eq!((model.materials, model.textures), (vec![plain], vec![]));
     }
 
     #[test]
@@ -225,24 +246,28 @@ pub(super) mod tests {
     #[test]
     fn files_that_are_wrong() {
         let good = png(&[[1, 2, 3, 4]; 4096], 64);
-        refused("map_Kd gone.png", &good, "map_Kd names \"gone.png\", which is not there");
-        refused("map_d", &good, "map_d is not followed by a name");
+        warned("map_Kd gone.png", &good, "map_Kd names \"gone.png\", which is not there");
+        warned("map_d", &good, "map_d is not followed by a name");
         let no_png = "the texture t.png: is not a PNG file; convert it to one";
-        refused("map_Kd t.png", b"\xff\xd8\xff\xe0 a JPEG file", no_png);
-        refused("map_Kd t.png", b"", no_png);
-        let option = "has the option \"-bm\"; only a file name is supported";
-        refused("map_Kd -bm 1.0 t.png", &good, &format!("map_Kd {option}"));
-        refused(
-            "map_d -s 1 1 1 t.png",
-            &good,
-            "map_d has the option \"-s\"; only a file name is supported",
-        );
-
+        warned("map_Kd t.png", b"\xff\xd8\xff\xe0 a JPEG file", no_png);
+        warned("map_Kd t.png", b"", no_png);
+        warned("map_Kd .", b"", "the texture : is not a file that can be read");
         for cut in [9, 40, good.len() / 2, good.len() - 20] {
-            let error = load("newmtl a\nmap_d t.png\n", &[("t.png", &good[..cut])]).unwrap_err();
-            let start = "m.mtl:2: the texture t.png: cannot be decoded, it is damaged or cut off: ";
-            assert!(error.starts_with(start), "{cut}: {error}");
+            let start = "the texture t.png: cannot be decoded, it is damaged or cut off: ";
+            warned("map_d t.png", &good[..cut], start);
         }
+    }
+
+    #[test]
+    fn textures_after_one_that_is_wrong_keep_their_materials() {
+        let mtl = "newmtl a\nmap_Kd bad.png\nnewmtl b\nmap_Kd t.png\nmap_d bad.png\n";
+        let texel = png(&[[1, 2, 3, 4]], 1);
+        let (materials, textures) = load(mtl, &[("bad.png", b""), ("t.png", &texel)]).unwrap();
+        assert_eq!((textures.len(), textures[0].name.as_str()), (1, "t.png"));
+        assert_eq!((materials[0].base_texture, materials[1].base_texture), (None, Some(0)));
+        assert_eq!(materials[1].opacity_texture, None);
+        assert_eq!(materials[0].base_color, glam::Vec3::splat(0.5));
+        assert_eq!(materials[1].base_color, glam::Vec3::ONE);
     }
 
     #[test]
@@ -281,15 +306,18 @@ pub(super) mod tests {
     fn textures_that_are_too_large() {
         let wide = encoded(GrayImage::new(16385, 1));
         let side = "the texture t.png: is 16385 x 1 texels, at most 16384 x 16384 are read";
-        refused("map_Kd t.png", &wide, side);
+        warned("map_Kd t.png", &wide, side);
 
         let limits = Limits { texture_bytes: 1000, ..Limits::DEFAULT };
         let small = png(&[[0; 4]; 144], 12);
         let files: [(&str, &[u8]); 2] = [("a.png", &small), ("b.png", &small)];
-        let error =
-            load_within("newmtl a\nmap_Kd a.png\nmap_d b.png\n", &files, &limits).unwrap_err();
-        let most = "all textures together may take 1000 bytes";
-        assert_eq!(error, format!("m.mtl:3: the texture b.png: is too large: {most}"));
-        assert!(load_within("newmtl a\nmap_Kd a.png\n", &files, &limits).is_ok());
+        let obj = format!("mtllib m.mtl\n{TRIANGLE}");
+        let mtl: &[u8] = b"newmtl a\nmap_Kd a.png\nmap_d b.png\n";
+        let all = [("model.obj", obj.as_bytes()), ("m.mtl", mtl), files[0], files[1]];
+        let model = load_files(&all, &limits).unwrap();
+        let most = "is too large: all textures together may take 1000 bytes";
+        let plain = "the plain colour stands for it (1 in all)";
+        assert_eq!(model.warnings, [format!("m.mtl:3: the texture b.png: {most}; {plain}")]);
+        assert_eq!(model.textures.len(), 1);
     }
 }

@@ -73,7 +73,7 @@ impl Description {
     fn model(&self, path: &Path, source: &Source) -> Result<Model> {
         let Some(named) = &self.model else {
             return match self.piece.is_empty() && self.position.is_none() {
-                true => Ok(Model { meshes: vec![], materials: vec![], textures: vec![] }),
+                true => Ok(Model::default()),
                 false => obj::load(&assets().join("chess.obj")),
             };
         };
