@@ -20,8 +20,10 @@ use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
 const MOST_CASES: usize = 2048;
 
 const SCHEMA: &str = "rt-hard-cases/2";
-/// A loop in a shader that runs for longer may be taken for a hang.
-const LONGEST_SUM: u32 = 1 << 22;
+/// Beyond the 2^24 at which a sum of floats stands still; ten seconds on the software driver.
+const LONGEST_SUM: u32 = 1 << 26;
+/// Of all sums of a file. Without a bound, a small file could keep a device busy for hours.
+const MOST_SAMPLES: u64 = 1 << 33;
 const LARGEST_FILE: u64 = 64 << 20;
 
 /// One case, ready to be asked.
@@ -114,6 +116,12 @@ fn parse(text: &str, path: &str) -> Result<Vec<Case>> {
         ensure!(cases.iter().all(|other| other.id != case.id), "{}: the id is taken", place());
         cases.push(case);
     }
+    let samples = |case: &Case| if let Shape::Sum(sum) = case.shape { sum.n.into() } else { 0 };
+    let samples: u64 = cases.iter().map(samples).sum();
+    ensure!(
+        samples <= MOST_SAMPLES,
+        "{path}: the sums have {samples} samples together; {MOST_SAMPLES} are the limit"
+    );
     Ok(cases)
 }
 

@@ -44,8 +44,13 @@ common::shader_struct! {
         numbers: Address,
         count: u32,
         repeat: u32,
+        from: u32,
+        until: u32,
     }
 }
+
+/// How many samples one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
+const SAMPLES_AT_ONCE: u32 = 1 << 22;
 
 /// A ray `origin + t·direction`, `tmin < t <= tmax`, in f32 as the device gets it.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +82,8 @@ pub enum Way {
 pub struct Batch {
     primitive: Primitive,
     count: u32,
+    /// Of the longest sum; 1 where there is none.
+    samples: u32,
     queries: Buffer,
     numbers: Buffer,
     answers: Buffer,
@@ -122,11 +129,14 @@ impl Batch {
             let shape = shape as u32;
             queries.push(Query { origin, tmin, direction, tmax, first, count, shape });
         }
+        let samples =
+            shapes.iter().map(|shape| if let Shape::Sum(sum) = shape { sum.n } else { 1 });
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_SRC;
         let size = (queries.len() * size_of::<Answer>()) as u64;
         Ok(Self {
             primitive,
             count: queries.len() as u32,
+            samples: samples.max().unwrap_or(1),
             queries: Buffer::with_data(gpu, "queries", &queries, input_usage())?,
             numbers: Buffer::with_data(gpu, "numbers", &numbers, input_usage())?,
             answers: Buffer::new(gpu, "answers", size, usage)?,
@@ -368,13 +378,6 @@ impl Probe {
     /// # Errors
     /// If the device fails.
     pub fn time(&self, instrument: &Instrument, batch: &Batch, repeat: u32) -> Result<f64> {
-        let push = Push {
-            queries: batch.queries.address.into(),
-            answers: batch.answers.address.into(),
-            numbers: batch.numbers.address.into(),
-            count: batch.count,
-            repeat,
-        };
         let level = if instrument.device { &batch.triangles } else { &batch.boxes };
         let descriptors = match (instrument.way, level) {
             (Way::Direct, _) => Vec::new(),
@@ -384,14 +387,27 @@ impl Probe {
         // Rows of rays, as some devices take no more than 2^16 in one direction.
         let width = batch.count.min(1024);
         let extent = vk::Extent2D { width, height: batch.count.div_ceil(width) };
-        self.gpu.submit(|cmd| {
-            self.timer.start(cmd);
-            instrument.pipeline.bind(cmd, &descriptors, &push)?;
-            instrument.sbt.trace(cmd, extent);
-            self.timer.stop(cmd);
-            barrier::trace_to_trace(&self.gpu, cmd);
-            Ok(())
-        })?;
-        self.timer.milliseconds()
+        let mut milliseconds = 0.0;
+        for from in (0..batch.samples).step_by(SAMPLES_AT_ONCE as usize) {
+            let push = Push {
+                queries: batch.queries.address.into(),
+                answers: batch.answers.address.into(),
+                numbers: batch.numbers.address.into(),
+                count: batch.count,
+                repeat,
+                from,
+                until: from + SAMPLES_AT_ONCE,
+            };
+            self.gpu.submit(|cmd| {
+                self.timer.start(cmd);
+                instrument.pipeline.bind(cmd, &descriptors, &push)?;
+                instrument.sbt.trace(cmd, extent);
+                self.timer.stop(cmd);
+                barrier::trace_to_trace(&self.gpu, cmd);
+                Ok(())
+            })?;
+            milliseconds += self.timer.milliseconds()?;
+        }
+        Ok(milliseconds)
     }
 }

@@ -171,8 +171,9 @@ impl Shape {
                     Pattern::Firefly { spike, every } => (1.0, spike, every),
                     Pattern::Head(head) => (2.0, head, 1),
                 };
-                // Whole numbers of at most 2^24, so exact floats.
-                add(&[kind, *value, special, every as f32, *n as f32]);
+                // A float holds 24 bits exactly, so 16 at a time.
+                let [every, n] = [every, *n].map(|x| [(x >> 16) as f32, (x & 0xffff) as f32]);
+                add(&[kind, *value, special, every[0], every[1], n[0], n[1]]);
             }
         }
         numbers

@@ -1,4 +1,5 @@
-// The mean of n samples: pattern, value, spike or head, every, n; the last two are integers.
+// The mean of n samples: pattern, value, spike or head, every, n; of the last two, whole numbers of more
+// bits than a float has, the upper and the lower 16 bits.
 #include "answer.glsl"
 #include "common/accumulation.glsl"
 
@@ -19,36 +20,65 @@ float sample_of(Sequence sequence, uint i) {
     return other ? sequence.other : sequence.value;
 }
 
-float mean_by(uint rung, Sequence sequence) {
-    float sum = 0.0;
-    vec2 kahan = vec2(0.0);
-    FixedSum fixed_sum = FixedSum(0, 0);
-    // As many bits for the fraction as leave room for the brightest sample, `count` times.
+// What a sum has come to, by whichever rung.
+struct Sums {
+    float sum;
+    vec2 kahan;
+    FixedSum fixed_sum;
+};
+
+// As many bits for the fraction as leave room for the brightest sample, `count` times.
+int fraction_bits(Sequence sequence) {
     float brightest = max(sequence.value, sequence.pattern == 0.0 ? 0.0 : sequence.other);
-    int bits = 62 - exponent_of(brightest) - exponent_of(float(sequence.count));
-    for (uint i = 0; i < sequence.count; i++) {
+    return 62 - exponent_of(brightest) - exponent_of(float(sequence.count));
+}
+
+void add_samples(uint rung, Sequence sequence, uint from, uint until, inout Sums sums) {
+    int bits = fraction_bits(sequence);
+    for (uint i = from; i < min(until, sequence.count); i++) {
         float value = sample_of(sequence, i);
         switch (rung) {
-            case ACCUMULATE_SUM: add_to_sum(sum, value); break;
-            case ACCUMULATE_MEAN: add_to_mean(sum, value, i + 1); break;
-            case ACCUMULATE_KAHAN: add_to_kahan(kahan, value); break;
-            default: add_to_fixed(fixed_sum, value, bits); break;
+            case ACCUMULATE_SUM: add_to_sum(sums.sum, value); break;
+            case ACCUMULATE_MEAN: add_to_mean(sums.sum, value, i + 1); break;
+            case ACCUMULATE_KAHAN: add_to_kahan(sums.kahan, value); break;
+            default: add_to_fixed(sums.fixed_sum, value, bits); break;
         }
-    }
-    switch (rung) {
-        case ACCUMULATE_SUM: return sum / float(sequence.count);
-        case ACCUMULATE_MEAN: return sum;
-        case ACCUMULATE_KAHAN: return kahan.x / float(sequence.count);
-        default: return mean_of_fixed(fixed_sum, bits, sequence.count);
     }
 }
 
-Answer ask_accumulation(uint rung, Query query, Numbers numbers) {
+float mean_by(uint rung, Sequence sequence, Sums sums) {
+    switch (rung) {
+        case ACCUMULATE_SUM: return sums.sum / float(sequence.count);
+        case ACCUMULATE_MEAN: return sums.sum;
+        case ACCUMULATE_KAHAN: return sums.kahan.x / float(sequence.count);
+        default: return mean_of_fixed(sums.fixed_sum, fraction_bits(sequence), sequence.count);
+    }
+}
+
+uint whole_at(Numbers numbers, uint first) {
+    return uint(numbers.at[first]) << 16 | uint(numbers.at[first + 1]);
+}
+
+// The samples from `from` until before `until`, added to what `before` holds of those before `from`. The
+// answer's other fields, which a mean has no use for, carry the sum into the next dispatch.
+Answer sum_on(uint rung, Query query, Numbers numbers, uint from, uint until, Answer before) {
     uint first = query.first;
     Sequence sequence = Sequence(
         numbers.at[first], numbers.at[first + 1], numbers.at[first + 2],
-        uint(numbers.at[first + 3]), uint(numbers.at[first + 4]));
+        whole_at(numbers, first + 3), whole_at(numbers, first + 5));
+    if (from == 0) {
+        before = NO_HIT;
+    }
+    Sums sums = Sums(before.point.x, before.point.yz, FixedSum(before.hit, before.steps));
+    add_samples(rung, sequence, from, until, sums);
     Answer answer = NO_HIT;
-    answer.t = mean_by(rung, sequence);
+    answer.t = mean_by(rung, sequence, sums);
+    answer.point = vec3(sums.sum, sums.kahan);
+    answer.hit = sums.fixed_sum.high;
+    answer.steps = sums.fixed_sum.low;
     return answer;
+}
+
+Answer ask_accumulation(uint rung, Query query, Numbers numbers) {
+    return sum_on(rung, query, numbers, 0, 0xffffffffu, NO_HIT);
 }

@@ -8,7 +8,13 @@ void main() {
     if (i >= push.count) {
         return;
     }
+#if PRIMITIVE == PRIMITIVE_ACCUMULATION
+    // A long sum takes several dispatches, each short enough for any driver's patience.
+    Answer answer = sum_on(
+        RUNG, push.queries.at[i], push.numbers, push.from, push.until, push.answers.at[i]);
+#else
     Answer answer = ask(push.queries.at[i], push.numbers);
+#endif
     for (uint k = 1; k < push.repeat; k++) {
         Answer more = ask(push.queries.at[(i + k) % push.count], push.numbers);
         // The sum is of no use but that nothing can be left out.

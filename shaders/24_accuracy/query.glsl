@@ -32,6 +32,8 @@ layout(push_constant, scalar) uniform Push {
     Numbers numbers;
     uint count;
     uint repeat;   // how many queries an invocation answers; 1 unless time is measured
+    uint from;     // of a sum: which samples this dispatch adds, from the first until before the last
+    uint until;
 } push;
 #endif
 

@@ -84,6 +84,47 @@ fn a_mean_of_zero_is_right() {
     assert!(answers.iter().all(|answer| answer["verdict"] == "right"), "{answers:?}");
 }
 
+fn sum(n: u32, shape: Value, mean: &str) -> Value {
+    let mut shape = shape;
+    shape["n"] = n.into();
+    json!({"id": format!("{n} samples"), "primitive": "accumulation", "family": "mine",
+        "shape": shape, "expect": {"mean": mean}, "tol": {"mean_rel": 1.2e-7}})
+}
+
+/// Of 2^24 + 5 samples the last shines, as a third does; a count that were a float would leave it out. A
+/// sum of floats stands still from 2^24 on.
+#[test]
+fn sums_may_be_longer_than_a_float_can_count() {
+    let lights = json!({"pattern": "firefly", "value": 0, "spike": 1, "every": 5_592_407});
+    let ones = json!({"pattern": "constant", "value": 1});
+    let both = file(&[
+        sum((1 << 24) + 5, lights, "1.78813881158276242e-7"),
+        sum(1 << 26, ones.clone(), "1"),
+    ]);
+    let report = with_file(&both.to_string(), cases);
+    let answers = report["answers"].as_array().unwrap();
+    let found = |case: &str, rung: &str| {
+        let one = |answer: &&Value| answer["case"] == case && answer["rung"] == rung;
+        let answer = answers.iter().find(one).unwrap();
+        (answer["verdict"].as_str().unwrap().to_owned(), answer["t"].as_f64().unwrap())
+    };
+    assert_eq!(found("67108864 samples", "A0"), ("inexact".to_owned(), 0.25));
+    assert_eq!(found("67108864 samples", "A3"), ("right".to_owned(), 1.0));
+    assert_eq!(found("16777221 samples", "A0").0, "right");
+    assert_eq!(found("16777221 samples", "A3").0, "right");
+
+    let longer = file(&[sum((1 << 26) + 1, ones, "1")]);
+    let line = refused(&longer.to_string());
+    assert!(line.contains("n is 67108865, not 1 to 67108864"), "{line}");
+    let many = |number| {
+        let ones = json!({"pattern": "constant", "value": 1});
+        edit(&sum(1 << 26, ones, "1"), "id", format!("sum {number}").into())
+    };
+    let line = refused(&file(&(0..129).map(many).collect::<Vec<_>>()).to_string());
+    let most = "the sums have 8657043456 samples together; 8589934592 are the limit";
+    assert!(line.contains(most), "{line}");
+}
+
 #[test]
 fn the_report_does_not_take_the_place_of_the_cases() {
     with_file(&file(&[sphere()]).to_string(), |path| {
