@@ -8,6 +8,7 @@ mod file;
 mod light;
 mod material;
 mod mesh;
+mod mtl;
 pub mod obj;
 mod obj_check;
 mod placement;

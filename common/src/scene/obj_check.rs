@@ -7,7 +7,7 @@ use std::fmt::Write;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::Vec3;
 
-use super::material::{MaterialLibrary, material_name};
+use super::mtl::{MaterialLibrary, material_name};
 use super::text::{
     Folder, Limits, Missing, Named, Statement, Text, name, numbers, quoted, uncommented,
 };
