@@ -41,7 +41,7 @@ impl TextureTable {
             set: vk::DescriptorSet::null(),
             pool: vk::DescriptorPool::null(),
             sampler: vk::Sampler::null(),
-            images: images,
+            images,
             gpu: gpu.clone(),
         };
         // SAFETY: the device is alive; whatever was made is destroyed with the table.
