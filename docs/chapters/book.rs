@@ -12,7 +12,8 @@ use crate::page::{Kind, Page};
 use crate::picture::{Picture, Sources};
 use crate::program::Programs;
 use crate::project::{Project, README, SUMMARY};
-use crate::{agree, command, gallery, stray};
+use crate::reference::Files;
+use crate::{agree, command, exercise, gallery, mention, placeholder, stray, test};
 
 /// The book of a project.
 pub struct Book<'a> {
@@ -39,13 +40,19 @@ impl<'a> Book<'a> {
         let mut linked: BTreeSet<String> =
             self.project.chapters.iter().map(|chapter| chapter.picture()).collect();
         self.ask_programs();
+        let files = Files::of(self.project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             faults.extend(self.stale_blocks(page));
+            faults.extend(placeholder::check(page));
+            faults.extend(mention::check(self.project, page));
+            faults.extend(exercise::check(self.project, page));
             let written = Markdown::parse(&page.written());
             faults.extend(check_links(self.project, &page.path, &written.links));
             faults.extend(check_formulas(&page.path, &written.formulas));
             faults.extend(command::check(self.project, self.programs, &page.path, &written.code));
+            faults.extend(test::check(self.project, &page.path, &written.code));
+            faults.extend(files.check(page, &written));
             faults.extend(self.title(page, &written));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }

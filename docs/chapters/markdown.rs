@@ -38,6 +38,8 @@ pub struct Markdown {
     pub formulas: Vec<(usize, String)>,
     /// The first heading of the first level, with its line.
     pub title: Option<(usize, String)>,
+    /// Every heading.
+    pub headings: Vec<String>,
 }
 
 impl Markdown {
@@ -46,7 +48,7 @@ impl Markdown {
         let mut found = Self::default();
         let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
         let mut open_code: Option<Code> = None;
-        let mut open_title: Option<(usize, String)> = None;
+        let mut open_heading: Option<(usize, String)> = None;
         for (event, span) in Parser::new_ext(text, options).into_offset_iter() {
             let line = 1 + text[..span.start].matches('\n').count();
             match event {
@@ -65,18 +67,20 @@ impl Markdown {
                     open_code = Some(Code { line, language, text: String::new() });
                 }
                 Event::End(TagEnd::CodeBlock) => found.code.extend(open_code.take()),
-                Event::Start(Tag::Heading { level: HeadingLevel::H1, .. }) => {
-                    open_title = Some((line, String::new()));
-                }
-                Event::End(TagEnd::Heading(HeadingLevel::H1)) => {
-                    found.title = found.title.take().or(open_title.take());
+                Event::Start(Tag::Heading { .. }) => open_heading = Some((line, String::new())),
+                Event::End(TagEnd::Heading(level)) => {
+                    let Some(heading) = open_heading.take() else { continue };
+                    found.headings.push(heading.1.clone());
+                    if level == HeadingLevel::H1 {
+                        found.title.get_or_insert(heading);
+                    }
                 }
                 Event::InlineMath(formula) | Event::DisplayMath(formula) => {
                     found.formulas.push((line, formula.into_string()));
                 }
                 Event::Code(code) => {
-                    if let Some((_, title)) = &mut open_title {
-                        title.push_str(&code);
+                    if let Some((_, heading)) = &mut open_heading {
+                        heading.push_str(&code);
                     }
                     found.code.push(Code {
                         line,
@@ -84,9 +88,9 @@ impl Markdown {
                         text: code.into_string(),
                     });
                 }
-                Event::Text(text) => match (&mut open_code, &mut open_title) {
+                Event::Text(text) => match (&mut open_code, &mut open_heading) {
                     (Some(code), _) => code.text.push_str(&text),
-                    (_, Some((_, title))) => title.push_str(&text),
+                    (_, Some((_, heading))) => heading.push_str(&text),
                     _ => {}
                 },
                 _ => {}

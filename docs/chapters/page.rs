@@ -171,6 +171,21 @@ impl Page {
         let line = |(index, line)| if generated(index) { "\n".to_owned() } else { line };
         ended(&self.lines).enumerate().map(line).collect()
     }
+
+    /// The page's text, each line with its number from 1: without what is generated, markers and fenced blocks.
+    pub fn prose(&self) -> Vec<(usize, &str)> {
+        let mut found = Vec::new();
+        let mut index = 0;
+        while let Some(line) = self.lines.get(index) {
+            let block = self.blocks.iter().find(|block| block.body.contains(&index));
+            let end = block.map_or_else(|| fence_end(&self.lines, index), |block| block.body.end);
+            if end == index && marker(line).is_none() {
+                found.push((index + 1, &**line));
+            }
+            index = end.max(index + 1);
+        }
+        found
+    }
 }
 
 fn ended(lines: &[String]) -> impl Iterator<Item = String> {
@@ -254,6 +269,13 @@ mod tests {
         assert!(faults("<!-- /diff -->\n")[0].starts_with("p.md:1: <!-- /diff --> closes nothing"));
         assert!(faults("<!-- picture -->\n\n```sh\nx\n```\n")[0].contains("no command follows"));
         assert!(faults("<!-- a note -->\n").is_empty());
+    }
+
+    #[test]
+    fn prose_is_neither_generated_nor_code() {
+        let text = "# T\n<!-- snippet a -->\n```rust\nx\n<!-- /snippet -->\na\n```sh\nb\n```\nc\n";
+        let page = Page::parse("p.md", text);
+        assert_eq!(page.prose(), [(1, "# T"), (6, "a"), (10, "c")]);
     }
 
     #[test]

@@ -213,6 +213,25 @@ Its call:
 <!-- /snippet -->
 
 See [the next chapter](02_basic.md) and [the code](../samples/01_one/main.rs).
+
+## Notes
+
+Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_one/one.rgen:2` begins, and
+`samples/01_one/main.rs#call` shows it. `NN_name` is 01_one or `02_basic`. See [the notes](#notes).
+
+| what | X-ray |
+|---|---|
+| a ULP | 0.05 |
+
+## Try it
+
+1. Change `one.rgen`. *Check:* `cargo test --test samples one::first` fails.
+2. Write `two.rgen` after exercise 1.
+   *Check:* `two.rgen` is there.
+
+## Sources
+
+- A. Nobody, *Another Book*, chapter 17.
 "#,
     ),
     (
@@ -231,11 +250,15 @@ cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
 <!-- /controls -->
 
 Compare them with `cargo run --bin chapters -- diff 01 02`, list what `cargo run --bin NN_name` can do.
+
+## Try it
+
+1. Run it. *Check:* there is a picture, as 01 makes one.
 "#,
     ),
     ("docs/chapters/main.rs", "fn main() {}\n"),
     ("docs/book.toml", "[book]\n"),
     ("tests/samples/main.rs", "mod basic;\nmod one;\n"),
-    ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n"),
+    ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n\n#[test]\nfn first() {}\n"),
     ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n"),
 ];

@@ -2,6 +2,7 @@
 
 mod author;
 mod fixture;
+mod named;
 mod stale;
 
 use std::fs;

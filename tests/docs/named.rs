@@ -1,0 +1,161 @@
+//! What a page names must be there: chapters, files, lines, anchors, tests, exercises and their checks.
+
+use crate::{Case, expect};
+
+#[test]
+fn placeholders_are_named_with_file_and_line() {
+    let cases: [Case; 2] = [
+        (
+            "a line that is a word of capitals",
+            |f| f.replace("docs/01_one.md", "Its call:", "ERRORTABLE"),
+            "docs/01_one.md:11: 'ERRORTABLE' holds a place for something",
+            "; write what belongs here",
+        ),
+        (
+            "a cell that is an X",
+            |f| f.replace("docs/01_one.md", "| a ULP | 0.05 |", "| a ULP | X |"),
+            "docs/01_one.md:29: 'X' holds a place for something",
+            "; write what belongs here",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn chapters_that_are_not_there_are_named_with_file_and_line() {
+    let remedy = "; correct it, or write `chapter 05 (planned)`";
+    let cases: [Case; 5] = [
+        (
+            "a chapter that is not there",
+            |f| f.replace("docs/01_one.md", "Its call:", "As chapter 05 shows:"),
+            "docs/01_one.md:11: there is no chapter 05",
+            remedy,
+        ),
+        (
+            "a number alone, in a list, in a table",
+            |f| f.replace("docs/01_one.md", "| a ULP |", "| as in 02 and 05 |"),
+            "docs/01_one.md:29: there is no chapter 05",
+            remedy,
+        ),
+        (
+            "one of several",
+            |f| f.replace("README.md", "# Fixture", "# Fixture\n\nSee chapters 01, 02 and 17.\n"),
+            "README.md:3: there is no chapter 17",
+            "; correct it, or write `chapter 17 (planned)`",
+        ),
+        (
+            "a chapter that is there, called planned",
+            |f| f.replace("docs/01_one.md", "Chapter 02 goes", "Chapter 02 (planned) goes"),
+            "docs/01_one.md:24: chapter 02 is there",
+            "; do not call it planned",
+        ),
+        (
+            "a chapter by a name that it has not",
+            |f| f.replace("docs/01_one.md", "or `02_basic`.", "or `02_basics`."),
+            "docs/01_one.md:25: there is no chapter '02_basics'",
+            "; correct its name",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
+    let cases: [Case; 9] = [
+        (
+            "a file that is nowhere",
+            |f| f.replace("docs/01_one.md", "`main.rs` calls", "`mean.rs` calls"),
+            "docs/01_one.md:24: there is no file 'mean.rs'",
+            "; correct it",
+        ),
+        (
+            "another chapter's shader",
+            |f| f.replace("docs/01_one.md", "Change `one.rgen`", "Change `camera.rgen`"),
+            "docs/01_one.md:33: 'camera.rgen' is none of this chapter's files, but shaders/02_basic/",
+            "; correct it",
+        ),
+        (
+            "a path that is not there",
+            |f| f.replace("docs/01_one.md", "01_one/one.rgen:2", "01_one/won.rgen:2"),
+            "docs/01_one.md:24: there is no 'shaders/01_one/won.rgen'",
+            "; correct it",
+        ),
+        (
+            "a line that is not there",
+            |f| f.replace("docs/01_one.md", "one.rgen:2", "one.rgen:20"),
+            "docs/01_one.md:24: 'shaders/01_one/one.rgen' has no line 20, but 4",
+            "; correct it",
+        ),
+        (
+            "an anchor of a source file that is not there",
+            |f| f.replace("docs/01_one.md", "main.rs#call` shows", "main.rs#cull` shows"),
+            "docs/01_one.md:25: 'samples/01_one/main.rs' has no anchor 'cull'",
+            "; correct it",
+        ),
+        (
+            "a heading that is not there",
+            |f| f.replace("docs/01_one.md", "](#notes)", "](#note)"),
+            "docs/01_one.md:25: 'docs/01_one.md' has no heading '#note'",
+            "; correct it",
+        ),
+        (
+            "a heading of another page that is not there",
+            |f| f.replace("README.md", "# Fixture", "# Fixture\n\n[one](docs/01_one.md#tries)\n"),
+            "README.md:3: 'docs/01_one.md' has no heading '#tries'",
+            "; correct it",
+        ),
+        (
+            "a command that reads a file that is not there",
+            |f| {
+                let command = "# Fixture\n\n```sh\ncargo run -- --scene samples/moon.obj\n```\n";
+                f.replace("README.md", "# Fixture\n", command);
+            },
+            "README.md:4: there is no 'samples/moon.obj'",
+            "; correct it",
+        ),
+        (
+            "a command that runs no test",
+            |f| f.replace("docs/01_one.md", "one::first", "one::last"),
+            "docs/01_one.md:33: no test of 'samples' is called 'one::last'",
+            "; correct the command",
+        ),
+    ];
+    expect(&cases, &[]);
+}
+
+#[test]
+fn exercises_without_number_or_check_are_named_with_file_and_line() {
+    let cases: [Case; 5] = [
+        (
+            "no exercises at all",
+            |f| f.replace("docs/02_basic.md", "## Try it", "## Tried"),
+            "docs/02_basic.md:1: the page has no section `## Try it`",
+            "; add it, with exercises",
+        ),
+        (
+            "an exercise without its number",
+            |f| f.replace("docs/02_basic.md", "1. Run it.", "Run it."),
+            "docs/02_basic.md:",
+            "`## Try it` has no numbered exercise; write `1. … *Check:* …` below it",
+        ),
+        (
+            "an exercise without its check",
+            |f| f.replace("docs/01_one.md", "   *Check:* `two.rgen` is there.\n", ""),
+            "docs/01_one.md:34: exercise 2 does not say how to check it",
+            "; write `*Check:*` and what a reader must see",
+        ),
+        (
+            "an exercise by the number of another",
+            |f| f.replace("docs/01_one.md", "2. Write", "3. Write"),
+            "docs/01_one.md:34: exercise 2 has the number 3",
+            "; count from 1",
+        ),
+        (
+            "an exercise that is not there",
+            |f| f.replace("docs/01_one.md", "after exercise 1", "after exercise 3"),
+            "docs/01_one.md:34: there is no exercise 3, only 2",
+            "; correct the number",
+        ),
+    ];
+    expect(&cases, &[]);
+}
