@@ -72,6 +72,14 @@ impl Run {
         sets.chain(compared).collect()
     }
 
+    /// Why it compares chapters of which one is not there; `NN` may stand for any.
+    fn unknown_chapter(&self, project: &Project) -> Option<String> {
+        let [command, chapters @ ..] = &self.arguments[..] else { return None };
+        let tool = self.bin.as_deref() == Some("chapters") && command == "diff";
+        let chapters = chapters.iter().take(2).filter(|given| tool && !given.contains("NN"));
+        chapters.into_iter().find_map(|given| project.chapter(given).err()).map(|usage| usage.0)
+    }
+
     /// What is wrong with it, and what to do.
     fn wrong(&self, project: &Project, programs: &Programs) -> Option<(String, &'static str)> {
         let wrong =
@@ -95,6 +103,9 @@ impl Run {
             let text = error.to_string();
             let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
             return wrong(format!("{name} does not take this: {line}"));
+        }
+        if let Some(unknown) = self.unknown_chapter(project) {
+            return wrong(unknown);
         }
         let settings = if sample { self.settings() } else { Vec::new() };
         if settings.is_empty() {

@@ -64,6 +64,13 @@ impl<'a> Files<'a> {
         if code.contains(|c: char| c.is_whitespace() || "<>*…(){}\"'=|".contains(c)) {
             return None;
         }
+        if let Some(module) = code.strip_prefix("common::") {
+            let module = module.split("::").next().unwrap_or_default();
+            let mut paths =
+                [".rs", "/mod.rs"].map(|end| format!("common/src/{module}{end}")).into_iter();
+            let missing = !paths.any(|path| self.project.has(&path));
+            return missing.then(|| format!("there is no module `common::{module}`"));
+        }
         let (folder, rest) = name.split_once('/').unwrap_or(("", name));
         if FOLDERS.contains(&folder) {
             // A shader includes files by their path below `shaders/`.

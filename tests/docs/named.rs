@@ -61,7 +61,7 @@ fn chapters_that_are_not_there_are_named_with_file_and_line() {
 
 #[test]
 fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
-    let cases: [Case; 9] = [
+    let cases: [Case; 11] = [
         (
             "a file that is nowhere",
             |f| f.replace("docs/01_one.md", "`main.rs` calls", "`mean.rs` calls"),
@@ -103,6 +103,18 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
             |f| f.replace("README.md", "# Fixture", "# Fixture\n\n[one](docs/01_one.md#tries)\n"),
             "README.md:3: 'docs/01_one.md' has no heading '#tries'",
             "; correct it",
+        ),
+        (
+            "a module of the framework that is not there",
+            |f| f.replace("docs/01_one.md", "`main.rs` calls", "`common::moon::Rock` calls"),
+            "docs/01_one.md:24: there is no module `common::moon`",
+            "; correct it",
+        ),
+        (
+            "a command that compares a chapter that is not there",
+            |f| f.replace("docs/02_basic.md", "diff 01 02`", "diff 01 07`"),
+            "docs/02_basic.md:",
+            "does not run: no chapter '07'; there is 01_one, 02_basic; correct it",
         ),
         (
             "a command that reads a file that is not there",
