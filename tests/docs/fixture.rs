@@ -194,7 +194,10 @@ fn main() {
 // Names "one.rgen".
 "#,
     ),
-    ("shaders/01_one/one.rgen", "#version 460\nvoid main() {\n    // first\n}\n"),
+    (
+        "shaders/01_one/one.rgen",
+        "#version 460\n// ANCHOR: only\nvoid main() {\n    // first\n}\n// ANCHOR_END: only\n",
+    ),
     (
         "docs/01_one.md",
         r#"# 01 · One
@@ -217,7 +220,7 @@ See [the next chapter](02_basic.md) and [the code](../samples/01_one/main.rs).
 ## Notes
 
 Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_one/one.rgen:2` begins, and
-`samples/01_one/main.rs#call` shows it. `NN_name` is 01_one or `02_basic`. See [the notes](#notes).
+`shaders/01_one/one.rgen#only` shows it. `NN_name` is 01_one or `02_basic`. See [the notes](#notes).
 
 | what | X-ray |
 |---|---|
@@ -225,7 +228,7 @@ Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_o
 
 ## Try it
 
-1. Change `one.rgen`. *Check:* `cargo test --test samples one::first` fails.
+1. Change `one.rgen`. *Check:* `cargo test --test samples basic::first` fails.
 2. Write `two.rgen` after exercise 1.
    *Check:* `two.rgen` is there.
 
@@ -259,6 +262,6 @@ Compare them with `cargo run --bin chapters -- diff 01 02`, list what `cargo run
     ("docs/chapters/main.rs", "fn main() {}\n"),
     ("docs/book.toml", "[book]\n"),
     ("tests/samples/main.rs", "mod basic;\nmod one;\n"),
-    ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n\n#[test]\nfn first() {}\n"),
-    ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n"),
+    ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n"),
+    ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n\n#[test]\nfn first() {}\n"),
 ];

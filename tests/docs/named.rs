@@ -83,13 +83,13 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
         (
             "a line that is not there",
             |f| f.replace("docs/01_one.md", "one.rgen:2", "one.rgen:20"),
-            "docs/01_one.md:24: 'shaders/01_one/one.rgen' has no line 20, but 4",
+            "docs/01_one.md:24: 'shaders/01_one/one.rgen' has no line 20, but 6",
             "; correct it",
         ),
         (
             "an anchor of a source file that is not there",
-            |f| f.replace("docs/01_one.md", "main.rs#call` shows", "main.rs#cull` shows"),
-            "docs/01_one.md:25: 'samples/01_one/main.rs' has no anchor 'cull'",
+            |f| f.replace("docs/01_one.md", "one.rgen#only` shows", "one.rgen#lonely` shows"),
+            "docs/01_one.md:25: 'shaders/01_one/one.rgen' has no anchor 'lonely'",
             "; correct it",
         ),
         (
@@ -127,8 +127,8 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
         ),
         (
             "a command that runs no test",
-            |f| f.replace("docs/01_one.md", "one::first", "one::last"),
-            "docs/01_one.md:33: no test of 'samples' is called 'one::last'",
+            |f| f.replace("docs/01_one.md", "basic::first", "basic::last"),
+            "docs/01_one.md:33: no test of 'samples' is called 'basic::last'",
             "; correct the command",
         ),
     ];
