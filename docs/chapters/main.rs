@@ -3,7 +3,8 @@
 //! - `list`: the chapters, what each teaches and builds on
 //! - `diff A B`: what one chapter changes in another: code, shaders and page
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
-//! - `check`: names everything that is stale, missing or stray, and what to do about it
+//! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
+//!   what to do about it
 //!
 //! Data flows one way: [`project`] is read, pages are parsed ([`page`], [`markdown`]), what should stand
 //! in their blocks is made ([`body`], [`diff`], [`gallery`]) and compared or written ([`book`]).
