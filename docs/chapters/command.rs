@@ -8,7 +8,7 @@ use crate::markdown::Code;
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
 
-/// A `cargo run`.
+/// A `cargo run`, or a `cargo chapters`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
     /// The program, where the command names one.
@@ -39,10 +39,15 @@ fn run(words: &[String]) -> Option<Run> {
     let words = words.split(redirect).next().unwrap_or_default();
     // What stands before is the environment, `NAME=value`.
     let start = words.iter().position(|word| !word.contains('='))?;
-    let ["cargo", "run", ..] = words[start..].iter().map(String::as_str).collect::<Vec<_>>()[..]
-    else {
-        return None;
-    };
+    match words[start..].iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["cargo", "run", ..] => {}
+        // The project's own command, `.cargo/config.toml`.
+        ["cargo", "chapters", ..] => {
+            let arguments = words[start + 2..].to_vec();
+            return Some(Run { bin: Some("chapters".to_owned()), arguments });
+        }
+        _ => return None,
+    }
     let words = &words[start + 2..];
     let dashes = words.iter().position(|word| word == "--").unwrap_or(words.len());
     let cargo = &words[..dashes];
@@ -158,13 +163,14 @@ mod tests {
         let text = "./setup && cargo run --bin 02_basic # as above\n\
                     $ A=1 cargo run --release --bin=x -- --set \"sun azimuth=3\" > file\n\
                     cargo run --bin y -- \\\n  --size 64x40 \\\n  --headless\n\
-                    cargo test\ncargo run\n";
+                    cargo test\ncargo run\ncargo chapters diff 02 03\n";
         let bin = |name: &str| Some(name.to_owned());
         let expected = [
             (0, bin("02_basic"), "".to_owned()),
             (1, bin("x"), "--set|sun azimuth=3".to_owned()),
             (2, bin("y"), "--size|64x40|--headless".to_owned()),
             (6, None, "".to_owned()),
+            (7, bin("chapters"), "diff|02|03".to_owned()),
         ];
         assert_eq!(all(text), expected);
     }

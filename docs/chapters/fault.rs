@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// What mends everything that is generated.
-pub const SYNC: &str = "run: cargo run --bin chapters -- sync";
+pub const SYNC: &str = "run: cargo chapters sync";
 
 /// One thing that is wrong, shown as `file:line: what; what to do`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -100,7 +100,7 @@ impl Picture {
 
     /// The fault that says that it is out of date.
     pub fn fault(&self, what: String) -> Fault {
-        let remedy = format!("run: cargo run --bin chapters -- sync --pictures {}", self.name);
+        let remedy = format!("run: cargo chapters sync --pictures {}", self.name);
         Fault::new(&*self.page, self.line, what, remedy)
     }
 

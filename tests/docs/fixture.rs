@@ -252,7 +252,7 @@ cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
 <!-- controls 02_basic -->
 <!-- /controls -->
 
-Compare them with `cargo run --bin chapters -- diff 01 02`, list what `cargo run --bin NN_name` can do.
+Compare them with `cargo chapters diff 01 02`, list what `cargo run --bin NN_name` can do.
 
 ## Try it
 

@@ -5,7 +5,7 @@ use std::fs;
 use crate::fixture::Fixture;
 use crate::{Case, expect};
 
-const SYNC: &str = "; run: cargo run --bin chapters -- sync";
+const SYNC: &str = "; run: cargo chapters sync";
 
 #[test]
 fn what_is_generated_is_found_stale_and_mended() {
@@ -83,7 +83,7 @@ fn code_that_changes_makes_stale_what_shows_it() {
 
 #[test]
 fn stale_pictures_are_found_and_rendered_anew() {
-    let remedy = "; run: cargo run --bin chapters -- sync --pictures 02_basic";
+    let remedy = "; run: cargo chapters sync --pictures 02_basic";
     let cases: [Case; 5] = [
         (
             "an included shader changed",
