@@ -7,7 +7,8 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable,
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
+    Variants,
 };
 use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
@@ -20,10 +21,15 @@ fn main() -> ExitCode {
 
 struct Demo {
     scene: SceneOnGpu,
-    pipeline: RayTracingPipeline,
-    sbt: ShaderBindingTable,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
+    constants: Constants,
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
     show: u32,
 }
 
@@ -33,7 +39,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        show: u32,
     }
 }
 
@@ -46,26 +51,19 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-            .recursion(1)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .build(gpu)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        // ANCHOR_END: pipeline
-        Ok(Self { scene, pipeline, sbt, camera, sun: Sun::default(), show: 0 })
+        Ok(Self {
+            scene,
+            pipelines: Variants::default(),
+            camera,
+            sun: Sun::default(),
+            constants: Constants { show: 0 },
+        })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
@@ -78,15 +76,37 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            show: self.show,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
-        self.sbt.trace(frame.cmd, frame.image.extent);
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.image.extent);
         // ANCHOR_END: trace
         Ok(())
     }
 }
+
+// ANCHOR: pipeline
+/// The pipeline for the shaders' constants.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

@@ -9,7 +9,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    ShaderBindingTable, barrier,
+    TextureTable, Variant, Variants, barrier,
 };
 use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
@@ -30,12 +30,10 @@ const ALL_HITS: u32 = 4;
 struct Demo {
     model: Scene,
     scene: SceneOnGpu,
-    pipeline: RayTracingPipeline,
-    sbt: ShaderBindingTable,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
-    show: u32,
-    mode: u32,
+    constants: Constants,
     opacity: f32,
     samples: u32,
     invocations: u32,
@@ -44,14 +42,19 @@ struct Demo {
     hits: Buffer,
 }
 
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: u32,
+    mode: u32,
+}
+
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        show: u32,
-        mode: u32,
         opacity: f32,
         samples: u32,
         invocations: u32,
@@ -77,28 +80,13 @@ impl Sample for Demo {
         // ANCHOR_END: pieces
         let camera = model.camera;
         let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .hit(HitGroup::triangles().closest_hit("shade.rchit").any_hit("decide.rahit"))
-            .recursion(1)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .build(gpu)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        // ANCHOR_END: pipeline
         Ok(Self {
             model,
             scene,
-            pipeline,
-            sbt,
+            pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            show: 0,
-            mode: 1,
+            constants: Constants { show: 0, mode: 1 },
             opacity: 0.4,
             samples: 16,
             invocations: 1,
@@ -111,9 +99,9 @@ impl Sample for Demo {
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         let modes = ["opaque", "cut-out", "random", "naive random", "all hits"];
-        c.choice("mode", &mut self.mode, &modes);
+        c.choice("mode", &mut self.constants.mode, &modes);
         c.slider("opacity", &mut self.opacity, 0.0..=1.0);
         c.integer("samples", &mut self.samples, 1..=256);
         c.integer("invocations", &mut self.invocations, 1..=4);
@@ -135,7 +123,8 @@ impl Sample for Demo {
         // ANCHOR_END: rebuild
         // ANCHOR: hits
         let vk::Extent2D { width, height } = frame.image.extent;
-        let rays = if self.mode == ALL_HITS { u64::from(width) * u64::from(height) } else { 0 };
+        let rays =
+            if self.constants.mode == ALL_HITS { u64::from(width) * u64::from(height) } else { 0 };
         if self.hits.size < rays * MAX_HITS * HIT_SIZE {
             self.hits = hit_list(frame.gpu, rays)?;
         }
@@ -147,8 +136,6 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            show: self.show,
-            mode: self.mode,
             opacity: self.opacity,
             samples: self.samples,
             invocations: self.invocations,
@@ -159,12 +146,36 @@ impl Sample for Demo {
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
-        self.sbt.trace(frame.cmd, frame.image.extent);
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.image.extent);
         // ANCHOR_END: trace
         Ok(())
     }
 }
+
+// ANCHOR: pipeline
+/// The pipeline for the shaders' constants.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit").any_hit("decide.rahit"))
+        .constant(0, constants.show)
+        .constant(1, constants.mode)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline
 
 /// A list of hits for so many rays.
 fn hit_list(gpu: &Gpu, rays: u64) -> Result<Buffer> {

@@ -9,7 +9,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Binding, Buffer, Descriptor, Gpu, HitGroup, Image, RayTracingPipeline, Requirements,
-    ShaderBindingTable, barrier,
+    TextureTable, Variant, Variants, barrier,
 };
 use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
@@ -27,11 +27,10 @@ const SHOW_HIT: u32 = 3;
 
 struct Demo {
     scene: SceneOnGpu,
-    pipeline: RayTracingPipeline,
-    sbt: ShaderBindingTable,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
-    show: u32,
+    constants: Constants,
     sequence: u32,
     scrambling: u32,
     filter: u32,
@@ -41,13 +40,18 @@ struct Demo {
     offsets: Buffer,
 }
 
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: u32,
+}
+
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        show: u32,
         sequence: u32,
         scrambling: u32,
         pixel_filter: u32,
@@ -66,28 +70,12 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-            .recursion(1)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .binding(Binding::StorageImage)
-            .binding(Binding::StorageBuffer)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .build(gpu)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        // ANCHOR_END: pipeline
         Ok(Self {
             scene,
-            pipeline,
-            sbt,
+            pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            show: 0,
+            constants: Constants { show: 0 },
             sequence: 4,
             scrambling: 2,
             filter: 2,
@@ -101,7 +89,7 @@ impl Sample for Demo {
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         let sequences = ["centre", "random", "Halton", "R2", "Sobol"];
         c.choice("sequence", &mut self.sequence, &sequences);
         c.choice("scrambling", &mut self.scrambling, &["none", "rotation", "Owen"]);
@@ -127,7 +115,6 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            show: self.show,
             sequence: self.sequence,
             scrambling: self.scrambling,
             pixel_filter: self.filter,
@@ -141,18 +128,43 @@ impl Sample for Demo {
             Descriptor::StorageImage(&self.means),
             Descriptor::StorageBuffer(&self.offsets),
         ];
-        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
-        self.sbt.trace(frame.cmd, frame.image.extent);
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.image.extent);
         // ANCHOR_END: trace
         Ok(())
     }
 
     // ANCHOR: accumulates
     fn accumulates(&self) -> bool {
-        self.accumulate && self.show < SHOW_HIT
+        self.accumulate && self.constants.show < SHOW_HIT
     }
     // ANCHOR_END: accumulates
 }
+
+// ANCHOR: pipeline
+/// The pipeline for the shaders' constants.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .binding(Binding::StorageImage)
+        .binding(Binding::StorageBuffer)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline
 
 // ANCHOR: offsets
 /// The offsets, in pixels, below which a given part of the Blackman-Harris filter lies.

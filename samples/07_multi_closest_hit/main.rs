@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Record, Requirements,
-    ShaderBindingTable, ShaderStruct,
+    ShaderBindingTable, ShaderStruct, TextureTable,
     sbt::{self, Region},
 };
 use common::scene::{
@@ -94,24 +94,8 @@ impl Sample for Demo {
         // ANCHOR_END: records
         let camera = model.camera;
         let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-            .hit(HitGroup::triangles().closest_hit("marble.rchit"))
-            .hit(HitGroup::triangles().closest_hit("wood.rchit"))
-            .hit(HitGroup::triangles().closest_hit("lacquer.rchit"))
-            .hit(HitGroup::triangles().closest_hit("inspect.rchit"))
-            .recursion(1)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .hit_data::<Look>()
-            .build(gpu)?;
+        let pipeline = pipeline(gpu, &scene.textures)?;
         let sbt = ShaderBindingTable::with_hit_records(gpu, &pipeline, &records)?;
-        // ANCHOR_END: pipeline
         Ok(Self {
             table: table(gpu, &sbt, &model),
             scene,
@@ -173,6 +157,27 @@ impl Sample for Demo {
         Ok(serde_json::json!({ "address": address, "table": self.table }))
     }
 }
+
+// ANCHOR: pipeline
+/// The hit groups are numbered in this order.
+fn pipeline(gpu: &Gpu, textures: &TextureTable) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .hit(HitGroup::triangles().closest_hit("marble.rchit"))
+        .hit(HitGroup::triangles().closest_hit("wood.rchit"))
+        .hit(HitGroup::triangles().closest_hit("lacquer.rchit"))
+        .hit(HitGroup::triangles().closest_hit("inspect.rchit"))
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .hit_data::<Look>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline
 
 // ANCHOR: choose
 /// The group that an instance takes, and the look that it starts with.

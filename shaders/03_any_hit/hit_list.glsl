@@ -33,14 +33,14 @@ vec4 show_list(uint pixel, uint count) {
     uint first = pixel * MAX_HITS;
     uint listed = min(count, MAX_HITS);
     sort_list(first, listed);
-    if (push.show == SHOW_PICTURE || push.show == SHOW_NORMAL) {
+    if (SHOW == SHOW_PICTURE || SHOW == SHOW_NORMAL) {
         return vec4(heat(float(count) / 12.0), 1.0);
     }
     if (push.layer >= listed) {
-        return push.show == SHOW_HIT ? vec4(-1.0, -1.0, -1.0, count) : vec4(0.0, 0.0, 0.0, 1.0);
+        return SHOW == SHOW_HIT ? vec4(-1.0, -1.0, -1.0, count) : vec4(0.0, 0.0, 0.0, 1.0);
     }
     Hit hit = push.hits.at[first + push.layer];
-    if (push.show == SHOW_HIT) {
+    if (SHOW == SHOW_HIT) {
         return vec4(hit.instance, hit.triangle, hit.t, count);
     }
     return vec4(false_color(hit.triangle), 1.0);

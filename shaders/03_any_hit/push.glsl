@@ -1,7 +1,8 @@
-// What the shaders of this chapter share: the push constants and what `show` may be.
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
+#include "common/false_color.glsl"
 #include "common/random.glsl"
 
 // A surface that a ray crossed, in the list of all.
@@ -17,8 +18,6 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     DirectionalLight light;
-    uint show;
-    uint mode;
     float opacity;       // of the pieces, in the random modes
     uint samples;        // rays a pixel, in the random modes
     uint invocations;    // how often a decision is made, as if the device called so often
@@ -26,6 +25,7 @@ layout(push_constant, scalar) uniform Push {
     Hits hits;           // MAX_HITS for each pixel
 } push;
 
+layout(constant_id = 1) const uint MODE = 0;
 const uint MODE_OPAQUE = 0;
 const uint MODE_CUTOUT = 1;
 const uint MODE_RANDOM = 2;
@@ -41,16 +41,9 @@ struct Payload {
     uint count;          // of the hits that were listed
 };
 
+layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_NORMAL = 1;
 const uint SHOW_TRIANGLE = 2;
 const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
-
-// A colour that differs from number to number (the finaliser of a 32-bit murmur hash).
-vec3 false_color(uint number) {
-    number = (number ^ (number >> 16)) * 0x85ebca6bu;
-    number = (number ^ (number >> 13)) * 0xc2b2ae35u;
-    number ^= number >> 16;
-    return vec3(number & 0xffu, (number >> 8) & 0xffu, (number >> 16) & 0xffu) / 255.0;
-}

@@ -38,16 +38,16 @@ void main() {
         * reflect_light(base, material.specular, material.shininess, normal, view, light);
 
     payload.color = vec4(color, 1.0);
-    if (push.show == SHOW_NORMAL) {
+    if (SHOW == SHOW_NORMAL) {
         payload.color.rgb = 0.5 + 0.5 * normal;
     }
-    if (push.show == SHOW_TRIANGLE) {
+    if (SHOW == SHOW_TRIANGLE) {
         payload.color.rgb = false_color(triangle);
     }
-    if (push.show == SHOW_HIT) {
+    if (SHOW == SHOW_HIT) {
         payload.color = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
     }
-    if (push.show == SHOW_DIRECTION) {
+    if (SHOW == SHOW_DIRECTION) {
         payload.color = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
     }
 }

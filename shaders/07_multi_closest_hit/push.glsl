@@ -2,6 +2,7 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
+#include "common/false_color.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
@@ -31,11 +32,3 @@ const uint GROUP_LACQUER = 3;
 const vec3 GROUP_COLOR[4] = vec3[](
     vec3(0.80, 0.58, 0.12), vec3(0.75, 0.78, 0.82), vec3(0.42, 0.13, 0.05), vec3(0.03, 0.08, 0.22)
 );
-
-// A colour that differs from number to number (the finaliser of a 32-bit murmur hash).
-vec3 false_color(uint number) {
-    number = (number ^ (number >> 16)) * 0x85ebca6bu;
-    number = (number ^ (number >> 13)) * 0xc2b2ae35u;
-    number ^= number >> 16;
-    return vec3(number & 0xffu, (number >> 8) & 0xffu, (number >> 16) & 0xffu) / 255.0;
-}
