@@ -10,6 +10,7 @@ use anyhow::Result;
 use similar::{Algorithm, DiffOp, capture_diff_slices_by_key};
 
 use crate::anchor::is_mark;
+use crate::moved;
 use crate::page::{Kind, Page};
 use crate::project::{Chapter, Project};
 use crate::shader;
@@ -34,6 +35,8 @@ pub struct Line {
     pub text: String,
     /// Its text for comparisons, in which either chapter's name is the same.
     pub key: String,
+    /// Whether it only stands elsewhere in the other chapter.
+    pub moved: bool,
 }
 
 /// One of the two files compared.
@@ -68,12 +71,22 @@ impl FileDiff {
 
     /// How many lines are new.
     pub fn added(&self) -> usize {
-        self.changes().map(|op| op.new_range().len()).sum()
+        self.new_lines().filter(|line| !line.moved).count()
     }
 
     /// How many lines are gone.
     pub fn removed(&self) -> usize {
-        self.changes().map(|op| op.old_range().len()).sum()
+        let lines = self.changes().flat_map(|op| &self.old.lines[op.old_range()]);
+        lines.filter(|line| !line.moved).count()
+    }
+
+    /// How many lines stood elsewhere before.
+    pub fn moved(&self) -> usize {
+        self.new_lines().filter(|line| line.moved).count()
+    }
+
+    fn new_lines(&self) -> impl Iterator<Item = &Line> {
+        self.changes().flat_map(|op| &self.new.lines[op.new_range()])
     }
 
     /// The path of the newer file, or of the older where there is no newer.
@@ -154,7 +167,8 @@ pub fn chapters(
         };
         diffs.push(FileDiff::new("page", page(old)?, page(new)?));
     }
-    diffs.retain(|diff| diff.added() + diff.removed() > 0);
+    diffs.retain(|diff| diff.changes().next().is_some());
+    moved::mark(&mut diffs);
     Ok(diffs)
 }
 
@@ -200,7 +214,7 @@ impl Names {
             // No source holds this character.
             let alike = |key: String, name: &String| key.replace(name, "\u{1}");
             let key = self.0.iter().fold(text.trim_end().to_owned(), alike);
-            Line { number: index + 1, text: text.to_owned(), key }
+            Line { number: index + 1, text: text.to_owned(), key, moved: false }
         });
         Side { path: Some(path.to_owned()), lines: lines.collect() }
     }
@@ -233,6 +247,22 @@ mod tests {
         let found = diff("a\n// ANCHOR: x\nb\n", "a\nb\n// ANCHOR_END: x\nc\n");
         assert_eq!((found.added(), found.removed()), (1, 0));
         assert_eq!(found.new.lines[2].number, 4);
+    }
+
+    #[test]
+    fn what_only_stands_elsewhere_is_moved() {
+        let block = "let pipeline = builder()\n    .raygen(\"camera.rgen\")\n    .build(gpu)\n";
+        let mut diffs = [
+            diff(&format!("fn new() {{\n    {block}}}\nkeep\n"), "fn new() {\n}\nkeep\n"),
+            diff("a\n", &format!("a\nfn pipeline() {{\n{block}}}\n")),
+        ];
+        moved::mark(&mut diffs);
+        assert_eq!((diffs[0].added(), diffs[0].removed(), diffs[0].moved()), (0, 0, 0));
+        assert_eq!((diffs[1].added(), diffs[1].removed(), diffs[1].moved()), (2, 0, 3));
+        // A bracket or two are no block.
+        let mut diffs = [diff("}\n}\nx\n", "x\n"), diff("y\n", "y\n}\n}\n")];
+        moved::mark(&mut diffs);
+        assert_eq!((diffs[1].added(), diffs[1].moved()), (2, 0));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! - `list`: the chapters, what each teaches and builds on
 //! - `diff A B`: what one chapter changes in another: code, shaders and page
+//! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -20,6 +21,8 @@ mod fault;
 mod gallery;
 mod markdown;
 mod mention;
+mod moved;
+mod new;
 mod page;
 mod picture;
 mod placeholder;
@@ -29,6 +32,7 @@ mod reference;
 mod shader;
 mod show;
 mod stray;
+mod taught;
 mod test;
 
 use std::io::{ErrorKind, Write};
@@ -42,6 +46,7 @@ use common::usage::Usage;
 use book::Book;
 use diff::Parts;
 use fault::Fault;
+use new::New;
 use program::Programs;
 use project::{Chapter, Project};
 
@@ -87,6 +92,16 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 3)]
         context: usize,
     },
+    /// Make a chapter as a copy of another, such as `new 13 callable_shader --from 05`
+    New {
+        /// Its number
+        number: u32,
+        /// Its name
+        name: String,
+        /// The chapter it builds on: its number or name
+        #[arg(long)]
+        from: String,
+    },
     /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
     Sync {
         /// Also render the pictures of these names, or all that are out of date
@@ -109,7 +124,7 @@ fn parse() -> Result<Arguments> {
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line = line.unwrap_or("no command; there is list, diff, sync, check");
+        let line = line.unwrap_or("no command; there is list, diff, new, sync, check");
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }
@@ -129,6 +144,12 @@ fn run(arguments: &Arguments) -> Result<()> {
             }
             text.push_str(&show::statistics(&diffs));
             print(&text)
+        }
+        Command::New { number, name, from } => {
+            let new = New::plan(&project, *number, name, project.chapter(from)?)?;
+            let files = new.write()?;
+            let list: String = files.iter().map(|file| format!("{file}\n")).collect();
+            print(&format!("{list}\nNext:\n{}", new.next()))
         }
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {

@@ -14,6 +14,8 @@ const FILE: Style = AnsiColor::Cyan.on_default().effects(Effects::BOLD);
 const FAINT: Style = Style::new().effects(Effects::DIMMED);
 const OLD: Style = AnsiColor::Red.on_default();
 const NEW: Style = AnsiColor::Green.on_default();
+/// A line that only stands elsewhere in the other chapter.
+const MOVED: Style = AnsiColor::Blue.on_default();
 /// A word that changed within a line that did not change as a whole.
 const OLD_WORD: Style = AnsiColor::Red.on_default().effects(Effects::BOLD.insert(Effects::INVERT));
 const NEW_WORD: Style =
@@ -40,7 +42,12 @@ pub fn changes(old: &Chapter, new: &Chapter, diffs: &[FileDiff], context: usize)
     let names = [&*old.name, &*new.name];
     let mut out = String::new();
     for diff in diffs {
-        let _ = write!(out, "\n{}  {}\n", file_line(diff), counts(diff.added(), diff.removed()));
+        let _ = write!(
+            out,
+            "\n{}  {}\n",
+            file_line(diff),
+            counts(diff.added(), diff.removed(), diff.moved())
+        );
         for group in group_diff_ops(diff.ops.clone(), context) {
             let _ = writeln!(out, "{}", paint(FAINT, &format!("  ⋯ {}", place(diff, &group))));
             for op in &group {
@@ -58,14 +65,15 @@ pub fn statistics(diffs: &[FileDiff]) -> String {
     }
     let width = diffs.iter().map(|diff| diff.role.chars().count()).max().unwrap_or(0).max(5);
     let mut out = "\n".to_owned();
-    let (mut added, mut removed) = (0, 0);
+    let (mut added, mut removed, mut moved) = (0, 0, 0);
     for diff in diffs {
-        let counts = counts(diff.added(), diff.removed());
+        let counts = counts(diff.added(), diff.removed(), diff.moved());
         let _ = writeln!(out, "  {:width$}  {counts}  {}", diff.role, paint(FAINT, state(diff)));
         added += diff.added();
         removed += diff.removed();
+        moved += diff.moved();
     }
-    let _ = writeln!(out, "  {:width$}  {}", "total", counts(added, removed));
+    let _ = writeln!(out, "  {:width$}  {}", "total", counts(added, removed, moved));
     out
 }
 
@@ -77,9 +85,14 @@ fn state(diff: &FileDiff) -> &'static str {
     }
 }
 
-fn counts(added: usize, removed: usize) -> String {
+fn counts(added: usize, removed: usize, moved: usize) -> String {
     let [added, removed] = [format!("+{added}"), format!("−{removed}")];
-    format!("{} {}", paint(NEW, &format!("{added:>5}")), paint(OLD, &format!("{removed:>5}")))
+    let counts =
+        format!("{} {}", paint(NEW, &format!("{added:>5}")), paint(OLD, &format!("{removed:>5}")));
+    match moved {
+        0 => counts,
+        _ => format!("{counts} {}", paint(MOVED, &format!("{moved} moved"))),
+    }
 }
 
 fn file_line(diff: &FileDiff) -> String {
@@ -132,11 +145,15 @@ fn show_op(out: &mut String, diff: &FileDiff, op: &DiffOp, names: Names) {
         return;
     }
     let (old_texts, new_texts) = by_word(old, new, names);
+    let painted = |line: &Line, text: String| match line.moved {
+        true => paint(MOVED, &line.text),
+        false => text,
+    };
     for (line, text) in old.iter().zip(old_texts) {
-        let _ = writeln!(out, "{}", row(Some(line), None, &text));
+        let _ = writeln!(out, "{}", row(Some(line), None, &painted(line, text)));
     }
     for (line, text) in new.iter().zip(new_texts) {
-        let _ = writeln!(out, "{}", row(None, Some(line), &text));
+        let _ = writeln!(out, "{}", row(None, Some(line), &painted(line, text)));
     }
 }
 
@@ -144,6 +161,8 @@ fn row(old: Option<&Line>, new: Option<&Line>, text: &str) -> String {
     let number = |line: Option<&Line>| line.map_or(String::new(), |line| line.number.to_string());
     let numbers = format!("{:>4} {:>4}", number(old), number(new));
     let sign = match (old, new) {
+        (Some(line), None) if line.moved => paint(MOVED, "<"),
+        (None, Some(line)) if line.moved => paint(MOVED, ">"),
         (Some(_), None) => paint(OLD, "-"),
         (None, Some(_)) => paint(NEW, "+"),
         _ => " ".to_owned(),
@@ -226,7 +245,7 @@ mod tests {
     const NAMES: Names = ["02_basic", "03_any_hit"];
 
     fn line(text: &str) -> Line {
-        Line { number: 1, text: text.to_owned(), key: text.to_owned() }
+        Line { number: 1, text: text.to_owned(), key: text.to_owned(), moved: false }
     }
 
     #[test]

@@ -1,3 +1,5 @@
+// Taught by 02_basic, whose own file this is a copy of.
+//
 // A pinhole camera: the ray of a pixel.
 
 struct CameraBasis {

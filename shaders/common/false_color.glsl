@@ -1,3 +1,5 @@
+// Of no chapter: what views are painted with.
+//
 // A colour that differs from number to number (the finaliser of a 32-bit murmur hash).
 vec3 false_color(uint number) {
     number = (number ^ (number >> 16)) * 0x85ebca6bu;

@@ -1,3 +1,5 @@
+// Taught by 05_shadow_miss, whose own file this is a copy of.
+//
 // Lights: the way to them from a point, and what arrives there.
 
 const uint LIGHT_DIRECTIONAL = 0;

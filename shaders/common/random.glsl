@@ -1,3 +1,5 @@
+// Taught by 03_any_hit, whose own file this is a copy of.
+//
 // Random numbers without state: the same key gives the same number, whoever asks and when.
 
 // A hash of four numbers to four (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d).

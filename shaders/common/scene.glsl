@@ -1,3 +1,5 @@
+// Taught by 02_basic, whose own file this is a copy of.
+//
 // What a ray finds out about the triangle that it hit: addresses lead from the instance to its mesh.
 
 struct Vertex {

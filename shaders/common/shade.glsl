@@ -1,3 +1,5 @@
+// Taught by 02_basic, whose own file this is a copy of.
+//
 // How a surface looks under a sky and a distant light. The same in every chapter.
 
 struct DirectionalLight {

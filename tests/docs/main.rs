@@ -3,6 +3,7 @@
 mod author;
 mod fixture;
 mod named;
+mod new;
 mod stale;
 
 use std::fs;

@@ -171,3 +171,33 @@ fn exercises_without_number_or_check_are_named_with_file_and_line() {
     ];
     expect(&cases, &[]);
 }
+
+#[test]
+fn shared_shaders_say_who_teaches_them() {
+    const FILE: &str = "shaders/common/false_color.glsl";
+    let forms = "`// Of no chapter: …`";
+    let cases: [Case; 3] = [
+        (
+            "no word of it",
+            |f| f.replace(FILE, "// Of no chapter: what views are painted with.\n", "// Paint.\n"),
+            "shaders/common/false_color.glsl:1: it does not say which chapter teaches it",
+            forms,
+        ),
+        (
+            "a chapter that is not there",
+            |f| f.replace(FILE, "// Of no chapter: what", "// Taught by 07_paint; what"),
+            "shaders/common/false_color.glsl:1: there is no chapter '07_paint'",
+            forms,
+        ),
+        (
+            "a copy of nothing",
+            |f| {
+                let copy = "// Taught by 01_one, whose own file this is a copy of.";
+                f.replace(FILE, "// Of no chapter: what views are painted with.", copy);
+            },
+            "shaders/common/false_color.glsl:1: it is no copy of shaders/01_one/false_color.glsl",
+            "or say what differs",
+        ),
+    ];
+    expect(&cases, &[]);
+}

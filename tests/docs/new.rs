@@ -1,0 +1,55 @@
+//! A chapter made by the tool: whole but for its pictures and what is to be written.
+
+use crate::fixture::Fixture;
+
+#[test]
+fn a_new_chapter_lacks_only_what_its_author_must_make() {
+    let fixture = Fixture::new();
+    let outcome = fixture.run(&["new", "7", "soft_light", "--from", "02"]);
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+    for line in ["cargo run --bin 07_soft_light", "cargo chapters sync --pictures 07_soft_light"] {
+        assert!(outcome.out.lines().any(|told| told == line), "{}", outcome.out);
+    }
+    let main = fixture.read("samples/07_soft_light/main.rs");
+    assert!(main.starts_with("//! 07 · Soft light: "), "{main}");
+    assert!(fixture.read("tests/samples/main.rs").contains("mod soft_light;\n"));
+    // What is copied is what runs: the shaders differ in nothing.
+    let shader = |chapter: &str| fixture.read(&format!("shaders/{chapter}/shade.rchit"));
+    assert_eq!(shader("07_soft_light"), shader("02_basic"));
+    let found = fixture.check();
+    let known = [
+        "holds a place for something",
+        "has no golden",
+        "is missing",
+        "is not what",
+        "is not built",
+        "no test compares with it",
+        "the table of contents",
+        "the gallery",
+        "this diff",
+        "this table",
+        "this snippet",
+    ];
+    for line in found.lines() {
+        assert!(known.iter().any(|words| line.contains(words)), "unexpected: {line}");
+    }
+    let written = found.lines().filter(|line| line.contains("'WRITE' holds a place")).count();
+    assert!(written >= 5, "the page does not say where to write:\n{found}");
+}
+
+#[test]
+fn a_chapter_that_cannot_be_is_refused_and_nothing_is_written() {
+    let fixture = Fixture::new();
+    for (arguments, words) in [
+        (["2", "x", "--from", "01"], "has the number or the name of '02_basic'"),
+        (["9", "basic", "--from", "01"], "has the number or the name of '02_basic'"),
+        (["9", "../x", "--from", "01"], "use a to z, 0 to 9 and _"),
+        (["100", "x", "--from", "01"], "use 1 to 99"),
+        (["9", "x", "--from", "08"], "no chapter '08'"),
+    ] {
+        let outcome = fixture.run(&[&["new"], &arguments[..]].concat());
+        assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.err);
+        assert!(outcome.err.contains(words), "{arguments:?}: {}", outcome.err);
+    }
+    assert_eq!(fixture.check(), "");
+}
