@@ -110,7 +110,7 @@ fn a_comparison_is_plain_when_piped() {
     assert!(!outcome.out.contains("ANCHOR"), "{}", outcome.out);
     let shaders = fixture.run(&["diff", "01", "02", "--shaders"]).out;
     assert!(shaders.contains("shaders/01_one/one.rgen, gone"), "{shaders}");
-    let new = "shaders/common/camera.glsl, new: included by shaders/02_basic/push.glsl";
+    let new = "shaders/common/false_color.glsl, new: included by shaders/02_basic/push.glsl";
     assert!(shaders.contains(new), "{shaders}");
     assert_eq!(fixture.run(&["diff", "01", "01"]).out.lines().last(), Some("Nothing differs."));
 }

@@ -25,6 +25,7 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
         "is not built",
         "no test compares with it",
         "the table of contents",
+        "which does not exist",
         "the gallery",
         "this diff",
         "this table",
