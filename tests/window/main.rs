@@ -76,6 +76,27 @@ fn a_window_shows_the_picture_and_answers_mouse_and_keys() {
 }
 
 #[test]
+fn a_wide_window_has_the_panel_beside_the_picture() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--validate", "--size", "960x420"], &[]);
+    let beside = || Some(desk.picture().0).filter(|picture| picture.width() < 960);
+    let picture = wait("a picture beside the panel", beside);
+    let (width, height) = picture.dimensions();
+    assert!(width > 600 && height == 420, "{width}x{height}");
+    let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1);
+    let stands = |shown: &RgbImage| {
+        let at = |x, y| near(shown.get_pixel(960 - width + x, y), picture.get_pixel(x, y));
+        (0..height).all(|y| (0..width).all(|x| at(x, y)))
+    };
+    wait("the whole picture in the window", || stands(&desk.shown()).then_some(()));
+    desk.key(KEY_TAB);
+    let alone = || Some(desk.picture().0).filter(|picture| picture.dimensions() == (960, 420));
+    wait("a picture as wide as the window", alone);
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
+}
+
+#[test]
 fn a_window_can_be_resized_minimised_and_closed() {
     let _alone = alone();
     let desk = Desk::open("02_basic", &["--validate", "--size", "480x300"], &[]);
@@ -186,7 +207,8 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("no error", || (!tells_error(&desk)).then_some(()));
     // The value that was set outlives every reload.
     wait("the first picture", || same(&desk.picture().0, &first).then_some(()));
-    std::fs::write(&push, layout.replace("uint show", "uint less;\n    uint show"))
+    let light = "DirectionalLight light;";
+    std::fs::write(&push, layout.replace(light, &format!("uint less;\n    {light}")))
         .expect("an edit");
     wait("the refusal", || tells_error(&desk).then_some(()));
     desk.close();

@@ -10,6 +10,7 @@ use egui::{ClippedPrimitive, TextureId, TexturesDelta};
 use egui_ash_renderer::allocator::GpuAllocator;
 use egui_ash_renderer::{DynamicRendering, Options, RenderMode, Renderer};
 
+use super::style;
 use crate::gpu::{Acquired, Gpu, Image, Swapchain, transition};
 
 /// Draws a picture and a panel to images of one format.
@@ -84,14 +85,14 @@ impl Painter {
         Ok(())
     }
 
-    /// Draws `picture`, scaled to `extent`, and the panel to an image of the window.
+    /// Draws `picture`, scaled to `area`, at the right of a window of size `extent`, and the panel.
     ///
     /// # Errors
     /// If memory is short or the device fails.
     pub fn paint(
         &mut self,
         picture: &Image,
-        extent: vk::Extent2D,
+        (area, extent): (vk::Extent2D, vk::Extent2D),
         (triangles, scale): (&[ClippedPrimitive], f32),
         target: Acquired,
     ) -> Result<()> {
@@ -106,8 +107,11 @@ impl Painter {
         gpu.submit_between(target.before, target.after, |cmd| {
             canvas.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
             picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
-            let filter = if picture.extent == extent { vk::Filter::NEAREST } else { filter };
-            blit(gpu, cmd, picture, canvas, filter);
+            if area != extent {
+                clear(gpu, cmd, canvas);
+            }
+            let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
+            blit(gpu, cmd, picture, (canvas, area), filter);
             picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
             canvas.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::COLOR_ATTACHMENT_OPTIMAL);
             let attachments = [vk::RenderingAttachmentInfo::default()
@@ -157,16 +161,43 @@ const LAYER: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     layer_count: 1,
 };
 
-fn blit(gpu: &Gpu, cmd: vk::CommandBuffer, from: &Image, to: &Image, filter: vk::Filter) {
-    let corners = |extent: vk::Extent2D| {
-        let far = vk::Offset3D { x: extent.width as i32, y: extent.height as i32, z: 1 };
-        [vk::Offset3D::default(), far]
-    };
+/// Fills the canvas with what stands behind the panel, ready to be blitted to.
+fn clear(gpu: &Gpu, cmd: vk::CommandBuffer, canvas: &Image) {
+    let color = vk::ClearColorValue { float32: style::BEHIND };
+    let ranges = [vk::ImageSubresourceRange::default()
+        .aspect_mask(vk::ImageAspectFlags::COLOR)
+        .level_count(1)
+        .layer_count(1)];
+    let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+    let written = [vk::MemoryBarrier2::default()
+        .src_stage_mask(vk::PipelineStageFlags2::CLEAR)
+        .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+        .dst_stage_mask(vk::PipelineStageFlags2::BLIT)
+        .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
+    let before_the_blit = vk::DependencyInfo::default().memory_barriers(&written);
+    // SAFETY: the canvas is in the layout named and outlives the submission.
+    unsafe {
+        gpu.device.cmd_clear_color_image(cmd, canvas.handle, layout, &color, &ranges);
+        gpu.device.cmd_pipeline_barrier2(cmd, &before_the_blit);
+    }
+}
+
+/// Scales a picture to the right end of another of the same height.
+fn blit(
+    gpu: &Gpu,
+    cmd: vk::CommandBuffer,
+    from: &Image,
+    (to, area): (&Image, vk::Extent2D),
+    filter: vk::Filter,
+) {
+    let corner = |x: u32, y: u32, z| vk::Offset3D { x: x as i32, y: y as i32, z };
+    let vk::Extent2D { width, height } = from.extent;
+    let left = to.extent.width - area.width;
     let regions = [vk::ImageBlit2::default()
         .src_subresource(LAYER)
-        .src_offsets(corners(from.extent))
+        .src_offsets([corner(0, 0, 0), corner(width, height, 1)])
         .dst_subresource(LAYER)
-        .dst_offsets(corners(to.extent))];
+        .dst_offsets([corner(left, 0, 0), corner(to.extent.width, to.extent.height, 1)])];
     let info = vk::BlitImageInfo2::default()
         .src_image(from.handle)
         .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)

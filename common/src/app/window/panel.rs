@@ -17,6 +17,8 @@ use crate::app::Controls;
 /// The distance of the panel from the window's edges, and its width where no name is long.
 const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
+/// Windows at least so wide, in points, have the panel beside the picture; in others it lies over it.
+const WIDE: f32 = 900.0;
 /// How long a note stands.
 const MOMENT: Duration = Duration::from_secs(4);
 
@@ -52,6 +54,8 @@ pub struct Panel {
     shown: bool,
     help: bool,
     width: f32,
+    /// Where the sheet ended in the last frame, with the margin behind it, in points.
+    end: f32,
 }
 
 impl Panel {
@@ -65,7 +69,13 @@ impl Panel {
             shown: true,
             help: false,
             width: WIDTH,
+            end: 0.0,
         }
+    }
+
+    /// How many points of a window the panel has for itself: the picture stands to the right of them.
+    pub fn strip(&self, window: f32) -> f32 {
+        if self.shown && window >= WIDE { self.end } else { 0.0 }
     }
 
     /// Tells for a moment what was done, such as a file that was written.
@@ -82,7 +92,9 @@ impl Panel {
     ) -> Outcome {
         let context = ui.ctx().clone();
         let mut outcome = Outcome::default();
-        let picture = ui.interact(ui.max_rect(), Id::new("picture"), Sense::drag());
+        let mut place = ui.max_rect();
+        place.min.x += self.strip(place.width());
+        let picture = ui.interact(place, Id::new("picture"), Sense::drag());
         context.input(|input| self.navigation.drag(&picture, input));
         let mut held = context.input(|input| input.pointer.any_down());
         // While a number is being typed, keys are its digits.
@@ -148,6 +160,7 @@ impl Panel {
                 scroll.inner
             })
         });
+        self.end = shown.response.rect.right() + MARGIN;
         shown.inner.inner
     }
 

@@ -203,7 +203,8 @@ impl<S: Sample> Session<S> {
         if outcome.asked.contains(&Ask::Leave) {
             return Ok(false);
         }
-        let stepped = self.view.step(extent, outcome.hands)?;
+        let area = self.area(extent, drawing.pixels_per_point);
+        let stepped = self.view.step(area, outcome.hands)?;
         self.learn();
         if let Some(written) = self.view.take_picture(&self.facts.name) {
             self.panel.tell(match written {
@@ -217,6 +218,13 @@ impl<S: Sample> Session<S> {
         self.present(extent, drawing)?;
         self.plan(&stepped, panel_delay);
         Ok(!self.args.frames_given || self.presented < self.args.frames)
+    }
+
+    /// The part of a window that the picture has: all, or what lies to the right of the panel.
+    fn area(&self, window: vk::Extent2D, scale: f32) -> vk::Extent2D {
+        let strip = self.panel.strip(window.width as f32 / scale) * scale;
+        let width = window.width.saturating_sub(strip.ceil() as u32).max(1);
+        vk::Extent2D { width, ..window }
     }
 
     /// Shows the panel, and answers the keys that ask something of the window.
@@ -244,9 +252,10 @@ impl<S: Sample> Session<S> {
     fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<()> {
         let scale = drawing.pixels_per_point;
         let triangles = self.egui.egui_ctx().tessellate(drawing.shapes, scale);
+        let area = self.area(extent, scale);
         let mut shown = false;
         if let Some(target) = self.swapchain.acquire()? {
-            self.painter.paint(&self.view.image, extent, (&triangles, scale), target)?;
+            self.painter.paint(&self.view.image, (area, extent), (&triangles, scale), target)?;
             self.window.pre_present_notify();
             shown = self.swapchain.present(target)?;
             self.presented += 1;

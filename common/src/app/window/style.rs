@@ -5,6 +5,9 @@ use egui::{
     vec2,
 };
 
+/// What stands behind the panel where it has a strip of the window for itself: linear red, green, blue, alpha.
+pub const BEHIND: [f32; 4] = [0.009, 0.009, 0.011, 1.0];
+
 /// What is set, and what is measured.
 pub const ACCENT: Color32 = Color32::from_rgb(214, 168, 92);
 /// Text that explains.
