@@ -4,6 +4,9 @@
 //! picture of each rung's errors, and what they cost in time.
 
 mod cases;
+mod compiled;
+mod disagreement;
+mod drawing;
 mod families;
 mod geometry;
 mod hard;
@@ -21,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use common::app::{self, Args, check_validation};
+use common::app::{self, Args, check_validation, output};
 use common::files::{self, write_whole};
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, GpuOptions, RayTracingPipeline, Requirements,
@@ -30,6 +33,8 @@ use common::gpu::{
 use common::scene::{CameraBasis, input_usage};
 use common::usage::Usage;
 use common::{Controls, Frame, Sample, Setup};
+use disagreement::Disagreement;
+use drawing::Drawing;
 use glam::Vec3;
 use ladder::{Code, Primitive, Rung};
 use live::Live;
@@ -189,8 +194,8 @@ struct Lab {
     #[arg(long, value_name = "FILE.json", conflicts_with = "measure")]
     cases: Option<PathBuf>,
 
-    /// Measure errors and time of every rung on seeded random rays; write accuracy.md, .json, .svg and
-    /// .png to a folder
+    /// Measure errors and time of every rung on seeded random rays, and ask a GPU's compiler about each;
+    /// write accuracy.md, .json, plots as .svg and .png to a folder
     #[arg(long, value_name = "FOLDER")]
     measure: Option<PathBuf>,
 
@@ -213,13 +218,21 @@ fn primitive(name: &str) -> Result<Primitive, String> {
     found.ok_or_else(|| format!("there is {names}"))
 }
 
+/// What --measure writes.
+const FILES: [&str; 6] = [
+    "accuracy.json",
+    "accuracy.md",
+    "accuracy.svg",
+    "accuracy.png",
+    "accuracy_compiled.svg",
+    "accuracy_compiled.png",
+];
+
 /// Makes the folder, and finds out whether all files can be written, before a minute's work.
 fn prepare(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
-    ["json", "md", "svg", "png"]
-        .iter()
-        .try_for_each(|kind| files::check_writable(&folder.join("accuracy").with_extension(kind)))
+    FILES.iter().try_for_each(|file| files::check_writable(&folder.join(file)))
 }
 
 impl Lab {
@@ -238,6 +251,10 @@ impl Lab {
         }
         if args.scene.is_some() {
             let line = "--cases and --measure bring their own shapes and take no --scene";
+            return Err(Usage(line.to_owned()).into());
+        }
+        if args.compile_for.is_some() {
+            let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
             return Err(Usage(line.to_owned()).into());
         }
         if self.measure.is_some() && args.report.is_some() {
@@ -279,6 +296,13 @@ impl Lab {
         if let Some(plot) = Plot::new(&measured) {
             save("accuracy.svg", plot.svg()?.as_bytes())?;
             save("accuracy.png", &plot.png()?)?;
+        }
+        if let Some(plot) = Disagreement::new(&measured) {
+            save("accuracy_compiled.svg", plot.svg()?.as_bytes())?;
+            save("accuracy_compiled.png", &plot.png()?)?;
+        }
+        if let Some(why) = &measured.no_compiler {
+            output::print(&format!("no estimates of a GPU's compiler: {why}\n"))?;
         }
         Ok(())
     }

@@ -6,10 +6,11 @@ use std::time::SystemTime;
 use anyhow::Result;
 use common::app::Progress;
 use common::app::compare::{self, Ratio};
-use common::gpu::Gpu;
+use common::gpu::{Blueprint, Gpu};
 use reference::ulp::ulp_error;
 use serde::Serialize;
 
+use crate::compiled::{self, Compiled};
 use crate::families::Family;
 use crate::geometry::{self, Form};
 use crate::judge::Hit;
@@ -29,6 +30,11 @@ pub struct Measurement {
     pub rays: usize,
     /// Rounds of each timing; 0 for errors alone.
     pub rounds: u32,
+    /// The GPU compiler of the estimates, with its version.
+    pub compiler: Option<String>,
+    /// Why there are no estimates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_compiler: Option<String>,
     pub rungs: Vec<Measured>,
     /// The sphere beside its meshes, if spheres were asked for.
     pub forms: Vec<Form>,
@@ -51,6 +57,11 @@ pub struct Measured {
     pub time: Option<Time>,
     /// Of every family, where a rung takes as many steps as a ray is hard.
     pub marches: Vec<March>,
+    /// What a GPU's compiler makes of it, asked directly: one program for each family.
+    pub compiled_for: Vec<Compiled>,
+    /// What the direct pipeline is made from.
+    #[serde(skip)]
+    pub blueprint: Option<Blueprint>,
 }
 
 /// How wrong a rung is on a family.
@@ -137,6 +148,9 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
         }
         rungs.extend(measured);
     }
+    let no_compiler = compiled::compile(&mut rungs).err().map(|why| format!("{why:#}"));
+    let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
+    let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
     let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);
     let forms = if has_spheres { geometry::measure(gpu, rounds)? } else { Vec::new() };
     Ok(Measurement {
@@ -146,6 +160,8 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
         fused: probe.fused,
         rays,
         rounds,
+        compiler,
+        no_compiler,
         rungs,
         forms,
         stages: gpu.statistics().stages.into_iter().collect(),
@@ -169,6 +185,8 @@ fn errors(
         errors: Vec::new(),
         time: None,
         marches: Vec::new(),
+        compiled_for: Vec::new(),
+        blueprint: None,
     };
     if measured.unavailable.is_some() {
         return Ok(measured);
@@ -182,6 +200,9 @@ fn errors(
             continue;
         }
         let instrument = probe.instrument(primitive, rung, way)?;
+        if way == Way::Direct {
+            measured.blueprint = Some(instrument.blueprint());
+        }
         for (family, batch) in families.iter().zip(batches) {
             if way == Way::Direct || family.is_traced {
                 let (answers, _) = probe.ask(&instrument, batch, 1)?;

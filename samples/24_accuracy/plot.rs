@@ -1,10 +1,9 @@
-//! Time against error, one panel a primitive: SVG for pages, PNG for talks.
+//! Time against error, one panel a primitive.
 
-use anyhow::{Context, Result, anyhow};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
 
+use crate::drawing::{self, BLUE, Drawing, Drawn, GRID, ORANGE, font};
 use crate::ladder::Primitive;
 use crate::measure::{Errors, Measured, Measurement};
 
@@ -12,11 +11,8 @@ const PANEL: (u32, u32) = (400, 360);
 const COLUMNS: usize = 4;
 /// Pixels above the panels.
 const HEAD: u32 = 92;
-// Colours that the colour-blind can tell apart (Okabe and Ito 2008).
-const FRONT: RGBColor = RGBColor(0, 114, 178);
-const BESIDE: RGBColor = RGBColor(230, 159, 0);
-const GRID: RGBColor = RGBColor(228, 228, 228);
-const TEXT: RGBColor = RGBColor(40, 40, 40);
+const FRONT: RGBColor = BLUE;
+const BESIDE: RGBColor = ORANGE;
 
 /// The panels of a measurement.
 pub struct Plot<'a> {
@@ -78,69 +74,28 @@ impl<'a> Plot<'a> {
         );
         (!panels.is_empty()).then_some(Self { title, panels })
     }
+}
 
-    /// In pixels, `scale` to each unit of the drawing.
-    fn size(&self, scale: u32) -> (u32, u32) {
+impl Drawing for Plot<'_> {
+    fn size(&self) -> (u32, u32) {
         let rows = self.panels.len().div_ceil(COLUMNS) as u32;
-        (PANEL.0 * COLUMNS as u32 * scale, (PANEL.1 * rows + HEAD) * scale)
+        (PANEL.0 * COLUMNS as u32, PANEL.1 * rows + HEAD)
     }
 
-    /// The plot as SVG.
-    ///
-    /// # Errors
-    /// If it cannot be drawn.
-    pub fn svg(&self) -> Result<String> {
-        let mut text = String::new();
-        self.draw(&SVGBackend::with_string(&mut text, self.size(1)).into_drawing_area(), 1)?;
-        Ok(text)
-    }
-
-    /// The plot as PNG, twice as large.
-    ///
-    /// # Errors
-    /// If it cannot be drawn or encoded.
-    pub fn png(&self) -> Result<Vec<u8>> {
-        let scale = 2;
-        let (width, height) = self.size(scale);
-        let mut pixels = vec![0; 3 * width as usize * height as usize];
-        let canvas = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-        self.draw(&canvas, scale)?;
-        drop(canvas);
-        let image =
-            image::RgbImage::from_raw(width, height, pixels).context("the size is right")?;
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        image.write_to(&mut bytes, image::ImageFormat::Png)?;
-        Ok(bytes.into_inner())
-    }
-
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Result<()> {
-        register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-            .map_err(|_| anyhow!("the plot's font cannot be read"))?;
-        let font = |size: u32| ("sans-serif", size * scale).into_font().color(&TEXT);
-        let at = |y: u32| (16 * scale as i32, (y * scale) as i32);
-        let drawn = || -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-            area.fill(&WHITE)?;
-            let (head, body) = area.split_vertically(HEAD * scale);
-            head.draw_text(&self.title, &font(20), at(10))?;
-            head.draw_text(
-                "Right is slower, up is worse. A dot: 99 of 100 rays of the home family are at least as good. \
-                 The line ends where they are on the hardest family.",
-                &font(15),
-                at(38),
-            )?;
-            head.draw_text(
-                "Blue: no other rung is both faster and better at home (Pareto front). At the top, more than \
-                 one ray in a hundred is a false hit or a false miss.",
-                &font(15),
-                at(60),
-            )?;
-            let rows = self.panels.len().div_ceil(COLUMNS);
-            for (panel, area) in self.panels.iter().zip(body.split_evenly((rows, COLUMNS))) {
-                panel.draw(&area, scale)?;
-            }
-            area.present()
-        };
-        drawn().map_err(|error| anyhow!("cannot draw the plot: {error}"))
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn<B> {
+        let (head, body) = area.split_vertically(HEAD * scale);
+        let lines = [
+            "Right is slower, up is worse. A dot: 99 of 100 rays of the home family are at least as good. \
+             The line ends where they are on the hardest family.",
+            "Blue: no other rung is both faster and better at home (Pareto front). At the top, more than \
+             one ray in a hundred is a false hit or a false miss.",
+        ];
+        drawing::head(&head, scale, &self.title, &lines)?;
+        let rows = self.panels.len().div_ceil(COLUMNS);
+        for (panel, area) in self.panels.iter().zip(body.split_evenly((rows, COLUMNS))) {
+            panel.draw(&area, scale)?;
+        }
+        Ok(())
     }
 }
 
@@ -159,12 +114,8 @@ impl Panel<'_> {
         }
     }
 
-    fn draw<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, Shift>,
-        scale: u32,
-    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        let font = |size: u32| ("sans-serif", size * scale).into_font().color(&TEXT);
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn<B> {
+        let font = |size: u32| font(size * scale);
         let slowest = self.points.iter().map(|point| point.time).fold(2.0, f64::max);
         let times = (0.85..slowest * 1.4).log_scale().with_key_points(TICKS.to_vec());
         let ticks = vec![1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, WRONG];
@@ -213,36 +164,13 @@ impl Panel<'_> {
                 chart.draw_series([end])?;
             }
         }
-        for (point, (x, y)) in self.points.iter().zip(self.label_offsets(slowest)) {
-            let (x, y) = (x * scale as i32, y * scale as i32);
-            let label = EmptyElement::at((point.time, point.home))
-                + PathElement::new(vec![(0, 0), (x, y)], TEXT.mix(0.25).stroke_width(scale))
-                + Text::new(point.row.rung, (x + 2, y - 12 * scale as i32), font(16));
-            chart.draw_series([label])?;
-        }
-        Ok(())
-    }
-
-    /// Where each label goes beside its dot: right and a little up, or farther where another label is.
-    fn label_offsets(&self, slowest: f64) -> Vec<(i32, i32)> {
         let (width, height) = (f64::from(PANEL.0 - 90), f64::from(PANEL.1 - 100));
         let across = width / (slowest * 1.4 / 0.85).ln();
         let up = height / (WRONG * 3.0 / 0.12).ln();
-        let mut taken: Vec<(f64, f64)> = Vec::new();
-        let mut offsets = Vec::new();
-        for point in &self.points {
-            let (x, y) = (across * point.time.ln(), -up * point.home.ln());
-            let free = |(dx, dy): (i32, i32)| {
-                taken.iter().all(|&(a, b)| {
-                    (a - x - f64::from(dx)).abs() >= 30.0 || (b - y - f64::from(dy)).abs() >= 16.0
-                })
-            };
-            let tries =
-                (0..24).flat_map(|step| [(10, -6 - 4 * step), (10 + 4 * step, -6 - 2 * step)]);
-            let place = tries.clone().find(|&place| free(place)).unwrap_or((10, -6));
-            taken.push((x + f64::from(place.0), y + f64::from(place.1)));
-            offsets.push(place);
+        let dots = self.points.iter().map(|p| (across * p.time.ln(), -up * p.home.ln()));
+        for (point, offset) in self.points.iter().zip(drawing::label_offsets(dots)) {
+            drawing::label(&mut chart, scale, (point.time, point.home), point.row.rung, offset)?;
         }
-        offsets
+        Ok(())
     }
 }

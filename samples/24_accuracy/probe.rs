@@ -3,8 +3,8 @@
 use anyhow::{Result, ensure};
 use ash::vk;
 use common::gpu::{
-    AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
-    HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
+    AccelerationStructure, Address, Binding, Blueprint, Buffer, BuildOptions, Descriptor, Geometry,
+    Gpu, HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
 };
 use common::scene::{build_top, input_usage};
 use glam::{DVec3, Vec3};
@@ -273,12 +273,29 @@ fn up(v: DVec3) -> Vec3 {
     -down(-v)
 }
 
+/// The specialization constant that says whether `fma()` rounds once.
+const FUSED: u32 = 1;
+
 /// A rung made ready to be asked one way.
 pub struct Instrument {
     pub way: Way,
     device: bool,
     pipeline: RayTracingPipeline,
     sbt: ShaderBindingTable,
+}
+
+impl Instrument {
+    /// What the pipeline is made from, for a GPU whose `fma()` rounds once, as AMD's does: it is what the
+    /// laboratory would make on that GPU, where it would have asked.
+    pub fn blueprint(&self) -> Blueprint {
+        let mut blueprint = (*self.pipeline.blueprint).clone();
+        for (constant, value) in &mut blueprint.constants {
+            if *constant == FUSED {
+                *value = 1;
+            }
+        }
+        blueprint
+    }
 }
 
 /// The laboratory on one device.
@@ -320,7 +337,7 @@ impl Probe {
             .raygen(raygen)
             .define("PRIMITIVE", primitive as u32)
             .constant(0, rung)
-            .constant(1, self.fused.into())
+            .constant(FUSED, self.fused.into())
             .push_constants::<Push>()
     }
 

@@ -2,13 +2,15 @@
 
 use std::fmt::Write as _;
 
+use crate::compiled;
 use crate::geometry::Form;
 use crate::hard::short;
 use crate::ladder::Primitive;
 use crate::measure::{Errors, Measured, Measurement, Time};
 
 impl Measurement {
-    /// Two Markdown tables a primitive: time beside the home family's error, and every family.
+    /// Markdown tables of each primitive: time beside the home family's error, a compiler's estimates, and
+    /// every family.
     pub fn markdown(&self) -> String {
         let Self { device, driver, date, rays, .. } = self;
         let mut text = format!("{device} · {driver} · {date} · {rays} rays a family");
@@ -16,6 +18,18 @@ impl Measurement {
             let _ = write!(text, " · {} rounds", self.rounds);
         }
         text += "\n";
+        match (&self.compiler, &self.no_compiler) {
+            (Some(compiler), _) => {
+                let _ = writeln!(
+                    text,
+                    "\nEstimates, which are no times: {compiler} for navi21, navi31, gfx1201."
+                );
+            }
+            (None, Some(why)) => {
+                let _ = writeln!(text, "\nNo estimates: {why}.");
+            }
+            (None, None) => {}
+        }
         let mut rungs = self.rungs.as_slice();
         while let Some(first) = rungs.first() {
             let count = rungs.iter().take_while(|row| row.primitive == first.primitive).count();
@@ -26,6 +40,7 @@ impl Measurement {
             let _ = write!(text, "\n### {name}\n\n");
             text += &times(ladder);
             text += "\n";
+            text += &compiled::table(ladder);
             text += &marches(ladder);
             let is_about_t = first.primitive != Primitive::SecondaryOrigin.name();
             text += &if is_about_t { errors(ladder) } else { departures(ladder) };
@@ -34,6 +49,7 @@ impl Measurement {
             text += "\n### The price of geometry\n\n";
             text += &forms(&self.forms);
         }
+        text += &self.disagreements();
         text
     }
 }

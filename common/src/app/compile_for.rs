@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::vk;
 use clap::ValueEnum;
 use serde::Serialize;
 
 use super::output;
-use crate::gpu::null::{self, Compiled};
+use crate::gpu::null::{self, Answer};
 use crate::gpu::{Blueprint, Executable, Requirements};
 
 /// A family of GPUs that RADV compiles ray tracing pipelines for.
@@ -50,7 +50,7 @@ impl Family {
 pub struct CompiledFor {
     /// RADV's name for the family.
     pub family: &'static str,
-    /// The compiler and its version, on which the figures depend.
+    /// The driver whose compiler it is, with its version, on which the figures depend.
     pub compiler: String,
     /// The pipeline, where the sample has several: its name and its number.
     pub pipeline: String,
@@ -78,7 +78,7 @@ pub struct CompiledFor {
     pub inverse_throughput: u64,
 }
 
-/// What the compiler of each family makes of these pipelines.
+/// What the compiler of each family makes of these pipelines, each counted once: the rows of [`table`].
 ///
 /// # Errors
 /// If there is no RADV, with what to install, or if it refuses a pipeline.
@@ -89,21 +89,38 @@ pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<
             different.push(blueprint);
         }
     }
+    let mut pipelines = programs(family, &different)?;
+    if pipelines.len() > 1 {
+        for (number, programs) in pipelines.iter_mut().enumerate() {
+            for program in programs {
+                program.pipeline += &format!(" ({})", number + 1);
+            }
+        }
+    }
+    let mut all = pipelines.concat();
+    let place = |row: &CompiledFor| family.names().iter().position(|name| *name == row.family);
+    all.sort_by_key(place);
+    Ok(all)
+}
+
+/// What the compiler of each family makes of each pipeline: the programs of the first, of the second, and
+/// so on. However many pipelines there are, each family has one child process.
+///
+/// # Errors
+/// As [`compile_for`].
+pub fn programs(family: Family, blueprints: &[&Blueprint]) -> Result<Vec<Vec<CompiledFor>>> {
     let manifest = manifest()?;
-    let question = serde_json::to_vec(&different)?;
-    let mut all = Vec::new();
+    let question = serde_json::to_vec(blueprints)?;
+    let mut all = vec![Vec::new(); blueprints.len()];
     for &family in family.names() {
-        let Compiled { driver, pipelines } = ask(family, &manifest, &question)
+        let answer = ask(family, &manifest, &question)
             .with_context(|| format!("cannot compile for {family}"))?;
-        for (number, (programs, blueprint)) in pipelines.iter().zip(&different).enumerate() {
-            let pipeline = match different.len() {
-                1 => blueprint.name.clone(),
-                _ => format!("{} ({})", blueprint.name, number + 1),
+        ensure!(answer.pipelines.len() == all.len(), "{family} has answered about too few");
+        for ((rows, programs), blueprint) in all.iter_mut().zip(answer.pipelines).zip(blueprints) {
+            let row = |program| {
+                CompiledFor::new(family, &answer.compiler, blueprint.name.clone(), program)
             };
-            let told = programs
-                .iter()
-                .map(|program| CompiledFor::new(family, &driver, &pipeline, program));
-            all.extend(told);
+            rows.extend(programs.iter().map(row));
         }
     }
     Ok(all)
@@ -120,7 +137,7 @@ pub fn answer(requirements: &Requirements) -> Result<()> {
     output::print(&serde_json::to_string(&answer)?)
 }
 
-fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Compiled> {
+fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
     let this = std::env::current_exe().context("cannot tell where this program lies")?;
     let mut child = Command::new(this)
         .arg("--answer-compile-for")
@@ -149,9 +166,14 @@ fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Compiled> {
 
 /// RADV's manifest, by which the loader finds it.
 fn manifest() -> Result<PathBuf> {
+    // Where the loader itself looks: the variable takes the place of the usual folders.
     let shared = std::env::var("XDG_DATA_DIRS").unwrap_or_default();
-    let shared = shared.split(':').filter(|folder| !folder.is_empty());
-    let folders = ["/etc", "/usr/local/share", "/usr/share"].into_iter().chain(shared);
+    let shared = if shared.is_empty() { "/usr/local/share:/usr/share" } else { &shared };
+    manifest_in(["/etc"].into_iter().chain(shared.split(':').filter(|folder| !folder.is_empty())))
+}
+
+/// RADV's manifest in one of these folders of configuration and shared data.
+fn manifest_in<'a>(folders: impl Iterator<Item = &'a str>) -> Result<PathBuf> {
     let mut manifests: Vec<PathBuf> = folders
         .filter_map(|folder| Path::new(folder).join("vulkan/icd.d").read_dir().ok())
         .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
@@ -162,19 +184,19 @@ fn manifest() -> Result<PathBuf> {
     let named = |wanted: &str| manifests.iter().find(|path| path.ends_with(wanted)).cloned();
     named(&fit).or_else(|| named("radeon_icd.json")).ok_or_else(|| {
         anyhow!(
-            "--compile-for needs Mesa's Vulkan driver for AMD (RADV), which is not installed: install \
-             mesa-vulkan-drivers on Debian, Ubuntu or Fedora, vulkan-radeon on Arch"
+            "figures of a GPU's compiler need Mesa's Vulkan driver for AMD (RADV), which is not installed: \
+             install mesa-vulkan-drivers on Debian, Ubuntu or Fedora, vulkan-radeon on Arch"
         )
     })
 }
 
 impl CompiledFor {
-    fn new(family: &'static str, compiler: &str, pipeline: &str, program: &Executable) -> Self {
+    fn new(family: &'static str, compiler: &str, pipeline: String, program: &Executable) -> Self {
         let figure = |name: &str| program.figure(name).unwrap_or_default() as u64;
         Self {
             family,
             compiler: compiler.to_owned(),
-            pipeline: pipeline.to_owned(),
+            pipeline,
             executable: program.name.clone(),
             stage: stages(program.stages),
             registers: figure("VGPRs"),
@@ -231,5 +253,37 @@ pub fn table(rows: &[CompiledFor]) -> String {
             row.inverse_throughput
         );
     }
-    text + "\nEstimates of Mesa's compiler for AMD GPUs: comparable between programs of one shape, no times.\n"
+    let compiler = rows.first().map_or("", |row| &row.compiler);
+    let _ = writeln!(
+        text,
+        "\nEstimates of a compiler for AMD GPUs, {compiler}: comparable between programs of one shape, no \
+         times."
+    );
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_manifest_is_found_where_a_loader_looks_and_a_missing_one_says_what_to_install() {
+        let folder = std::env::temp_dir().join(format!("manifests-{}", std::process::id()));
+        let place = folder.join("vulkan/icd.d");
+        std::fs::create_dir_all(&place).unwrap();
+        let shared = || ["/nonexistent", folder.to_str().unwrap()].into_iter();
+        let write = |name: &str| std::fs::write(place.join(name), "{}").unwrap();
+        let found = || manifest_in(shared()).map(|path| path.file_name().unwrap().to_owned());
+        write("lvp_icd.json");
+        let refused = found().unwrap_err().to_string();
+        assert!(refused.contains("install mesa-vulkan-drivers"), "{refused}");
+        write("radeon_icd.json");
+        assert_eq!(found().unwrap(), "radeon_icd.json");
+        // Of several architectures, this program's own.
+        let own = format!("radeon_icd.{}.json", std::env::consts::ARCH);
+        write("radeon_icd.i686.json");
+        write(&own);
+        assert_eq!(found().unwrap(), *own);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 }

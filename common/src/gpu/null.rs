@@ -12,11 +12,11 @@ use super::context::create_instance;
 use super::requirements::Requirements;
 use super::{Executable, TextureTable, device, load};
 
-/// What a compiler makes of pipelines.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Compiled {
-    /// The driver and its version, in its maker's words: figures depend on it.
-    pub driver: String,
+/// What a null device's driver has to say.
+#[derive(Serialize, Deserialize)]
+pub struct Answer {
+    /// The driver's name and version.
+    pub compiler: String,
     /// The programs of each pipeline.
     pub pipelines: Vec<Vec<Executable>>,
 }
@@ -28,7 +28,7 @@ pub struct Compiled {
 ///
 /// # Errors
 /// If there is no such device, if it lacks what the sample needs, or if its compiler refuses.
-pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<Compiled> {
+pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<Answer> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let entry = load()?;
     let (instance, _) = create_instance(&entry, None, None)?;
@@ -46,7 +46,7 @@ pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<
             .collect();
         // SAFETY: nothing made from the device is left.
         unsafe { device.destroy_device(None) };
-        Ok(Compiled { driver: null.driver, pipelines: pipelines? })
+        Ok(Answer { compiler: null.driver, pipelines: pipelines? })
     })();
     // SAFETY: nothing made from the instance is left.
     unsafe { instance.destroy_instance(None) };

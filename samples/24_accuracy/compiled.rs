@@ -1,0 +1,121 @@
+//! What a GPU's own compiler makes of each rung: estimates of Mesa's RADV, for GPUs that are not there.
+
+use std::fmt::Write as _;
+
+use anyhow::{Result, ensure};
+use common::app::compile_for::{CompiledFor, Family, programs};
+use common::gpu::Blueprint;
+use serde::Serialize;
+
+use crate::measure::{Measured, Measurement};
+
+/// The family that a single figure is of.
+pub const SHOWN: &str = "navi31";
+
+/// Clock and compiler disagree by more than this, or it is not worth a word.
+pub const DISAGREE: f64 = 1.5;
+
+/// A rung's direct pipeline, which is one program, on one family.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compiled {
+    #[serde(flatten)]
+    pub program: CompiledFor,
+    /// Its inverse throughput over the least of the ladder, on the same family.
+    pub ratio: f64,
+}
+
+/// Has the direct pipeline of every rung compiled for every family.
+///
+/// # Errors
+/// If there is no such compiler, with what to install, or if it refuses a rung.
+pub fn compile(rungs: &mut [Measured]) -> Result<()> {
+    let mut rows: Vec<&mut Measured> =
+        rungs.iter_mut().filter(|row| row.blueprint.is_some()).collect();
+    let blueprints: Vec<&Blueprint> =
+        rows.iter().filter_map(|row| row.blueprint.as_ref()).collect();
+    let pipelines = programs(Family::All, &blueprints)?;
+    for (row, programs) in rows.iter_mut().zip(pipelines) {
+        for program in programs {
+            let known = row.compiled_for.iter().any(|known| known.program.family == program.family);
+            ensure!(!known, "{} is more than one program on {}", row.rung, program.family);
+            row.compiled_for.push(Compiled { program, ratio: 0.0 });
+        }
+    }
+    let cost = |compiled: &Compiled| compiled.program.inverse_throughput.max(1) as f64;
+    for ladder in rungs.chunk_by_mut(|a, b| a.primitive == b.primitive) {
+        let families = ladder.iter().flat_map(|row| &row.compiled_for);
+        let all: Vec<_> = families.map(|c| (c.program.family, cost(c))).collect();
+        for compiled in ladder.iter_mut().flat_map(|row| &mut row.compiled_for) {
+            let same = all.iter().filter(|(family, _)| *family == compiled.program.family);
+            let least = same.map(|&(_, cost)| cost).fold(f64::INFINITY, f64::min);
+            compiled.ratio = cost(compiled) / least;
+        }
+    }
+    Ok(())
+}
+
+impl Measured {
+    /// Estimated and measured cost over the cheapest rung's, and how many times more the estimate is:
+    /// `None` without a time, or without a compiler.
+    pub fn both(&self) -> Option<(f64, f64, f64)> {
+        let shown = self.compiled_for.iter().find(|c| c.program.family == SHOWN)?;
+        let time = self.time?.ratio.median;
+        Some((shown.ratio, time, shown.ratio / time))
+    }
+}
+
+/// A ladder's figures, of the families in their order.
+pub fn table(ladder: &[Measured]) -> String {
+    let Some(known) = ladder.iter().find(|row| !row.compiled_for.is_empty()) else {
+        return String::new();
+    };
+    let families: Vec<_> = known.compiled_for.iter().map(|c| c.program.family).collect();
+    let families = families.join(", ");
+    let mut text = format!(
+        "| rung | time / cheapest, measured here | inverse throughput / cheapest, estimated: {families} \
+         | inverse throughput | instructions | registers |\n|---|--:|--:|--:|--:|--:|\n"
+    );
+    for row in ladder.iter().filter(|row| !row.compiled_for.is_empty()) {
+        let all = |figure: &dyn Fn(&Compiled) -> String| {
+            row.compiled_for.iter().map(figure).collect::<Vec<_>>().join(", ")
+        };
+        let time = row.time.map_or(String::new(), |time| format!("{:.2}", time.ratio.median));
+        let ratios = all(&|c| format!("{:.2}", c.ratio));
+        let throughput = all(&|c| c.program.inverse_throughput.to_string());
+        let instructions = all(&|c| c.program.instructions.to_string());
+        let registers = all(&|c| c.program.registers.to_string());
+        let _ = writeln!(
+            text,
+            "| {} {} | {time} | {ratios} | {throughput} | {instructions} | {registers} |",
+            row.rung, row.name
+        );
+    }
+    text + "\n"
+}
+
+impl Measurement {
+    /// The rungs of which clock and compiler say different things, the farthest apart first.
+    pub fn disagreements(&self) -> String {
+        let mut rows: Vec<_> =
+            self.rungs.iter().filter_map(|row| Some((row, row.both()?))).collect();
+        let apart = |factor: f64| factor.max(1.0 / factor);
+        rows.retain(|(_, (.., factor))| apart(*factor) > DISAGREE);
+        rows.sort_by(|(_, a), (_, b)| apart(b.2).total_cmp(&apart(a.2)));
+        if rows.is_empty() {
+            return String::new();
+        }
+        let mut text = format!(
+            "\n### Where clock and compiler disagree\n\nBy more than {DISAGREE} times, on {SHOWN}.\n\n\
+             | rung | of | time / cheapest, measured here | inverse throughput / cheapest, estimated \
+             | estimated / measured |\n|---|---|--:|--:|--:|\n"
+        );
+        for (row, (estimated, time, factor)) in rows {
+            let _ = writeln!(
+                text,
+                "| {} {} | {} | {time:.2} | {estimated:.2} | {factor:.2} |",
+                row.rung, row.name, row.primitive
+            );
+        }
+        text
+    }
+}
