@@ -2,12 +2,16 @@
 
 use std::fmt::Write as _;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail};
+use common::app::Progress;
 use common::app::compile_for::{CompiledFor, Family, programs};
 use common::gpu::Blueprint;
 use serde::Serialize;
 
 use crate::measure::{Measured, Measurement};
+
+/// The families, and so the children in which they are compiled.
+pub const FAMILIES: [Family; 3] = [Family::Navi21, Family::Navi31, Family::Gfx1201];
 
 /// The family that a single figure is of.
 pub const SHOWN: &str = "navi31";
@@ -28,16 +32,22 @@ pub struct Compiled {
 ///
 /// # Errors
 /// If there is no such compiler, with what to install, or if it refuses a rung.
-pub fn compile(rungs: &mut [Measured]) -> Result<()> {
+pub fn compile(rungs: &mut [Measured], progress: &Progress) -> Result<()> {
     let mut rows: Vec<&mut Measured> =
         rungs.iter_mut().filter(|row| row.blueprint.is_some()).collect();
     let blueprints: Vec<&Blueprint> =
         rows.iter().filter_map(|row| row.blueprint.as_ref()).collect();
-    let pipelines = programs(Family::All, &blueprints)?;
-    for (row, programs) in rows.iter_mut().zip(pipelines) {
-        for program in programs {
-            let known = row.compiled_for.iter().any(|known| known.program.family == program.family);
-            ensure!(!known, "{} is more than one program on {}", row.rung, program.family);
+    let mut pipelines = Vec::new();
+    for family in FAMILIES {
+        pipelines.push(programs(family, &blueprints)?);
+        progress.step();
+    }
+    for programs in pipelines {
+        for (row, mut programs) in rows.iter_mut().zip(programs) {
+            let (program, others) = (programs.pop(), programs.len());
+            let (Some(program), 0) = (program, others) else {
+                bail!("{} is made into {} programs", row.rung, others + 1);
+            };
             row.compiled_for.push(Compiled { program, ratio: 0.0 });
         }
     }

@@ -12,7 +12,7 @@ const COLUMNS: usize = 5;
 /// Pixels above the panels.
 const HEAD: u32 = 114;
 /// Where both axes have their labels.
-const TICKS: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+const TICKS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
 /// The panels of a measurement.
 pub struct Disagreement<'a> {
@@ -51,8 +51,9 @@ impl<'a> Disagreement<'a> {
             }
         }
         let Measurement { device, date, .. } = measurement;
-        let title =
-            format!("What a clock says here, and what a GPU's compiler · {device} · {date}");
+        let title = format!(
+            "Time measured here against throughput estimated for AMD GPUs · {device} · {date}"
+        );
         let compiler = measurement.compiler.as_deref()?;
         (!panels.is_empty()).then_some(Self { title, compiler, panels })
     }
@@ -98,7 +99,9 @@ impl Panel<'_> {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn<B> {
         let font = |size: u32| font(size * scale);
         let (least, most) = (0.8, self.most());
-        let axis = || (least..most).log_scale().with_key_points(TICKS.to_vec());
+        // A tick beyond the axis would be drawn all the same.
+        let ticks: Vec<f64> = TICKS.into_iter().filter(|&tick| tick < most).collect();
+        let axis = || (least..most).log_scale().with_key_points(ticks.clone());
         let mut chart = ChartBuilder::on(area)
             .margin(12 * scale)
             .caption(self.primitive, font(20))
@@ -131,7 +134,8 @@ impl Panel<'_> {
             .points
             .iter()
             .map(|Point { at, .. }| (width / whole * at.0.ln(), -height / whole * at.1.ln()));
-        for (point, offset) in self.points.iter().zip(drawing::label_offsets(dots)) {
+        let offsets = drawing::label_offsets(&dots.collect::<Vec<_>>());
+        for (point, offset) in self.points.iter().zip(offsets) {
             drawing::label(&mut chart, scale, point.at, point.row.rung, offset)?;
         }
         Ok(())

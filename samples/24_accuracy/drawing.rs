@@ -85,18 +85,25 @@ pub fn head<B: DrawingBackend>(
     Ok(())
 }
 
-/// Where each label goes beside its dot: right and a little up, or farther where another label is. All in
-/// pixels, y downwards.
-pub fn label_offsets(dots: impl Iterator<Item = (f64, f64)>) -> Vec<(i32, i32)> {
+/// Where each label goes beside its dot: right and a little up, or farther or below where another dot or
+/// label is. All in pixels, y downwards.
+pub fn label_offsets(dots: &[(f64, f64)]) -> Vec<(i32, i32)> {
     let mut taken: Vec<(f64, f64)> = Vec::new();
     let mut offsets = Vec::new();
-    for (x, y) in dots {
+    for &(x, y) in dots {
         let free = |(dx, dy): (i32, i32)| {
-            taken.iter().all(|&(a, b)| {
-                (a - x - f64::from(dx)).abs() >= 30.0 || (b - y - f64::from(dy)).abs() >= 16.0
-            })
+            let (left, top) = (x + f64::from(dx), y + f64::from(dy));
+            let is_off_labels =
+                taken.iter().all(|&(a, b)| (a - left).abs() >= 30.0 || (b - top).abs() >= 16.0);
+            // A label is some 26 wide and 14 high, and a dot 5 around.
+            let is_off_dots = dots.iter().all(|&(a, b)| {
+                a < left - 4.0 || a > left + 30.0 || b < top - 16.0 || b > top + 8.0
+            });
+            is_off_labels && is_off_dots
         };
-        let tries = (0..24).flat_map(|step| [(10, -6 - 4 * step), (10 + 4 * step, -6 - 2 * step)]);
+        let tries = (0..32).flat_map(|step| {
+            [(10, -6 - 4 * step), (10 + 4 * step, -6 - 2 * step), (10 + 4 * step, 14 + 3 * step)]
+        });
         let place = tries.clone().find(|&place| free(place)).unwrap_or((10, -6));
         taken.push((x + f64::from(place.0), y + f64::from(place.1)));
         offsets.push(place);

@@ -119,7 +119,8 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
         .filter(|primitive| only.is_empty() || only.contains(primitive))
         .collect();
     let steps: usize = chosen.iter().map(|p| p.ladder().len()).sum();
-    let progress = Progress::new(2 * steps as u64, "rungs");
+    let families = compiled::FAMILIES.len();
+    let progress = Progress::new((2 * steps + families) as u64, "steps");
     for primitive in chosen {
         let families = Family::of(primitive, rays);
         let batches = families
@@ -148,7 +149,7 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
         }
         rungs.extend(measured);
     }
-    let no_compiler = compiled::compile(&mut rungs).err().map(|why| format!("{why:#}"));
+    let no_compiler = compiled::compile(&mut rungs, &progress).err().map(|why| format!("{why:#}"));
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
     let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);

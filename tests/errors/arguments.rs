@@ -16,9 +16,20 @@ fn options() {
         (&["--frames=-1"], "invalid value '-1' for '--frames <N>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE.obj>'"),
+        (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, all]"),
+        (
+            &["--compile-for", "nonsense"],
+            "invalid value 'nonsense' for '--compile-for <FAMILY>' [possible values: navi21, navi31, gfx1201, all]",
+        ),
     ] {
         refused(arguments, 2, &[words]);
     }
+}
+
+#[test]
+fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
+    let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
+    assert!(code == 2 && line.contains("--compile-for is for 02 and on"), "{line}");
 }
 
 #[test]

@@ -102,3 +102,21 @@ fn no_environment_at_all() {
     assert!(status.success());
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
+
+#[test]
+fn no_compiler_for_another_gpu() {
+    // The variable takes the place of the folders in which drivers are found; the device's own is named.
+    let drivers = ["/etc", "/usr/local/share", "/usr/share"]
+        .map(|folder| Path::new(folder).join("vulkan/icd.d"))
+        .iter()
+        .filter_map(|folder| folder.read_dir().ok())
+        .flat_map(|files| files.map(|file| file.expect("a file has a name").path()))
+        .collect::<Vec<_>>();
+    if drivers.iter().any(|driver| driver.starts_with("/etc")) {
+        return println!("not tried: drivers in /etc cannot be hidden");
+    }
+    let mut command = sample();
+    command.args(["--compile-for", "navi31"]).env("XDG_DATA_DIRS", "/nonexistent");
+    command.env("VK_DRIVER_FILES", std::env::join_paths(drivers).expect("plain names"));
+    refused_by(command, 1, &["(RADV), which is not installed", "mesa-vulkan-drivers"]);
+}

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::laboratory;
+use crate::{compiled, laboratory};
 
 /// What was measured of one rung on one family, one way.
 struct Row(Value);
@@ -18,6 +18,12 @@ impl Row {
 }
 
 fn measure(arguments: &[&str]) -> Vec<Value> {
+    let report = report(arguments);
+    report["rungs"].as_array().unwrap().clone()
+}
+
+/// All that a run without times has to say.
+fn report(arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
     let output = laboratory(&[&["--rounds", "0", "--measure", place], arguments].concat());
@@ -27,7 +33,7 @@ fn measure(arguments: &[&str]) -> Vec<Value> {
     assert!(folder.path().join("accuracy.md").is_file());
     let report: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(report["validation_messages"], serde_json::json!([]));
-    report["rungs"].as_array().unwrap().clone()
+    report
 }
 
 /// The row of a rung on a family; `None` if the device does not have the rung.
@@ -82,14 +88,16 @@ const TOPS: [&str; 10] = ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", 
 
 #[test]
 fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
-    let rungs = measure(&["--rays", "10000"]);
+    let report = report(&["--rays", "10000"]);
+    compiled::check(&report);
+    let rungs = report["rungs"].as_array().unwrap();
     for (rung, family, bar) in P99 {
-        let Some(row) = row(&rungs, rung, family, "direct") else { continue };
+        let Some(row) = row(rungs, rung, family, "direct") else { continue };
         assert!(row.number("p99") <= bar, "{rung} on {family}: p99 {}", row.number("p99"));
         let most = if family == EDGES.0 { EDGES.1 } else { 0.0 };
         assert!(row.wrong() <= most, "{rung} on {family}: {} wrong", row.wrong());
     }
-    for rung in &rungs {
+    for rung in rungs {
         let Some(errors) = rung["errors"].as_array() else { continue };
         let label = rung["rung"].as_str().unwrap();
         for row in errors.iter().map(|row| Row(row.clone())) {
@@ -109,7 +117,7 @@ fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
             }
         }
     }
-    simple_rungs_fail_as_the_page_says(&rungs);
+    simple_rungs_fail_as_the_page_says(rungs);
 }
 
 /// Where a rung is known to fail, it does: or the families are not what they are called.

@@ -2,6 +2,7 @@
 //! thousand, held to the bars that 24_accuracy states.
 
 mod bars;
+mod compiled;
 mod files;
 mod view;
 

@@ -71,6 +71,24 @@ pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
     Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
 }
 
+/// What the compiler of a family of GPUs makes of a sample's pipelines, a row a program; `None`, and a
+/// line, where that compiler is not installed.
+pub fn compiled_for(name: &str, family: &str, arguments: &[&str]) -> Option<Vec<Value>> {
+    let output = command(name)
+        .args(["--compile-for", family, "--report", "-"])
+        .args(arguments)
+        .output()
+        .expect("the sample starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    if errors.contains("(RADV), which is not installed") {
+        println!("not tried: {errors}");
+        return None;
+    }
+    assert!(output.status.success(), "{name} {arguments:?}: {errors}");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    Some(report["compiled_for"].as_array().expect("what was compiled").clone())
+}
+
 /// Runs with arguments that are wrong and returns the exit code and the one line on standard error.
 pub fn refused(name: &str, arguments: &[&str]) -> (i32, String) {
     refusal(command(name).args(arguments).output().expect("the sample starts"))

@@ -1,5 +1,6 @@
 //! 25_scene_effects: what a scene calls for, that nothing else is compiled, and that no picture changes.
 
+mod compiled;
 mod generated;
 mod plots;
 

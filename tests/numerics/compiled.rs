@@ -1,0 +1,43 @@
+//! What a GPU's compiler estimates of every rung.
+
+use serde_json::Value;
+
+const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
+
+/// Holds that each rung has figures of each family, and that they say what the page says of them.
+pub fn check(report: &Value) {
+    if let Some(why) = report["no_compiler"].as_str() {
+        assert!(why.contains("(RADV), which is not installed"), "{why}");
+        return println!("not tried: {why}");
+    }
+    let rungs = report["rungs"].as_array().unwrap();
+    for rung in rungs {
+        let told = rung["compiled_for"].as_array().unwrap();
+        // The device's own triangles are no program.
+        if rung["rung"] == "T0" || rung.get("unavailable").is_some() {
+            assert!(told.is_empty(), "{rung}");
+            continue;
+        }
+        let families: Vec<_> = told.iter().map(|row| row["family"].as_str().unwrap()).collect();
+        assert_eq!(families, FAMILIES, "{}", rung["rung"]);
+        for row in told {
+            for key in ["instructions", "registers", "waves", "latency", "inverse_throughput"] {
+                assert!(row[key].as_u64().unwrap() > 0, "{}: {key}: {row}", rung["rung"]);
+            }
+            assert!(row["ratio"].as_f64().unwrap() >= 1.0, "{row}");
+        }
+    }
+    let cost = |label: &str, family: &str| -> Option<f64> {
+        let rung = rungs.iter().find(|rung| rung["rung"] == label).unwrap();
+        let mut told = rung["compiled_for"].as_array().unwrap().iter();
+        told.find(|row| row["family"] == family)?["inverse_throughput"].as_f64()
+    };
+    for (dear, cheap) in [("S4", "S0"), ("S5", "S0"), ("B4", "B2"), ("P4", "P2"), ("C3", "C1")] {
+        for family in FAMILIES {
+            let (Some(dear), Some(cheap)) = (cost(dear, family), cost(cheap, family)) else {
+                continue;
+            };
+            assert!(dear > 4.0 * cheap, "{family}: {dear} is not far above {cheap}");
+        }
+    }
+}
