@@ -64,13 +64,18 @@ pub fn compile(rungs: &mut [Measured], progress: &Progress) -> Result<()> {
     Ok(())
 }
 
-impl Measured {
-    /// Estimated and measured cost over the cheapest rung's, and how many times more the estimate is:
-    /// `None` without a time, or without a compiler.
-    pub fn both(&self) -> Option<(f64, f64, f64)> {
-        let shown = self.compiled_for.iter().find(|c| c.program.family == SHOWN)?;
-        let time = self.time?.ratio.median;
-        Some((shown.ratio, time, shown.ratio / time))
+/// What clock and compiler say of one rung.
+pub struct Pair<'a> {
+    pub row: &'a Measured,
+    /// Measured time, and estimated inverse throughput on [`SHOWN`], over the least of the ladder each.
+    pub time: f64,
+    pub estimate: f64,
+}
+
+impl Pair<'_> {
+    /// How many times the larger is the smaller.
+    pub fn apart(&self) -> f64 {
+        (self.estimate / self.time).max(self.time / self.estimate)
     }
 }
 
@@ -104,13 +109,25 @@ pub fn table(ladder: &[Measured]) -> String {
 }
 
 impl Measurement {
+    /// All rungs that have both a time and an estimate.
+    pub fn pairs(&self) -> Vec<Pair<'_>> {
+        let mut pairs = Vec::new();
+        for ladder in self.rungs.chunk_by(|a, b| a.primitive == b.primitive) {
+            let time = |row: &Measured| row.time.map(|time| time.ratio.median);
+            let least = ladder.iter().filter_map(time).fold(f64::INFINITY, f64::min);
+            pairs.extend(ladder.iter().filter_map(|row| {
+                let shown = row.compiled_for.iter().find(|c| c.program.family == SHOWN)?;
+                Some(Pair { row, time: time(row)? / least, estimate: shown.ratio })
+            }));
+        }
+        pairs
+    }
+
     /// The rungs of which clock and compiler say different things, the farthest apart first.
     pub fn disagreements(&self) -> String {
-        let mut rows: Vec<_> =
-            self.rungs.iter().filter_map(|row| Some((row, row.both()?))).collect();
-        let apart = |factor: f64| factor.max(1.0 / factor);
-        rows.retain(|(_, (.., factor))| apart(*factor) > DISAGREE);
-        rows.sort_by(|(_, a), (_, b)| apart(b.2).total_cmp(&apart(a.2)));
+        let mut rows = self.pairs();
+        rows.retain(|pair| pair.apart() > DISAGREE);
+        rows.sort_by(|a, b| b.apart().total_cmp(&a.apart()));
         if rows.is_empty() {
             return String::new();
         }
@@ -119,11 +136,14 @@ impl Measurement {
              | rung | of | time / cheapest, measured here | inverse throughput / cheapest, estimated \
              | estimated / measured |\n|---|---|--:|--:|--:|\n"
         );
-        for (row, (estimated, time, factor)) in rows {
+        for Pair { row, time, estimate } in rows {
             let _ = writeln!(
                 text,
-                "| {} {} | {} | {time:.2} | {estimated:.2} | {factor:.2} |",
-                row.rung, row.name, row.primitive
+                "| {} {} | {} | {time:.2} | {estimate:.2} | {:.1} |",
+                row.rung,
+                row.name,
+                row.primitive,
+                estimate / time
             );
         }
         text

@@ -3,7 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::compiled::{DISAGREE, SHOWN};
+use crate::compiled::{DISAGREE, Pair, SHOWN};
 use crate::drawing::{self, BLUE, Drawing, Drawn, GRID, ORANGE, TEXT, font};
 use crate::measure::{Measured, Measurement};
 
@@ -39,12 +39,12 @@ impl<'a> Disagreement<'a> {
     /// `None` without times, or without a compiler.
     pub fn new(measurement: &'a Measurement) -> Option<Self> {
         let mut panels: Vec<Panel> = Vec::new();
-        for row in &measurement.rungs {
-            let Some((estimated, time, factor)) = row.both() else { continue };
+        for pair in measurement.pairs() {
+            let agrees = pair.apart() <= DISAGREE;
+            let Pair { row, time, estimate } = pair;
             let all = row.compiled_for.iter().map(|compiled| compiled.ratio);
             let span = (all.clone().fold(f64::INFINITY, f64::min), all.fold(0.0, f64::max));
-            let agrees = factor.max(1.0 / factor) <= DISAGREE;
-            let point = Point { row, at: (time, estimated), span, agrees };
+            let point = Point { row, at: (time, estimate), span, agrees };
             match panels.last_mut().filter(|panel| panel.primitive == row.primitive) {
                 Some(panel) => panel.points.push(point),
                 None => panels.push(Panel { primitive: row.primitive, points: vec![point] }),
@@ -100,7 +100,9 @@ impl Panel<'_> {
         let font = |size: u32| font(size * scale);
         let (least, most) = (0.8, self.most());
         // A tick beyond the axis would be drawn all the same.
-        let ticks: Vec<f64> = TICKS.into_iter().filter(|&tick| tick < most).collect();
+        let crowded = |tick: f64| most > 8.0 && [1.5, 3.0].contains(&tick);
+        let ticks: Vec<f64> =
+            TICKS.into_iter().filter(|&tick| tick < most && !crowded(tick)).collect();
         let axis = || (least..most).log_scale().with_key_points(ticks.clone());
         let mut chart = ChartBuilder::on(area)
             .margin(12 * scale)
@@ -134,7 +136,8 @@ impl Panel<'_> {
             .points
             .iter()
             .map(|Point { at, .. }| (width / whole * at.0.ln(), -height / whole * at.1.ln()));
-        let offsets = drawing::label_offsets(&dots.collect::<Vec<_>>());
+        let offsets =
+            drawing::label_offsets(&dots.collect::<Vec<_>>(), -height / whole * least.ln());
         for (point, offset) in self.points.iter().zip(offsets) {
             drawing::label(&mut chart, scale, point.at, point.row.rung, offset)?;
         }

@@ -85,9 +85,12 @@ pub fn head<B: DrawingBackend>(
     Ok(())
 }
 
-/// Where each label goes beside its dot: right and a little up, or farther or below where another dot or
-/// label is. All in pixels, y downwards.
-pub fn label_offsets(dots: &[(f64, f64)]) -> Vec<(i32, i32)> {
+/// Where each label goes: to the right of its dot, as near as other dots, other labels and the axis at
+/// `bottom` leave room. All in pixels, y downwards.
+pub fn label_offsets(dots: &[(f64, f64)], bottom: f64) -> Vec<(i32, i32)> {
+    let places = (0..20).flat_map(|x| (-28..12).map(move |y| (10 + 4 * x, -6 + 4 * y)));
+    let mut places: Vec<(i32, i32)> = places.collect();
+    places.sort_by_key(|(x, y)| x * x + (y + 6) * (y + 6));
     let mut taken: Vec<(f64, f64)> = Vec::new();
     let mut offsets = Vec::new();
     for &(x, y) in dots {
@@ -99,12 +102,9 @@ pub fn label_offsets(dots: &[(f64, f64)]) -> Vec<(i32, i32)> {
             let is_off_dots = dots.iter().all(|&(a, b)| {
                 a < left - 4.0 || a > left + 30.0 || b < top - 16.0 || b > top + 8.0
             });
-            is_off_labels && is_off_dots
+            is_off_labels && is_off_dots && top + 4.0 < bottom
         };
-        let tries = (0..32).flat_map(|step| {
-            [(10, -6 - 4 * step), (10 + 4 * step, -6 - 2 * step), (10 + 4 * step, 14 + 3 * step)]
-        });
-        let place = tries.clone().find(|&place| free(place)).unwrap_or((10, -6));
+        let place = places.iter().copied().find(|&place| free(place)).unwrap_or((10, -6));
         taken.push((x + f64::from(place.0), y + f64::from(place.1)));
         offsets.push(place);
     }

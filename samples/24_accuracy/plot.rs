@@ -170,7 +170,7 @@ impl Panel<'_> {
         let across = width / (slowest * 1.4 / 0.85).ln();
         let up = height / (WRONG * 3.0 / 0.12).ln();
         let dots = self.points.iter().map(|p| (across * p.time.ln(), -up * p.home.ln()));
-        let offsets = drawing::label_offsets(&dots.collect::<Vec<_>>());
+        let offsets = drawing::label_offsets(&dots.collect::<Vec<_>>(), -up * 0.12f64.ln());
         for (point, offset) in self.points.iter().zip(offsets) {
             drawing::label(&mut chart, scale, (point.time, point.home), point.row.rung, offset)?;
         }
