@@ -302,7 +302,7 @@ impl Lab {
             save("accuracy_compiled.png", &plot.png()?)?;
         }
         if let Some(why) = &measured.no_compiler {
-            output::print(&format!("no estimates of a GPU's compiler: {why}\n"))?;
+            output::print(&format!("no estimates: {why}\n"))?;
         }
         Ok(())
     }
