@@ -132,8 +132,8 @@ impl Measurement {
             return String::new();
         }
         let mut text = format!(
-            "\n### Where clock and compiler disagree\n\nBy more than {DISAGREE} times, on {SHOWN}.\n\n\
-             | rung | of | time / cheapest, measured here | inverse throughput / cheapest, estimated \
+            "\n### Where clock and compiler disagree\n\nBy more than {DISAGREE} times, on {SHOWN}; both over the least of the ladder.\n\n\
+             | rung | of | time / least, measured here | inverse throughput / least, estimated \
              | estimated / measured |\n|---|---|--:|--:|--:|\n"
         );
         for Pair { row, time, estimate } in rows {
