@@ -1,9 +1,10 @@
-// What the shaders of this chapter share: the push constants and what `show` may be.
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
 #include "common/random.glsl"
+#include "common/false_color.glsl"
 
 // ANCHOR: shapes
 struct Sphere {
@@ -37,11 +38,10 @@ layout(push_constant, scalar) uniform Push {
     HostC host_c;         // of each sphere: |camera - center|^2 - radius^2
     Light light;
     uint light_samples;   // shadow rays a hit, where the light has a size
-    uint shadow_rays;
-    uint smooth_terminator;
-    uint show;
 } push;
 
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_NORMAL = 1;
 const uint SHOW_TRIANGLE = 2;
@@ -51,18 +51,13 @@ const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_KIND = 7;
 
+layout(constant_id = 1) const uint SHADOW_RAYS = 0;
 const uint SHADOW_FIRST_HIT = 0;
 const uint SHADOW_NEAREST_HIT = 1;
 const uint SHADOW_OFF = 2;
 
+layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
+
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_SPHERE = 0;
 const uint KIND_BOX = 1;
-
-// A colour that differs from number to number (the finaliser of a 32-bit murmur hash).
-vec3 false_color(uint number) {
-    number = (number ^ (number >> 16)) * 0x85ebca6bu;
-    number = (number ^ (number >> 13)) * 0xc2b2ae35u;
-    number ^= number >> 16;
-    return vec3(number & 0xffu, (number >> 8) & 0xffu, (number >> 16) & 0xffu) / 255.0;
-}

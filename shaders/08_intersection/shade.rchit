@@ -5,13 +5,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "lighting.glsl"
+#include "hit.glsl"
+#include "common/place.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
-// The nearest hit: normal, material and light give the colour.
+// The nearest hit: what surface it is, and where.
 void main() {
     // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
@@ -19,26 +21,25 @@ void main() {
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
     // ANCHOR_END: fetch
-    // ANCHOR: normal
+    // ANCHOR: report
+    place(hit, instance, triangle, weights);
+    hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
-    HitPoint hit = hit_point(instance, triangle, weights);
-    normal = faceforward(normal, -hit.normal, normal);
-    // ANCHOR_END: normal
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+    hit.lift = vec3(0.0);
+    if (SMOOTH_TERMINATOR) {
+        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
+    }
 
-    vec3 base = material.base_color;
+    hit.color = material.base_color;
     if (material.base_texture >= 0) {
-        base *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
-    // ANCHOR: light
-    vec3 origin = origin_above(hit);
-    vec3 up = hit.normal;
-    if (push.smooth_terminator != 0) {
-        vec3 lift = lift_to_smooth(hit, instance, triangle, weights);
-        origin += lift;
-        up = lift == vec3(0.0) ? up : normal;
-    }
-    // ANCHOR_END: light
-    show_surface(triangle, material, base, normal, origin, up);
+    hit.material = instance.material;
+    hit.triangle = triangle;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.kind = gl_HitKindEXT;
+    // ANCHOR_END: report
 }

@@ -4,11 +4,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "lighting.glsl"
+#include "hit.glsl"
+#include "common/place.glsl"
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
-// ANCHOR: point
+// ANCHOR: place
 // The hit again, from the shape and not from the ray: on the sphere or the wall as nearly as rounding
 // allows, wherever the ray came from. And how far above it a ray must start that leaves it.
 //
@@ -16,8 +18,8 @@ hitAttributeEXT vec3 outward;
 // The next ray's test finds f exactly but for u·r and then, for the roots to have one sign, needs
 // 6u·r (c) or 17u·r (the foot: 11u·r along the ray, 4u·r across, 2u·r of root and sum): 24u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
-// difference is never wrong. Then the instance's transform, as for triangles (common/offset.glsl).
-HitPoint shape_point(uint id, vec3 normal) {
+// difference is never wrong. Then the instance's transform, as for triangles (common/place.glsl).
+void place_on_shape(uint id) {
     precise vec3 point;
     vec3 own;
     if (gl_HitKindEXT == KIND_SPHERE) {
@@ -41,13 +43,12 @@ HitPoint shape_point(uint id, vec3 normal) {
     vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
-    HitPoint hit;
     hit.position = world;
-    hit.normal = normal;
-    hit.error = ROUNDING * dot(abs(normal), straying);
-    return hit;
+    hit.face = normalize(vec3(outward * gl_WorldToObjectEXT));
+    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
+    hit.height = ROUNDING * dot(abs(hit.face), straying);
 }
-// ANCHOR_END: point
+// ANCHOR_END: place
 
 // The nearest hit is a sphere or a box: the intersection shader has left its normal.
 void main() {
@@ -55,10 +56,18 @@ void main() {
     bool sphere = gl_HitKindEXT == KIND_SPHERE;
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
-    uint number = sphere ? push.shapes.spheres.at[id].material : push.shapes.boxes.at[id].material;
-    MaterialRecord material = push.scene.materials.at[number];
+    uint material = sphere ? push.shapes.spheres.at[id].material : push.shapes.boxes.at[id].material;
     // ANCHOR_END: fetch
-    vec3 normal = normalize(vec3(outward * gl_WorldToObjectEXT));
-    normal = faceforward(normal, gl_WorldRayDirectionEXT, normal);
-    show_surface(id, material, material.base_color, normal, origin_above(shape_point(id, normal)), normal);
+    // ANCHOR: report
+    place_on_shape(id);
+    hit.t = gl_HitTEXT;
+    // A shape has one normal, and is as round as it looks.
+    hit.normal = hit.face;
+    hit.lift = vec3(0.0);
+    hit.color = push.scene.materials.at[material].base_color;
+    hit.material = material;
+    hit.triangle = id;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.kind = gl_HitKindEXT;
+    // ANCHOR_END: report
 }

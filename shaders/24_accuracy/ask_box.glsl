@@ -1,6 +1,7 @@
 // A ray against a box: low.xyz, high.xyz.
 #include "answer.glsl"
 #include "common/box.glsl"
+#include "box_padded.glsl"
 #include "common/box_two_float.glsl"
 
 bool box_by(uint rung, vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 faces[2]) {

@@ -1,3 +1,5 @@
+// Taught by 08_intersection, whose own file this is a copy of.
+//
 // A ray against a sphere, in four ways that are equal on paper.
 //
 // f is the ray's origin as seen from the centre, d its direction of any length, r the radius. The roots
