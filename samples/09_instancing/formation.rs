@@ -13,6 +13,21 @@ pub const BOARD: u8 = 1;
 pub const WHITE: u8 = 2;
 pub const BLACK: u8 = 4;
 
+/// What meshes and pieces are made from; where it changes, they are made again.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Build {
+    pub scene: u32,
+    pub squares: u32,
+    /// 0 instances of a mesh, 1 a mesh for each piece.
+    pub geometry: u32,
+}
+
+impl Build {
+    pub fn is_copied(&self) -> bool {
+        self.geometry != 0
+    }
+}
+
 /// One instance, with its place in f64.
 #[derive(Clone, Copy)]
 pub struct Piece {
@@ -94,6 +109,16 @@ fn square(material: usize) -> Mesh {
 }
 
 impl Formation {
+    /// The meshes and the pieces that are made from them.
+    ///
+    /// # Errors
+    /// If the model cannot be read, or lacks a mesh or a material.
+    pub fn build(build: Build) -> Result<(Scene, Self)> {
+        let meshes = meshes()?;
+        let formation = Self::new(build.scene, build.squares, &meshes.model)?;
+        Ok(if build.is_copied() { formation.copies(&meshes) } else { (meshes, formation) })
+    }
+
     /// A scene by its position in [`SCENES`], of so many squares where that is free.
     ///
     /// # Errors

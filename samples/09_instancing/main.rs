@@ -12,16 +12,16 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    ShaderBindingTable, barrier,
+    Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
+    Variant, Variants, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Mesh, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup};
-use formation::{BLACK, BOARD, Formation, WHITE};
+use formation::{BLACK, BOARD, Build, Formation, WHITE};
 use glam::{DVec3, Vec3};
-use placed::{FLAGS, PieceRecord, Placed, Placement};
+use placed::{FLAGS, Placed, Placement};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -53,17 +53,13 @@ struct Demo {
     formation: Formation,
     /// The instances about each of the two origins, where they were last needed.
     placed: [Option<Placed>; 2],
-    pipeline: RayTracingPipeline,
-    sbt: ShaderBindingTable,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
     lamp: PointLight,
     light: u32,
     light_size: f32,
     light_samples: u32,
-    shadow_rays: u32,
-    smooth_terminator: bool,
-    show: u32,
     build: Build,
     built: Build,
     far: f32,
@@ -71,18 +67,18 @@ struct Demo {
     white_flags: u32,
     camera_sees: u32,
     shadows_of: u32,
+    constants: Constants,
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: u32,
+    shadow_rays: u32,
+    smooth_terminator: bool,
     culling: u32,
     normals: u32,
     object_ray: u32,
-}
-
-/// What meshes and pieces are made from; where it changes, they are made again.
-#[derive(Clone, Copy, PartialEq)]
-struct Build {
-    scene: u32,
-    squares: u32,
-    /// 0 instances of a mesh, 1 a mesh for each piece.
-    geometry: u32,
 }
 
 common::shader_struct! {
@@ -93,14 +89,8 @@ common::shader_struct! {
         pieces: Address,
         light: Light,
         light_samples: u32,
-        shadow_rays: u32,
-        smooth_terminator: u32,
-        show: u32,
         camera_mask: u32,
         shadow_mask: u32,
-        culling: u32,
-        normals: u32,
-        object_ray: u32,
         first_column: u32,
     }
 }
@@ -111,41 +101,30 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let meshes = formation::meshes()?;
-        let scene = SceneOnGpu::new(gpu, &meshes, setup.options)?;
         let build = Build { scene: 0, squares: 10_000, geometry: 0 };
-        let formation = Formation::new(build.scene, build.squares, &meshes.model)?;
+        let (meshes, formation) = Formation::build(build)?;
+        let scene = SceneOnGpu::new(gpu, &meshes, setup.options)?;
         let camera = formation::camera(build.scene);
-        // ANCHOR: pipeline
-        let pipeline = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .raygen("camera.rgen")
-            .miss("sky.rmiss")
-            .miss("shadow.rmiss")
-            .hit(HitGroup::triangles().any_hit("slice.rahit").closest_hit("shade.rchit"))
-            .recursion(2)
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .textures(&scene.textures)
-            .push_constants::<Push>()
-            .build(gpu)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        // ANCHOR_END: pipeline
+        let constants = Constants {
+            show: 0,
+            shadow_rays: 0,
+            smooth_terminator: true,
+            culling: 0,
+            normals: HOST_INVERSE,
+            object_ray: 0,
+        };
         Ok(Self {
             meshes,
             scene,
             formation,
             placed: [None, None],
-            pipeline,
-            sbt,
+            pipelines: Variants::default(),
             camera,
             sun: Sun { azimuth: 300.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
             lamp: PointLight::default(),
             light: 0,
             light_size: 0.0,
             light_samples: 16,
-            shadow_rays: 0,
-            smooth_terminator: true,
-            show: 0,
             build,
             built: build,
             far: 0.0,
@@ -153,9 +132,7 @@ impl Sample for Demo {
             white_flags: 0,
             camera_sees: 0,
             shadows_of: 0,
-            culling: 0,
-            normals: HOST_INVERSE,
-            object_ray: 0,
+            constants,
         })
     }
 
@@ -174,10 +151,14 @@ impl Sample for Demo {
         c.choice("coordinates", &mut self.coordinates, &["world", "camera-relative", "both"]);
         c.choice("camera sees", &mut self.camera_sees, &SEEN.map(|(name, _)| name));
         c.choice("shadows of", &mut self.shadows_of, &SEEN.map(|(name, _)| name));
-        c.choice("culling", &mut self.culling, &["off", "back faces", "front faces"]);
+        c.choice("culling", &mut self.constants.culling, &["off", "back faces", "front faces"]);
         c.choice("flags of white", &mut self.white_flags, &FLAGS.map(|(name, _)| name));
-        c.choice("normals", &mut self.normals, &["matrix", "device inverse", "host inverse"]);
-        c.choice("object ray", &mut self.object_ray, &["device", "matrix", "inverse"]);
+        c.choice(
+            "normals",
+            &mut self.constants.normals,
+            &["matrix", "device inverse", "host inverse"],
+        );
+        c.choice("object ray", &mut self.constants.object_ray, &["device", "matrix", "inverse"]);
         let views = [
             "picture",
             "normal",
@@ -186,18 +167,20 @@ impl Sample for Demo {
             "ray direction",
             "shadow",
             "shadow origin",
+            "instance id",
             "object normal",
             "object origin",
         ];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         c.choice("light", &mut self.light, &["directional", "point"]);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
         c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("light samples", &mut self.light_samples, 1..=64);
-        c.choice("shadow rays", &mut self.shadow_rays, &["first hit", "nearest hit", "off"]);
-        c.checkbox("smooth terminator", &mut self.smooth_terminator);
+        let rays = ["first hit", "nearest hit", "off"];
+        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -218,7 +201,7 @@ impl Sample for Demo {
     }
 
     fn report(&self) -> Result<serde_json::Value> {
-        Ok(self.memory())
+        Ok(placed::memory(&self.meshes, &self.scene, &self.formation, &self.placed))
     }
 }
 
@@ -259,23 +242,19 @@ impl Demo {
                 _ => Light::point(&lamp, self.light_size),
             },
             light_samples: self.light_samples,
-            shadow_rays: self.shadow_rays,
-            smooth_terminator: self.smooth_terminator.into(),
-            show: self.show,
             camera_mask: SEEN[self.camera_sees as usize].1.into(),
             shadow_mask: SEEN[self.shadows_of as usize].1.into(),
-            culling: self.culling,
-            normals: self.normals,
-            object_ray: self.object_ray,
             first_column: columns.start,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&placed.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        self.pipeline.bind(frame.cmd, &descriptors, &push)?;
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
         let width = columns.end - columns.start;
-        self.sbt.trace(frame.cmd, vk::Extent2D { width, ..frame.image.extent });
+        sbt.trace(frame.cmd, vk::Extent2D { width, ..frame.image.extent });
         // ANCHOR_END: trace
         Ok(())
     }
@@ -285,14 +264,8 @@ impl Demo {
         if self.build == self.built {
             return Ok(());
         }
-        let Build { scene, squares, geometry } = self.build;
-        let meshes = formation::meshes()?;
-        let formation = Formation::new(scene, squares, &meshes.model)?;
-        let copied = geometry != 0 || self.built.geometry != 0;
-        (self.meshes, self.formation) = match geometry {
-            0 => (meshes, formation),
-            _ => formation.copies(&meshes),
-        };
+        let copied = self.build.is_copied() || self.built.is_copied();
+        (self.meshes, self.formation) = Formation::build(self.build)?;
         self.placed = [None, None];
         if copied {
             self.scene.rebuild(gpu, &self.meshes, self.scene.options)?;
@@ -300,24 +273,31 @@ impl Demo {
         self.built = self.build;
         Ok(())
     }
-
-    // ANCHOR: memory
-    /// Bytes of everything that grows with the pieces.
-    fn memory(&self) -> serde_json::Value {
-        let meshes = &self.meshes.model.meshes;
-        let bytes = |mesh: &Mesh| size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
-        let placed = self.placed.iter().flatten();
-        let pieces = self.formation.pieces.len();
-        serde_json::json!({
-            "pieces": pieces,
-            "meshes": meshes.len(),
-            "triangles": self.formation.triangles(&self.meshes.model),
-            "mesh_bytes": meshes.iter().map(bytes).sum::<usize>(),
-            "bottom_level_bytes": self.scene.blas.iter().map(|blas| blas.size).sum::<u64>(),
-            "top_level_bytes": placed.clone().map(|placed| placed.tlas.size).sum::<u64>(),
-            "record_bytes": placed.map(|_| pieces * size_of::<PieceRecord>()).sum::<usize>(),
-            "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
-        })
-    }
-    // ANCHOR_END: memory
 }
+
+// ANCHOR: pipeline
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().any_hit("slice.rahit").closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.shadow_rays)
+        .constant(2, constants.smooth_terminator.into())
+        .constant(3, constants.culling)
+        .constant(4, constants.normals)
+        .constant(5, constants.object_ray)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

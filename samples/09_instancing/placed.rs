@@ -4,7 +4,7 @@ use anyhow::Result;
 use ash::vk;
 use ash::vk::GeometryInstanceFlagsKHR as Flags;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
-use common::scene::{Scene, SceneOnGpu, build_top, input_usage, transform};
+use common::scene::{Mesh, Scene, SceneOnGpu, build_top, input_usage, transform};
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use crate::formation::{Formation, Piece, WHITE};
@@ -100,3 +100,28 @@ fn record(piece: &Piece, shift: DVec3) -> PieceRecord {
     }
 }
 // ANCHOR_END: inverse
+
+// ANCHOR: memory
+/// Bytes of everything that grows with the pieces.
+pub fn memory(
+    meshes: &Scene,
+    scene: &SceneOnGpu,
+    formation: &Formation,
+    placed: &[Option<Placed>],
+) -> serde_json::Value {
+    let model = &meshes.model;
+    let bytes = |mesh: &Mesh| size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
+    let placed = placed.iter().flatten();
+    let pieces = formation.pieces.len();
+    serde_json::json!({
+        "pieces": pieces,
+        "meshes": model.meshes.len(),
+        "triangles": formation.triangles(model),
+        "mesh_bytes": model.meshes.iter().map(bytes).sum::<usize>(),
+        "bottom_level_bytes": scene.blas.iter().map(|blas| blas.size).sum::<u64>(),
+        "top_level_bytes": placed.clone().map(|placed| placed.tlas.size).sum::<u64>(),
+        "record_bytes": placed.map(|_| pieces * size_of::<PieceRecord>()).sum::<usize>(),
+        "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
+    })
+}
+// ANCHOR_END: memory

@@ -1,9 +1,10 @@
-// What the shaders of this chapter share: the push constants and what `show` may be.
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
 #include "common/random.glsl"
+#include "common/false_color.glsl"
 
 // ANCHOR: record
 // What a piece has of its own, at its custom index.
@@ -24,17 +25,13 @@ layout(push_constant, scalar) uniform Push {
     Pieces pieces;
     Light light;
     uint light_samples;   // shadow rays a hit, where the light has a size
-    uint shadow_rays;
-    uint smooth_terminator;
-    uint show;
-    uint camera_mask;
-    uint shadow_mask;
-    uint culling;
-    uint normals;
-    uint object_ray;
+    uint camera_mask;     // which instances primary rays see
+    uint shadow_mask;     // which instances throw shadows
     uint first_column;    // of the part of the picture that is traced
 } push;
 
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
 const uint SHOW_NORMAL = 1;
 const uint SHOW_TRIANGLE = 2;
@@ -42,26 +39,27 @@ const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
 const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
-const uint SHOW_OBJECT_NORMAL = 7;
-const uint SHOW_OBJECT_ORIGIN = 8;
+const uint SHOW_INSTANCE_ID = 7;
+const uint SHOW_OBJECT_NORMAL = 8;
+const uint SHOW_OBJECT_ORIGIN = 9;
 
+layout(constant_id = 1) const uint SHADOW_RAYS = 0;
 const uint SHADOW_FIRST_HIT = 0;
 const uint SHADOW_NEAREST_HIT = 1;
 const uint SHADOW_OFF = 2;
 
+layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
+
+layout(constant_id = 3) const uint CULLING = 0;
 const uint CULL_BACK = 1;
 const uint CULL_FRONT = 2;
 
+layout(constant_id = 4) const uint NORMALS = 2;
 const uint NORMALS_MATRIX = 0;
 const uint NORMALS_DEVICE_INVERSE = 1;
+const uint NORMALS_HOST_INVERSE = 2;
 
+layout(constant_id = 5) const uint OBJECT_RAY = 0;
 const uint OBJECT_RAY_DEVICE = 0;
 const uint OBJECT_RAY_MATRIX = 1;
-
-// A colour that differs from number to number (the finaliser of a 32-bit murmur hash).
-vec3 false_color(uint number) {
-    number = (number ^ (number >> 16)) * 0x85ebca6bu;
-    number = (number ^ (number >> 13)) * 0xc2b2ae35u;
-    number ^= number >> 16;
-    return vec3(number & 0xffu, (number >> 8) & 0xffu, (number >> 16) & 0xffu) / 255.0;
-}
+const uint OBJECT_RAY_INVERSE = 2;

@@ -4,19 +4,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
+#include "hit.glsl"
 
-layout(location = 0) rayPayloadInEXT vec4 payload;
+layout(location = 0) rayPayloadInEXT Hit hit;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    payload = vec4(sky(gl_WorldRayDirectionEXT), 1.0);
-    if (push.show == SHOW_HIT) {
-        payload = vec4(-1.0);
-    }
-    if (push.show == SHOW_DIRECTION) {
-        payload = vec4(gl_WorldRayDirectionEXT, -1.0);
-    }
-    if (push.show == SHOW_ORIGIN || push.show == SHOW_OBJECT_NORMAL || push.show == SHOW_OBJECT_ORIGIN) {
-        payload = vec4(-1.0);
-    }
+    hit.t = -1.0;
+    hit.color = sky(gl_WorldRayDirectionEXT);
 }

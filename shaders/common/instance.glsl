@@ -1,3 +1,5 @@
+// Taught by 09_instancing, whose own file this is a copy of.
+//
 // A ray's origin as an instance's mesh sees it: two ways through the same matrix.
 //
 // With M = [L T] the mesh's origin is at T, and o' = L^-1·(o - T) = L^-1·o - L^-1·T. On paper.
