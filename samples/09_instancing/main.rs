@@ -4,6 +4,7 @@
 //! a piece; normals under any matrix; and a set that may be moved as far away as you like.
 
 mod formation;
+mod pieces;
 mod placed;
 
 use std::ops::Range;
@@ -15,44 +16,23 @@ use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
     Variant, Variants, barrier,
 };
-use common::scene::{
-    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
-};
+use common::scene::{Camera, CameraBasis, Light, PointLight, SceneAddresses, SceneOnGpu, Sun};
 use common::{Controls, Frame, Sample, Setup};
-use formation::{BLACK, BOARD, Build, Formation, WHITE};
+use formation::Build;
 use glam::{DVec3, Vec3};
-use placed::{FLAGS, Placed, Placement};
+use pieces::Pieces;
+use placed::{FLAGS, Placement, SEEN};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-// What `coordinates` may be; the third is both, side by side.
-const WORLD: u32 = 0;
-const CAMERA_RELATIVE: u32 = 1;
-
-/// What `normals` is to begin with.
-const HOST_INVERSE: u32 = 2;
-
 /// How far the camera goes before the set is placed anew.
 const STEP: f64 = 16.0;
 
-// ANCHOR: masks
-/// Which bits a ray asks for: it sees an instance if they share one.
-const SEEN: [(&str, u8); 4] = [
-    ("everything", 0xff),
-    ("all but white", BOARD | BLACK),
-    ("all but black", BOARD | WHITE),
-    ("the board", BOARD),
-];
-// ANCHOR_END: masks
-
 struct Demo {
-    meshes: Scene,
     scene: SceneOnGpu,
-    formation: Formation,
-    /// The instances about each of the two origins, where they were last needed.
-    placed: [Option<Placed>; 2],
+    pieces: Pieces,
     pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
@@ -61,7 +41,6 @@ struct Demo {
     light_size: f32,
     light_samples: u32,
     build: Build,
-    built: Build,
     far: f32,
     coordinates: u32,
     white_flags: u32,
@@ -102,33 +81,29 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let build = Build { scene: 0, squares: 10_000, geometry: 0 };
-        let (meshes, formation) = Formation::build(build)?;
-        let scene = SceneOnGpu::new(gpu, &meshes, setup.options)?;
-        let camera = formation::camera(build.scene);
+        let pieces = Pieces::new(build)?;
+        let scene = SceneOnGpu::new(gpu, &pieces.meshes, setup.options)?;
         let constants = Constants {
             show: 0,
             shadow_rays: 0,
             smooth_terminator: true,
             culling: 0,
-            normals: HOST_INVERSE,
+            normals: 2,
             object_ray: 0,
         };
         Ok(Self {
-            meshes,
             scene,
-            formation,
-            placed: [None, None],
+            pieces,
             pipelines: Variants::default(),
-            camera,
+            camera: formation::camera(build.scene),
             sun: Sun { azimuth: 300.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
             lamp: PointLight::default(),
             light: 0,
             light_size: 0.0,
             light_samples: 16,
             build,
-            built: build,
             far: 0.0,
-            coordinates: CAMERA_RELATIVE,
+            coordinates: 1,
             white_flags: 0,
             camera_sees: 0,
             shadows_of: 0,
@@ -153,11 +128,8 @@ impl Sample for Demo {
         c.choice("shadows of", &mut self.shadows_of, &SEEN.map(|(name, _)| name));
         c.choice("culling", &mut self.constants.culling, &["off", "back faces", "front faces"]);
         c.choice("flags of white", &mut self.white_flags, &FLAGS.map(|(name, _)| name));
-        c.choice(
-            "normals",
-            &mut self.constants.normals,
-            &["matrix", "device inverse", "host inverse"],
-        );
+        let normals = ["matrix", "device inverse", "host inverse"];
+        c.choice("normals", &mut self.constants.normals, &normals);
         c.choice("object ray", &mut self.constants.object_ray, &["device", "matrix", "inverse"]);
         let views = [
             "picture",
@@ -186,52 +158,43 @@ impl Sample for Demo {
     // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        self.rebuild(frame.gpu)?;
-        let (world, relative) = (0, 1);
+        self.pieces.rebuild(frame.gpu, &mut self.scene, self.build)?;
         let width = frame.image.extent.width;
-        match self.coordinates {
-            WORLD => self.trace(frame, world, 0..width),
-            CAMERA_RELATIVE => self.trace(frame, relative, 0..width),
-            _ => {
-                self.trace(frame, world, 0..width / 2)?;
-                barrier::trace_to_trace(frame.gpu, frame.cmd);
-                self.trace(frame, relative, width / 2..width)
-            }
-        }
+        // World coordinates to the left of it, camera-relative ones to the right.
+        let middle = [width, 0, width / 2][self.coordinates as usize];
+        self.trace(frame, 0, 0..middle)?;
+        barrier::trace_to_trace(frame.gpu, frame.cmd);
+        self.trace(frame, 1, middle..width)
     }
 
     fn report(&self) -> Result<serde_json::Value> {
-        Ok(placed::memory(&self.meshes, &self.scene, &self.formation, &self.placed))
+        Ok(self.pieces.memory(&self.scene))
     }
 }
 
 impl Demo {
     /// Traces some columns of the picture, in coordinates about one of the two origins.
     fn trace(&mut self, frame: &Frame, which: usize, columns: Range<u32>) -> Result<()> {
+        if columns.is_empty() {
+            return Ok(());
+        }
         // ANCHOR: origin
         // The set and all that looks at it and lights it are moved together, in f64.
         let moved = DVec3::new(self.far.into(), 0.0, self.far.into());
-        let mut camera = self.camera;
-        camera.eye += moved;
-        camera.target += moved;
         let origin = match which {
             0 => DVec3::ZERO,
             // Near the camera, in steps, so that few of its movements place everything again.
-            _ => (camera.eye / STEP).round() * STEP,
+            _ => ((self.camera.eye + moved) / STEP).round() * STEP,
         };
-        camera.eye -= origin;
-        camera.target -= origin;
+        let shift = moved - origin;
+        let mut camera = self.camera;
+        camera.eye += shift;
+        camera.target += shift;
         // ANCHOR_END: origin
-        let placement =
-            Placement { shift: moved - origin, flags: FLAGS[self.white_flags as usize].1 };
-        let known = self.placed[which].take().filter(|placed| placed.placement == placement);
-        let placed = match known {
-            Some(placed) => placed,
-            None => Placed::new(frame.gpu, &self.meshes, &self.scene, &self.formation, placement)?,
-        };
-        let placed = self.placed[which].insert(placed);
+        let placement = Placement { shift, flags: FLAGS[self.white_flags as usize].1 };
+        let placed = self.pieces.place(frame.gpu, &self.scene, which, placement)?;
         // ANCHOR: trace
-        let position = (self.lamp.position.as_dvec3() + moved - origin).as_vec3();
+        let position = (self.lamp.position.as_dvec3() + shift).as_vec3();
         let lamp = PointLight { position, ..self.lamp };
         let push = Push {
             camera: camera.basis(frame.aspect()),
@@ -253,24 +216,8 @@ impl Demo {
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        let width = columns.end - columns.start;
-        sbt.trace(frame.cmd, vk::Extent2D { width, ..frame.image.extent });
+        sbt.trace(frame.cmd, vk::Extent2D { width: columns.len() as u32, ..frame.image.extent });
         // ANCHOR_END: trace
-        Ok(())
-    }
-
-    /// Makes meshes and pieces again if a control has changed what they are made from.
-    fn rebuild(&mut self, gpu: &Gpu) -> Result<()> {
-        if self.build == self.built {
-            return Ok(());
-        }
-        let copied = self.build.is_copied() || self.built.is_copied();
-        (self.meshes, self.formation) = Formation::build(self.build)?;
-        self.placed = [None, None];
-        if copied {
-            self.scene.rebuild(gpu, &self.meshes, self.scene.options)?;
-        }
-        self.built = self.build;
         Ok(())
     }
 }

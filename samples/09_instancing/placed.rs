@@ -4,10 +4,20 @@ use anyhow::Result;
 use ash::vk;
 use ash::vk::GeometryInstanceFlagsKHR as Flags;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
-use common::scene::{Mesh, Scene, SceneOnGpu, build_top, input_usage, transform};
+use common::scene::{Scene, SceneOnGpu, build_top, input_usage, transform};
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
-use crate::formation::{Formation, Piece, WHITE};
+use crate::formation::{BLACK, BOARD, Formation, Piece, WHITE};
+
+// ANCHOR: masks
+/// Which bits a ray asks for: it sees an instance if they share one.
+pub const SEEN: [(&str, u8); 4] = [
+    ("everything", 0xff),
+    ("all but white", BOARD | BLACK),
+    ("all but black", BOARD | WHITE),
+    ("the board", BOARD),
+];
+// ANCHOR_END: masks
 
 const NO_FLAGS: Flags = Flags::empty();
 /// What an instance may say of its triangles.
@@ -100,28 +110,3 @@ fn record(piece: &Piece, shift: DVec3) -> PieceRecord {
     }
 }
 // ANCHOR_END: inverse
-
-// ANCHOR: memory
-/// Bytes of everything that grows with the pieces.
-pub fn memory(
-    meshes: &Scene,
-    scene: &SceneOnGpu,
-    formation: &Formation,
-    placed: &[Option<Placed>],
-) -> serde_json::Value {
-    let model = &meshes.model;
-    let bytes = |mesh: &Mesh| size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
-    let placed = placed.iter().flatten();
-    let pieces = formation.pieces.len();
-    serde_json::json!({
-        "pieces": pieces,
-        "meshes": model.meshes.len(),
-        "triangles": formation.triangles(model),
-        "mesh_bytes": model.meshes.iter().map(bytes).sum::<usize>(),
-        "bottom_level_bytes": scene.blas.iter().map(|blas| blas.size).sum::<u64>(),
-        "top_level_bytes": placed.clone().map(|placed| placed.tlas.size).sum::<u64>(),
-        "record_bytes": placed.map(|_| pieces * size_of::<PieceRecord>()).sum::<usize>(),
-        "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
-    })
-}
-// ANCHOR_END: memory

@@ -378,7 +378,6 @@ fn ordering_changes_no_pixel() {
         let run = |ordering| picture(SIZE, &[&scene, "show=hit", ordering]);
         let (on, off) = (run("ordering=on"), run("ordering=off"));
         let (mut ties, mut others) = (0, 0);
-        // The last number is the instance's place in the build, which is what differs.
         for (a, b) in on.pixels.iter().zip(&off.pixels).filter(|(a, b)| a[..3] != b[..3]) {
             // A plinth, or a mesh, stands on the board: the same distance but for its rounding.
             let tie = (a[2] - b[2]).abs() <= (16.0 * U as f32) * a[2];
