@@ -19,7 +19,7 @@ pub struct Landscape {
 }
 
 common::shader_struct! {
-    /// The height of the ground (`shaders/common/heightfield.glsl`).
+    /// The height of the ground (`heightfield.glsl`).
     pub struct HeightfieldShape {
         /// Scales everything.
         pub k: f32,
@@ -51,33 +51,8 @@ common::shader_struct! {
         pub high: Vec3,
         /// By how much a height above the ground may be wrong that is computed in the box.
         pub error: f32,
-        /// Colour of the light fields, linear RGB.
-        pub light: Vec3,
-        /// Colour of the dark ones.
-        pub dark: Vec3,
-        /// Colour where it is steep, and from below.
-        pub rock: Vec3,
-        /// What part of the light is mirrored, looked at straight.
-        pub reflection: f32,
-        /// 0 averaged over the pixel, 1 at its middle, 2 no fields.
-        pub checker: u32,
-    }
-}
-
-impl Default for Ground {
-    /// Fields in the evening.
-    fn default() -> Self {
-        Self {
-            shape: Landscape { k: 0.0, rings: 0 }.shape(),
-            low: Vec3::ZERO,
-            high: Vec3::ZERO,
-            error: 0.0,
-            light: Vec3::new(0.5, 0.42, 0.17),
-            dark: Vec3::new(0.09, 0.17, 0.045),
-            rock: Vec3::new(0.3, 0.24, 0.19),
-            reflection: 0.0,
-            checker: 0,
-        }
+        /// Its material, in the scene's list.
+        pub material: u32,
     }
 }
 

@@ -57,18 +57,18 @@ impl Land {
         Ok(Self { tlas, landscape, bounds, margin, _blas: blas })
     }
 
-    /// The ground that was built, in these colours.
-    pub fn ground(&self, colors: Ground) -> Ground {
+    /// The ground that was built, of this material.
+    pub fn ground(&self, material: u32) -> Ground {
         let (low, high) = self.bounds;
         // Rays that leave the ground begin in the box.
         let error = self.landscape.error(low.abs().max(high.abs()).as_dvec3());
         let error = (error as f32).next_up();
-        Ground { shape: self.landscape.shape(), low, high, error, ..colors }
+        Ground { shape: self.landscape.shape(), low, high, error, material }
     }
 
-    /// Whether it is still the land of that landscape, seen from that eye.
-    pub fn is_of(&self, landscape: Landscape, eye: Vec3) -> bool {
-        self.landscape == landscape && self.margin == margin(landscape, eye)
+    /// Whether another landscape is wanted, or another eye sees it.
+    pub fn is_outdated(&self, landscape: Landscape, eye: Vec3) -> bool {
+        self.landscape != landscape || self.margin != margin(landscape, eye)
     }
 }
 

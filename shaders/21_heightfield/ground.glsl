@@ -1,12 +1,12 @@
 // The ground: where a ray meets it, in its box.
+#include "common/box.glsl"
 
 // ANCHOR: box
 // Where a ray enters the ground's box and where it leaves it; x > y if it passes by.
 vec2 in_the_box(vec3 o, vec3 d, float tmin, float tmax) {
-    Ground ground = push.world.ground;
     vec2 t;
     vec3 faces[2];
-    if (!box_division(o, d, ground.low, ground.high, t, faces)) {
+    if (!box_division(o, d, push.ground.low, push.ground.high, t, faces)) {
         return vec2(0.0, -1.0);
     }
     return vec2(max(t.x, tmin), min(t.y, tmax));
@@ -23,7 +23,7 @@ HeightfieldHit meet_ground(uint rung, vec3 o, vec3 d, float tmin, float tmax) {
     }
     float unit = rung <= HEIGHTFIELD_LIPSCHITZ ? length(d) : 1.0;
     HeightfieldHit hit = heightfield_by(
-        rung, push.world.ground.shape, o, d / unit, within.x * unit, within.y * unit);
+        rung, push.ground.shape, o, d / unit, within.x * unit, within.y * unit);
     hit.t /= unit;
     return hit;
 }

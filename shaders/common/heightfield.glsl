@@ -1,3 +1,5 @@
+// Taught by 21_heightfield, whose own file this is a copy of.
+//
 // A ray against a landscape, y = H(x, z): four ways of marching.
 //
 // There is no formula for the hit. A march asks how high the ray is above the ground, and steps ahead by

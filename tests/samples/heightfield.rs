@@ -1,7 +1,8 @@
-//! 21_heightfield: each rung held to the exact ground, and a ground that takes part in everything.
+//! 21_heightfield: each rung held to the exact ground, and pieces that stand on it.
 
 mod judged;
 mod marched;
+mod standing;
 mod world;
 
 #[allow(dead_code)]
@@ -10,26 +11,22 @@ mod ground;
 #[allow(dead_code)]
 #[path = "../../samples/21_heightfield/land.rs"]
 mod land;
-
-use std::collections::{BTreeMap, BTreeSet};
+#[allow(dead_code)]
+#[path = "../../samples/21_heightfield/scenes.rs"]
+mod scenes;
 
 use common::app::Picture;
-use common::scene::Sun;
 use glam::DVec3;
 use ground::Landscape;
 use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
-use reference::Ray;
-use world::{World, chess, traced};
 
-use run::{bits, golden, plot, render};
+use run::{golden, plot, render};
 
 const NAME: &str = "21_heightfield";
-/// What `show=hit` says of plane and ground, instead of an instance.
-const PLANE: f32 = -2.0;
-const GROUND: f32 = -3.0;
-/// How high the lake is.
-const LAKE: f32 = 0.45;
+/// The ground's instance, after those of the 28 pieces. Alone it comes after one triangle.
+const GROUND: f32 = 28.0;
+const GROUND_ALONE: f32 = 1.0;
 const HILLS: Landscape = Landscape { k: 1.0, rings: 6 };
 const STEEP: Landscape = Landscape { k: 14.0, rings: 3 };
 const FLAT: Landscape = Landscape { k: 0.0, rings: 25 };
@@ -44,8 +41,6 @@ fn the_picture_is_the_golden_one() {
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &shown("240x150", &[], &[]), 0.002);
 }
-
-// The ground alone ------------------------------------------------------------------------------
 
 /// The presets, in the order of the page's table.
 const VIEWS: [(&str, Landscape); 5] = [
@@ -210,163 +205,6 @@ fn from_below_the_ground_is_the_ground() {
     assert!(relaxed.count(Verdict::FalseMiss) == relaxed.hits());
 }
 
-// The ground among other things -----------------------------------------------------------------
-
-#[test]
-fn the_chess_set_stands_on_the_ground() {
-    let scene = chess();
-    for landscape in [HILLS, STEEP] {
-        let (mut feet, mut highest) = (0, 0.0f32);
-        for piece in &scene.instances {
-            let mesh = &scene.model.meshes[piece.mesh];
-            let Some(placed) = land::stand(landscape, piece, mesh) else {
-                continue;
-            };
-            // Upright, above the place where it stood.
-            let by = placed.transform.translation - piece.transform.translation;
-            assert!(
-                placed.transform.matrix3 == piece.transform.matrix3 && by.x == 0.0 && by.z == 0.0
-            );
-            let bottom = mesh.bounds().0.y;
-            let foot = mesh.vertices.iter().map(|vertex| vertex.position);
-            let gaps = foot.filter(|position| position.y == bottom).map(|position| {
-                let at = placed.transform.transform_point3(position);
-                f64::from(at.y) - landscape.height(at.x, at.z)
-            });
-            let (least, most) =
-                gaps.fold((f64::MAX, f64::MIN), |(a, b), gap| (a.min(gap), b.max(gap)));
-            // It touches the ground, and nothing of the foot is in the air.
-            assert!(most.abs() < 1e-5 && least > -0.6, "{least} {most}");
-            highest = highest.max(placed.transform.translation.y);
-            feet += 1;
-        }
-        println!("k = {}: {feet} pieces stand, the highest at {highest}", landscape.k);
-        assert!(if landscape == HILLS { feet == 28 } else { feet < 28 && feet > 0 });
-        // The device has just those.
-        let k = format!("steepness={}", landscape.k);
-        let sets = [&k[..], "plane=off", "camera eye=8,70,1", "camera target=8,0,0"];
-        let sets = [&sets[..], &["field of view=8", "show=hit"]].concat();
-        let seen = shown("300x300", &sets, &[]);
-        let seen: BTreeSet<i32> = seen.pixels.iter().map(|hit| hit[0] as i32).collect();
-        assert_eq!(seen.iter().filter(|instance| **instance >= 0).count(), feet);
-    }
-}
-
-#[test]
-fn ground_pieces_and_lake_mirror_each_other() {
-    let world = World::new();
-    // Everything mirrors: rays leave pieces, lake and ground, many of them grazing it.
-    let sets = ["ground reflection=1"];
-    let (first, second) = (traced("120x75", &sets, 0), traced("120x75", &sets, 1));
-    let mut seen = BTreeMap::<String, usize>::new();
-    let (mut edges, mut from_ground) = (0, 0);
-    for (bounce, (ray, hit)) in
-        first.iter().map(|hit| (0, hit)).chain(second.iter().map(|hit| (1, hit)))
-    {
-        let on_lake = bounce == 1 && ray.origin.y == f64::from(LAKE);
-        let height = world.ground.height_above(ray, 0.0);
-        if bounce == 1 && height < 4.0 * world.ground.error {
-            // The start is above the ground by more than a height may be wrong.
-            from_ground += 1;
-            assert!(height > world.ground.error || on_lake, "{ray:?} {height}");
-        }
-        let (expected, t) = world.first(ray, on_lake);
-        if expected != hit[0] {
-            assert!(
-                world.is_close(ray, on_lake),
-                "bounce {bounce}: {ray:?} {hit:?} {expected} {t}"
-            );
-            edges += 1;
-            continue;
-        }
-        if expected == GROUND {
-            let exact = world.ground.hit(ray);
-            let verdict = world.ground.judge(ray, Some(hit[2].into()), exact.as_ref());
-            assert!(verdict == Verdict::Right, "{ray:?} {hit:?} {verdict:?}");
-        }
-        let kind = match expected {
-            GROUND => "ground",
-            PLANE => "lake",
-            -1.0 => "sky",
-            _ => "piece",
-        };
-        *seen.entry(format!("{bounce} {kind}")).or_default() += 1;
-    }
-    println!("{seen:?}, {from_ground} rays start on the ground, {edges} at edges");
-    assert!(seen.values().all(|count| *count > 50), "{seen:?}");
-    assert!(seen.len() == 8 && from_ground > 3000, "{seen:?} {from_ground}");
-    assert!(edges * 200 < first.len(), "{edges}");
-}
-
-#[test]
-fn shadows_fall_both_ways_and_no_ground_shades_itself() {
-    let world = World::new();
-    // By what is in the shadow and what throws it.
-    let mut seen = BTreeMap::<String, usize>::new();
-    let (mut edges, mut facing_away) = (0, 0);
-    let in_the_pond = ["camera eye=-8,0.25,6", "camera target=-8,-0.75,-2"];
-    // The second sun is so low that hills reach hills.
-    for (azimuth, elevation, more) in
-        [(270.0, 17.0, &[][..]), (240.0, 10.0, &[]), (270.0, 17.0, &in_the_pond)]
-    {
-        let sun = Sun { azimuth, elevation, ..Sun::default() };
-        let light = sun.light().direction.to_array();
-        let sun = [format!("sun azimuth={azimuth}"), format!("sun elevation={elevation}")];
-        let show = |view| shown("150x94", &[&[&sun[0][..], &sun[1], view], more].concat(), &[]);
-        let (hits, shadows) = (show("show=hit"), show("show=shadow origin"));
-        for (hit, &[x, y, z, visible]) in hits.pixels.iter().zip(&shadows.pixels) {
-            let on = match hit[0] {
-                PLANE => "lake",
-                GROUND => "ground",
-                -1.0 => continue,
-                _ => "piece",
-            };
-            let ray = Ray::from_f32([x, y, z], light, 0.0, 1e30);
-            let ground = world.ground.field.height(x.into(), z.into()).1;
-            let faces = match on {
-                "ground" => DVec3::new(-ground[0], 1.0, -ground[1]).dot(ray.direction) > 1e-6,
-                // Which way its triangle faces is not known here; what is lit does.
-                "piece" => visible > 0.0 || world.first(&ray, false).0 != -1.0,
-                _ => true,
-            };
-            if !faces {
-                // What faces away from the sun needs no ray.
-                assert!(visible == 0.0);
-                facing_away += 1;
-                continue;
-            }
-            let (by, _) = world.first(&ray, on == "lake");
-            let by = match by {
-                -1.0 => "nothing",
-                GROUND => "ground",
-                PLANE => "lake",
-                _ => "a piece",
-            };
-            if (by == "nothing") != (visible > 0.0) {
-                assert!(world.is_close(&ray, on == "lake"), "{on} {by} {ray:?}");
-                edges += 1;
-                continue;
-            }
-            *seen.entry(format!("{on} by {by}")).or_default() += 1;
-        }
-    }
-    println!("{seen:?}, {facing_away} face away, {edges} at edges");
-    for kind in [
-        "ground by nothing",
-        "ground by ground",
-        "ground by a piece",
-        "ground by lake",
-        "lake by nothing",
-        "lake by ground",
-        "lake by a piece",
-        "piece by nothing",
-        "piece by a piece",
-    ] {
-        assert!(seen.get(kind).is_some_and(|count| *count > 20), "{kind}: {seen:?}");
-    }
-    assert!(edges < 20, "{edges}");
-}
-
 #[test]
 fn normals_are_those_of_the_height_function() {
     let alone = Alone::new();
@@ -377,7 +215,7 @@ fn normals_are_those_of_the_height_function() {
     let rays = alone.rays("120x75", &sets);
     let (mut count, mut worst) = (0, 0.0f64);
     for ((ray, normal), hit) in rays.iter().zip(&normals.pixels).zip(&hits.pixels) {
-        if hit[0] != GROUND {
+        if hit[0] != GROUND_ALONE {
             continue;
         }
         let p = ray.at(hit[2].into());
@@ -396,7 +234,7 @@ fn normals_are_those_of_the_height_function() {
 #[test]
 fn what_is_traced_is_what_is_marched() {
     for rung in ["relaxed", "bisected"] {
-        let sets = ["plane=off", "shadow rays=off", &format!("rung={rung}")];
+        let sets = ["shadow rays=off", &format!("rung={rung}")];
         let show = |view| shown("120x75", &[&sets[..], &[view]].concat(), &[]);
         let (hits, marched) = (show("show=hit"), show("show=march"));
         let mut ground = 0;
@@ -414,14 +252,4 @@ fn what_is_traced_is_what_is_marched() {
         }
         assert!(ground > 3000, "{rung}: {ground}");
     }
-}
-
-#[test]
-fn loop_and_recursion_before_and_after_give_the_same_bits() {
-    let sets = ["ground reflection=0.4", "light=both", "depth=3"];
-    let show = |more: &[&str]| bits(&shown("120x75", &[&sets[..], more].concat(), &[]));
-    let picture = show(&[]);
-    assert!(picture == show(&["method=recursive"]));
-    assert!(picture == show(&["plane test=after"]));
-    assert!(picture != show(&["rung=relaxed"]));
 }

@@ -3,11 +3,15 @@
 use std::collections::BTreeMap;
 
 use common::app::Picture;
+use common::scene::Camera;
+use glam::DVec3;
 use reference::Ray;
 
 use super::ground::Landscape;
 use super::judged::{Exact, Verdict};
+use super::scenes::{PRESETS, Preset};
 use super::shown;
+use run::exact::rays;
 
 pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
 
@@ -24,19 +28,30 @@ impl Alone {
 
     pub fn shown(&self, size: &str, sets: &[&str]) -> Picture {
         let path = self.0.path().join("a.obj").display().to_string();
-        let alone = ["plane=off", "shadow rays=off"];
-        shown(size, &[sets, &alone].concat(), &["--scene", &path])
+        shown(size, &[sets, &["shadow rays=off"]].concat(), &["--scene", &path])
     }
 
     /// The rays of the camera, as the GPU wrote them.
     pub fn rays(&self, size: &str, sets: &[&str]) -> Vec<Ray> {
-        let show = |view| self.shown(size, &[sets, &[view]].concat()).pixels;
-        let rays = show("show=ray origin").into_iter().zip(show("show=ray direction"));
-        rays.map(|([ox, oy, oz, _], [x, y, z, _])| {
-            Ray::from_f32([ox, oy, oz], [x, y, z], 0.0, 1e30)
-        })
-        .collect()
+        let directions = self.shown(size, &[sets, &["show=ray direction"]].concat());
+        rays(&camera(sets), &directions).collect()
     }
+}
+
+/// Where the rays of these settings come from: what a setting says, or else the preset.
+pub fn camera(sets: &[&str]) -> Camera {
+    let said = |control: &str| {
+        let mut said = sets.iter().filter_map(|set| set.split_once('='));
+        said.find_map(|(name, value)| (name == control).then_some(value))
+    };
+    let preset = said("preset").unwrap_or(PRESETS[0]);
+    let number = PRESETS.iter().position(|name| *name == preset).unwrap();
+    let mut camera = Preset::new(number as u32).camera;
+    if let Some(eye) = said("camera eye") {
+        let eye: Vec<f64> = eye.split(',').map(|number| number.parse().unwrap()).collect();
+        camera.eye = DVec3::from_slice(&eye);
+    }
+    camera
 }
 
 /// What a rung makes of a ray.
