@@ -52,9 +52,9 @@ impl Default for Modifiers {
 
 impl Modifiers {
     // ANCHOR: controls
-    /// The controls; whether another solid was chosen.
-    pub fn controls(&mut self, c: &mut Controls) -> bool {
-        let chosen = c.choice("solid", &mut self.shape, &SHAPES);
+    /// The controls.
+    pub fn controls(&mut self, c: &mut Controls) {
+        c.choice("solid", &mut self.shape, &SHAPES);
         c.integer("planes", &mut self.planes, 4..=32);
         c.slider("turn", &mut self.turn, 0.0..=360.0);
         c.checkbox("inverse solids", &mut self.inverse);
@@ -63,7 +63,6 @@ impl Modifiers {
         c.vector("cut normal", &mut self.cut_normal, -1e3..=1e3);
         c.slider("cut distance", &mut self.cut_distance, -1e3..=1e3);
         c.checkbox("shared planes", &mut self.shared);
-        chosen
     }
     // ANCHOR_END: controls
 

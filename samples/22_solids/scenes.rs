@@ -1,9 +1,7 @@
 //! The scenes of this chapter: solids on the board, among a few pieces or alone.
 
 use anyhow::Result;
-use common::scene::board::Board;
-use common::scene::plane::HalfSpace;
-use common::scene::{Camera, Instance, Material, Model, PointLight, Scene, Sun};
+use common::scene::{Camera, Instance, Material, Model, Scene, Sun};
 use glam::{Affine3A, DVec3, Mat3A, Quat, Vec3};
 
 use crate::fog::Fog;
@@ -14,10 +12,8 @@ use crate::solid::{Bound, Solid, plane};
 /// The names of the presets, in the order of their numbers.
 pub const PRESETS: [&str; 7] =
     ["board", "convex solids", "csg", "clipped", "inside", "ties", "one solid"];
-/// The last of them.
-pub const ONE_SOLID: u32 = 6;
 
-/// What stands where, how it is lit and looked at, and the plane beside it.
+/// What stands where, and how it is lit and looked at.
 pub struct Preset {
     /// What is placed, and the view.
     pub scene: Scene,
@@ -25,14 +21,6 @@ pub struct Preset {
     pub solids: Vec<Placed>,
     /// The sun.
     pub sun: Sun,
-    /// The lamp.
-    pub lamp: PointLight,
-    /// The sun shines (0), the lamp (1), or both (2).
-    pub light: u32,
-    /// The plane is the surface of this.
-    pub plane: HalfSpace,
-    /// What lies on it.
-    pub board: Board,
     /// What fills the air.
     pub fog: Fog,
 }
@@ -47,49 +35,40 @@ pub struct Placed {
     pub clip: Option<Bound>,
 }
 
-/// A material of the solids: name, colour, specular, reflection.
-struct Paint(&'static str, Vec3, f32, f32);
+/// A material of the solids: name, colour, specular.
+struct Paint(&'static str, Vec3, f32);
 
-const PAINTS: [Paint; 3] = [
-    Paint("ivory", Vec3::new(0.64, 0.56, 0.43), 0.3, 0.04),
-    Paint("red", Vec3::new(0.6, 0.045, 0.03), 0.5, 0.08),
-    Paint("blue", Vec3::new(0.05, 0.15, 0.46), 0.8, 0.3),
+const PAINTS: [Paint; 5] = [
+    Paint("ivory", Vec3::new(0.64, 0.56, 0.43), 0.3),
+    Paint("red", Vec3::new(0.6, 0.045, 0.03), 0.5),
+    Paint("blue", Vec3::new(0.05, 0.15, 0.46), 0.8),
+    Paint("gold", Vec3::new(0.55, 0.32, 0.06), 0.8),
+    Paint("silver", Vec3::new(0.42, 0.44, 0.47), 0.8),
 ];
 
-/// The chess set of metal, seen from a little above the solids.
+/// The chess set, seen from a little above the solids.
 pub fn chess() -> Result<Scene> {
     let camera = Camera::new(DVec3::new(-1.2, 2.1, 7.6), DVec3::new(0.15, 0.45, 0.0), 36.0);
-    Ok(Scene { camera, ..Scene::chess_of_metal()? })
+    Ok(Scene { camera, ..Scene::chess()? })
 }
 
 /// Adds what the solids are made of to a model.
 pub fn extend(model: &mut Model) {
-    for Paint(name, base_color, specular, _) in &PAINTS {
+    for Paint(name, base_color, specular) in &PAINTS {
         model.materials.push(Material {
             name: (*name).to_owned(),
             base_color: *base_color,
             specular: Vec3::splat(*specular),
             shininess: 200.0,
-            illumination: 3,
             ..Material::default()
         });
     }
 }
 
-/// A material by its name; another model may lack the gold of the chess set.
+/// A material by its name.
 pub fn material(model: &Model, name: &str) -> u32 {
     let found = model.materials.iter().position(|material| material.name == name);
     found.unwrap_or(model.materials.len() - 1) as u32
-}
-
-/// What part of the light a material mirrors when looked at straight. In an MTL file that is the
-/// specular colour, if the illumination model reflects (`illum 3`); the solids say it apart.
-pub fn reflection(material: &Material) -> Vec3 {
-    match PAINTS.iter().find(|paint| paint.0 == material.name) {
-        Some(Paint(.., reflection)) => Vec3::splat(*reflection),
-        None if material.illumination >= 3 => material.specular,
-        None => Vec3::ZERO,
-    }
 }
 
 impl Preset {
@@ -106,8 +85,14 @@ impl Preset {
         }
     }
 
-    /// Solids under the sun on the board, with those pieces of the scene whose mesh has such a name.
-    fn on_board(scene: &Scene, stay: &[&str], solids: Vec<Placed>, camera: Camera) -> Self {
+    /// Solids on the board, with those pieces of the scene whose mesh has such a name.
+    fn on_board(scene: &Scene, pieces: &[&str], solids: Vec<Placed>, camera: Camera) -> Self {
+        let board = ["board_light", "board_dark", "board_frame"];
+        Self::of(scene, &[&board, pieces].concat(), solids, camera)
+    }
+
+    /// Solids under the sun, with those instances of the scene whose mesh has such a name.
+    fn of(scene: &Scene, stay: &[&str], solids: Vec<Placed>, camera: Camera) -> Self {
         let name = |instance: &Instance| scene.model.meshes[instance.mesh].name.as_str();
         let stays = |instance: &&Instance| stay.contains(&name(instance));
         let instances = scene.instances.iter().filter(stays).copied().collect();
@@ -115,17 +100,6 @@ impl Preset {
             scene: Scene { model: scene.model.clone(), instances, camera },
             solids,
             sun: Sun { azimuth: 305.0, elevation: 34.0, radiance: Vec3::new(4.4, 3.7, 2.8) },
-            lamp: PointLight::default(),
-            light: 0,
-            plane: HalfSpace::new(Vec3::Y, 0.0),
-            board: Board {
-                light: Vec3::new(0.62, 0.46, 0.26),
-                dark: Vec3::new(0.115, 0.048, 0.022),
-                specular: 0.03,
-                roughness: 0.38,
-                reflection: 0.03,
-                ..Board::default()
-            },
             fog: Fog::default(),
         }
     }
@@ -249,16 +223,14 @@ fn ties(scene: &Scene) -> Preset {
     Preset::on_board(scene, &[], solids, camera)
 }
 
-/// A solid in its own space, which is the world's but for its turn, and the plane under it.
+/// A solid in its own space, which is the world's but for its turn.
 fn one_solid(scene: &Scene, modifiers: &Modifiers) -> Preset {
     let solid = shapes::shape(modifiers.shape, modifiers.planes);
-    let low = solid.bounds()[1].0.y.max(-2.0) as f32;
     let camera = Camera::new(DVec3::new(2.6, 1.9, 3.4), DVec3::new(0.0, -0.1, 0.0), 37.0);
     let solids = vec![Placed {
         solid,
         transform: Affine3A::from_rotation_y(modifiers.turn.to_radians()),
         clip: None,
     }];
-    let plane = HalfSpace::new(Vec3::Y, if low.is_finite() { low } else { -1.0 });
-    Preset { plane, ..Preset::on_board(scene, &[], solids, camera) }
+    Preset::of(scene, &[], solids, camera)
 }

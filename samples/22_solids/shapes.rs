@@ -6,7 +6,7 @@ use super::pieces;
 use super::solid::{Bound, Solid, ball, block, plane};
 
 /// The names of the solids, in the order of their numbers.
-pub const SHAPES: [&str; 24] = [
+pub const SHAPES: [&str; 26] = [
     "tetrahedron",
     "cube",
     "octahedron",
@@ -31,6 +31,8 @@ pub const SHAPES: [&str; 24] = [
     "tilted cube",
     "all but a cube",
     "thirds",
+    "half-space",
+    "sunk room",
 ];
 
 /// The solid of a number; the crystal has so many planes.
@@ -65,6 +67,8 @@ pub fn shape(number: u32, planes: u32) -> Solid {
         "overcut cube" => tilted_cube().without(slot(1.5)),
         "grazed cube" => grazed(),
         "all but a cube" => ivory(unit_block()).inverse(),
+        "half-space" => ivory(vec![plane(Vec3::Y, -0.6)]),
+        "sunk room" => ivory(dodecahedron(1.0)).and(ivory(vec![plane(Vec3::Y, -0.6)])),
         "thirds" => third(0, 1).and(third(1, 2)).and(third(2, 0)),
         _ => tilted_cube(),
     }

@@ -12,6 +12,56 @@ use crate::program::Programs;
 use crate::scenes::{self, Placed};
 use crate::solid::{Bound, REACH, Solid, block};
 
+/// A place 10000 units from the origin, and no axis spared.
+const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
+
+/// What the solids are built from; where it changes, they are built again.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Build {
+    /// A number in [`scenes::PRESETS`].
+    pub preset: u32,
+    /// How many times as large everything is: a thousandth, once, or a thousand times.
+    pub size: u32,
+    /// Everything is at the origin, or at [`FAR`].
+    pub moved: u32,
+    /// What is asked of all solids.
+    pub modifiers: Modifiers,
+}
+
+impl Default for Build {
+    fn default() -> Self {
+        Self { preset: 0, size: 1, moved: 0, modifiers: Modifiers::default() }
+    }
+}
+
+impl Build {
+    /// Where everything is.
+    pub fn placement(&self) -> Placement {
+        let size = [1e-3, 1.0, 1e3][self.size as usize];
+        Placement { size, moved: [DVec3::ZERO, FAR][self.moved as usize] }
+    }
+
+    /// Whether the pieces, too, are other ones or elsewhere.
+    pub fn places_otherwise(&self, other: &Self) -> bool {
+        Self { modifiers: other.modifiers, ..*self } != *other
+    }
+}
+
+common::shader_struct! {
+    /// Where shaders find the solids, and which instances they are.
+    pub struct Solids {
+        pub planes: Address,
+        pub balls: Address,
+        pub faces: Address,
+        pub parts: Address,
+        pub steps: Address,
+        pub at: Address,
+        /// Custom index of the first solid; the others follow.
+        pub first: u32,
+        pub count: u32,
+    }
+}
+
 common::shader_struct! {
     /// A solid, as shaders get it.
     pub struct SolidRecord {
@@ -46,12 +96,10 @@ impl SolidRecord {
 pub struct SolidsOnGpu {
     /// Everything.
     pub tlas: AccelerationStructure,
-    /// Where shaders find the solids: six addresses.
+    /// Where shaders find them: a [`Solids`].
     pub addresses: Buffer,
-    /// Custom index of the first solid; the others follow.
-    pub first: u32,
-    /// How many there are.
-    pub count: u32,
+    /// What they were built from.
+    pub build: Build,
     /// Each solid, its clips, and the matrix from the world to its space.
     inside: Vec<(Solid, Vec<Bound>, DAffine3)>,
     _levels: Vec<AccelerationStructure>,
@@ -65,9 +113,9 @@ impl SolidsOnGpu {
         scene: &Scene,
         on_gpu: &SceneOnGpu,
         solids: &[Placed],
-        placement: &Placement,
-        modifiers: &Modifiers,
+        build: Build,
     ) -> Result<Self> {
+        let Build { modifiers, .. } = build;
         let mut bounds: Vec<_> =
             scene.instances.iter().map(|piece| scene.instance_bounds(piece)).collect();
         let pieces = scene.instances.iter().enumerate();
@@ -95,7 +143,7 @@ impl SolidsOnGpu {
             let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
             let options = BuildOptions::default();
             let level = AccelerationStructure::bottom(gpu, "solid", &[geometry], options)?;
-            let to_world = place(&placed.transform, placement);
+            let to_world = place(&placed.transform, &build.placement());
             instances.push(instance(&to_world, first + records.len(), 1, &level));
             bounds.push(around(&to_world, corners));
             let to_object = to_world_f64(&to_world).inverse();
@@ -117,12 +165,14 @@ impl SolidsOnGpu {
             list("steps", cast_slice(&programs.steps))?,
             list("solid records", cast_slice(&records))?,
         ];
-        let addresses: [Address; 6] = buffers.each_ref().map(|buffer| buffer.address.into());
+        let [planes, balls, faces, parts, steps, at] =
+            buffers.each_ref().map(|buffer| buffer.address.into());
+        let (first, count) = (first as u32, records.len() as u32);
+        let addresses = [Solids { planes, balls, faces, parts, steps, at, first, count }];
         Ok(Self {
             tlas,
             addresses: Buffer::with_data(gpu, "solids", &addresses, input_usage())?,
-            first: first as u32,
-            count: records.len() as u32,
+            build,
             inside,
             _levels: levels,
             _buffers: buffers.into(),

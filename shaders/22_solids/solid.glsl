@@ -1,7 +1,7 @@
 // A solid along a ray: between which t each convex part holds it, and where what they make together
 // begins and ends.
 //
-// For shaders that have declared `push`, after common/plane.glsl.
+// For shaders that have included push.glsl.
 #include "common/sphere.glsl"
 
 // Beyond every t.
@@ -15,12 +15,12 @@ vec3 in_space_of(SolidRecord solid, vec4 v) {
 // ANCHOR: bounds
 // How far below a plane a point is, times |N|, and how fast a ray rises to it.
 float height_below(Plane plane, vec3 o) {
-    switch (PLANE_RUNG) {
-        case PLANE_POV: {
+    switch (RUNG) {
+        case RUNG_POV: {
             precise float height = plane.distance.x - dot(o, plane.normal);
             return height;
         }
-        case PLANE_COMPENSATED:
+        case RUNG_COMPENSATED:
             return dot_compensated(plane.distance, -o, plane.normal);
         default: {
             precise vec3 to_plane = plane.anchor - o;
@@ -32,7 +32,7 @@ float height_below(Plane plane, vec3 o) {
 
 float slope_to(Plane plane, vec3 d) {
     precise float slope = dot(d, plane.normal);
-    return PLANE_RUNG == PLANE_COMPENSATED ? dot_compensated(vec2(0.0), d, plane.normal) : slope;
+    return RUNG == RUNG_COMPENSATED ? dot_compensated(vec2(0.0), d, plane.normal) : slope;
 }
 
 // Whether a point is on the inner side. One on the plane itself is taken for a hair above it, as the
@@ -73,12 +73,12 @@ struct Interval {
 Interval in_part(Part part, vec3 o, vec3 d) {
     Interval inside = Interval(-NOWHERE, NOWHERE, 0, 0);
     for (uint i = part.first_face; i < part.first_face + part.face_count; i++) {
-        Face face = push.world.solids.faces.at[i];
+        Face face = push.solids.faces.at[i];
         vec2 t;
         if (face.kind == FACE_BALL) {
-            t = in_ball(push.world.solids.balls.at[face.index], o, d);
+            t = in_ball(push.solids.balls.at[face.index], o, d);
         } else {
-            t = in_half_space(push.world.solids.planes.at[face.index], face.side, o, d);
+            t = in_half_space(push.solids.planes.at[face.index], face.side, o, d);
         }
         if (t.x > inside.enter) {
             inside.enter = t.x;
@@ -99,7 +99,7 @@ Interval in_part(Part part, vec3 o, vec3 d) {
 bool holds(SolidRecord solid, uint members) {
     uint stack = 0;
     for (uint i = solid.first_step; i < solid.first_step + solid.step_count; i++) {
-        uint step = push.world.solids.steps.at[i];
+        uint step = push.solids.steps.at[i];
         if (step < STEP_UNION) {
             stack = stack << 1 | (members >> step & 1);
         } else if (step == STEP_INVERSE) {
@@ -126,15 +126,15 @@ bool contains(SolidRecord solid, vec3 point) {
         if (is_clip && solid.clip == NO_CLIP) {
             break;
         }
-        Part part = push.world.solids.parts.at[is_clip ? solid.clip : solid.first_part + i];
+        Part part = push.solids.parts.at[is_clip ? solid.clip : solid.first_part + i];
         bool within = true;
         for (uint j = part.first_face; j < part.first_face + part.face_count && within; j++) {
-            Face face = push.world.solids.faces.at[j];
+            Face face = push.solids.faces.at[j];
             if (face.kind == FACE_BALL) {
-                Ball ball = push.world.solids.balls.at[face.index];
+                Ball ball = push.solids.balls.at[face.index];
                 within = distance(point, ball.center) < ball.radius;
             } else {
-                within = is_inner(push.world.solids.planes.at[face.index], face.side, point);
+                within = is_inner(push.solids.planes.at[face.index], face.side, point);
             }
         }
         if (is_clip) {
@@ -156,7 +156,7 @@ uint interval_count;
 void follow(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax) {
     interval_count = 0;
     for (uint i = 0; i < solid.part_count; i++) {
-        Interval interval = in_part(push.world.solids.parts.at[solid.first_part + i], o, d);
+        Interval interval = in_part(push.solids.parts.at[solid.first_part + i], o, d);
         if (interval.enter < interval.leave && interval.leave > tmin && interval.enter <= tmax) {
             intervals[interval_count] = interval;
             parts[interval_count++] = i;
@@ -195,7 +195,7 @@ uint members_after(float t) {
 Interval in_clip(SolidRecord solid, vec3 o, vec3 d) {
     return solid.clip == NO_CLIP
         ? Interval(-NOWHERE, NOWHERE, 0, 0)
-        : in_part(push.world.solids.parts.at[solid.clip], o, d);
+        : in_part(push.solids.parts.at[solid.clip], o, d);
 }
 // ANCHOR_END: line
 

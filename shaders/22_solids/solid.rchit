@@ -4,22 +4,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/offset.glsl"
-#include "common/start.glsl"
-#include "lighting.glsl"
-#include "common/board.glsl"
+#include "hit.glsl"
+#include "common/place.glsl"
+#include "solid.glsl"
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 // The part and the face that the ray goes through.
 hitAttributeEXT uvec2 crossed;
 
-// Where on the solid, and how far off it the next ray must start.
-HitPoint here;
-
-Start start_from(Met met, vec3 direction) {
-    return met.on_plane ? Start(met.position, 0.0) : Start(origin_above(here), 0.0);
-}
-
-// ANCHOR: point
+// ANCHOR: place
 // The hit again, from the face and not from the ray, in the solid's own space: its point, the normal of
 // the face, and by how much, in units of ROUNDING, the next ray may find it on the wrong side.
 //
@@ -29,13 +22,13 @@ Start start_from(Met met, vec3 direction) {
 vec3 point_of_face(Face face, out vec3 normal, out vec3 straying) {
     precise vec3 p = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
     if (face.kind == FACE_BALL) {
-        Ball ball = push.world.solids.balls.at[face.index];
+        Ball ball = push.solids.balls.at[face.index];
         normal = normalize(p - ball.center);
         precise vec3 point = ball.center + ball.radius * normal;
         straying = abs(point) + vec3(24.0 * ball.radius);
         return point;
     }
-    Plane plane = push.world.solids.planes.at[face.index];
+    Plane plane = push.solids.planes.at[face.index];
     precise float off = height_below(plane, p) / dot(plane.normal, plane.normal);
     precise vec3 point = p + off * plane.normal;
     normal = normalize(plane.normal);
@@ -43,58 +36,46 @@ vec3 point_of_face(Face face, out vec3 normal, out vec3 straying) {
     return point;
 }
 
-// From there to the world, by the bound of common/offset.glsl.
-HitPoint solid_point(vec3 point, vec3 normal, vec3 own) {
+// From there to the world, as for triangles (common/place.glsl).
+void place_on_face(Face face) {
+    vec3 normal;
+    vec3 own;
+    vec3 point = point_of_face(face, normal, own);
     precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
+
     mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
     vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
-    return HitPoint(world, normal, ROUNDING * dot(abs(normal), straying));
-}
-// ANCHOR_END: point
 
-// The nearest hit is a solid.
-void main() {
-    if (PLANE_TEST == PLANE_AFTER && payload.plane <= gl_HitTEXT) {
-        shade_plane();
-        return;
-    }
-    // ANCHOR: fetch
-    SolidRecord solid = push.world.solids.solids.at[gl_InstanceCustomIndexEXT - push.world.first_solid];
-    Part part = push.world.solids.parts.at[solid.first_part + crossed.x];
-    Face face = push.world.solids.faces.at[crossed.y];
-    // ANCHOR_END: fetch
-    // ANCHOR: normal
-    vec3 normal;
-    vec3 straying;
-    vec3 point = point_of_face(face, normal, straying);
+    hit.position = world;
     // Out of the solid, whichever part has the face: against a ray that comes in, along one that goes
     // out. And that is the side seen, turned to the eye.
-    normal = normalize(vec3(normal * gl_WorldToObjectEXT));
-    normal = faceforward(normal, gl_WorldRayDirectionEXT, normal);
-    // ANCHOR_END: normal
-    here = solid_point(point, normal, straying);
+    hit.face = normalize(vec3(normal * gl_WorldToObjectEXT));
+    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
+    hit.height = ROUNDING * dot(abs(hit.face), straying);
+}
+// ANCHOR_END: place
 
-    Met met;
-    met.t = gl_HitTEXT;
-    met.position = here.position;
-    met.normal = normal;
-    met.flat_normal = normal;
-    met.lift = vec3(0.0);
-    met.up = normal;
-    met.on_plane = false;
-    met.curvature = 0.0;
-    if (face.kind == FACE_BALL) {
-        float radius = push.world.solids.balls.at[face.index].radius;
-        met.curvature = 1.0 / (radius * length(gl_ObjectToWorldEXT[0]));
-    }
-    met.material = push.scene.materials.at[part.material];
-    met.reflection = push.world.reflections.at[part.material];
-    // The place of the face among those of its solid, and whether the ray was inside.
-    uint number = crossed.y - push.world.solids.parts.at[solid.first_part].first_face;
-    shade(met, vec4(gl_InstanceCustomIndexEXT, number, gl_HitTEXT, float(gl_HitKindEXT)),
-          false_color(number));
+// The nearest hit is a solid: the intersection shader has left its part and face.
+void main() {
+    // ANCHOR: fetch
+    SolidRecord solid = push.solids.at.at[gl_InstanceCustomIndexEXT - push.solids.first];
+    Part part = push.solids.parts.at[solid.first_part + crossed.x];
+    Face face = push.solids.faces.at[crossed.y];
+    // ANCHOR_END: fetch
+    // ANCHOR: report
+    place_on_face(face);
+    hit.t = gl_HitTEXT;
+    hit.normal = hit.face;
+    hit.lift = vec3(0.0);
+    hit.color = push.scene.materials.at[part.material].base_color;
+    hit.material = part.material;
+    // The place of the face among those of its solid.
+    hit.triangle = crossed.y - push.solids.parts.at[solid.first_part].first_face;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.kind = gl_HitKindEXT;
+    // ANCHOR_END: report
 }

@@ -29,6 +29,6 @@ fn the_order_of_settings_does_not_matter() {
     held("09_instancing", ["geometry=copies", "squares=900", "camera eye=1,2,3"]);
     held("12_infinite_plane", ["preset=pov", "plane distance=0.5", "camera eye=1,2,3"]);
     held("21_heightfield", ["preset=steep", "steepness=3", "sun azimuth=10"]);
-    held("22_solids", ["preset=one solid", "fog distance=7", "light=both"]);
+    held("22_solids", ["preset=one solid", "fog distance=7", "light=point"]);
     held("25_scene_effects", ["scene=lake", "depth=2", "light size=0.25"]);
 }

@@ -1,0 +1,179 @@
+//! Every hit held to the exact solid, by each rung, wherever the solid stands; and normals.
+
+use common::scene::{Camera, transform};
+use glam::{Affine3A, DVec3};
+use reference::Ray;
+use reference::solid::Solid as Exact;
+use reference::solid::bound::Stray;
+use reference::transform::{Transform, U};
+
+use super::exact::{exact, largest};
+use super::shapes::SHAPES;
+use super::stub::Stub;
+use super::tally::{Tally, at};
+use super::{FIELD_OF_VIEW, INSIDE, OUTSIDE, is_endless, shape};
+use run::exact::rays;
+
+/// Holds views of solids to the exact ones.
+fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
+    let mut all = Tally::default();
+    for view in [OUTSIDE, INSIDE] {
+        let rays = stub.rays(view);
+        for name in SHAPES {
+            // From inside, walls are walls: those that differ in more are enough.
+            let telling = ["cube", "die", "king", "shell", "halves", "slotted cube"];
+            // Each a twin of another, to which it is held elsewhere.
+            let twins = ["room", "overcut cube", "tilted cube", "thirds"];
+            if view == INSIDE && !telling.contains(&name) || twins.contains(&name) {
+                continue;
+            }
+            let solid = exact(&shape(name), &if is_endless(name) { largest() } else { vec![] });
+            let hits = stub.hits(view, name, sets);
+            let mut tally = Tally::default();
+            for (ray, hit) in rays.iter().zip(&hits.pixels) {
+                tally.judge(&solid, ray, Stray::default(), hit);
+            }
+            println!("{name:18} {tally}");
+            let empty = name == "overlap of halves";
+            assert_eq!(tally.hits == 0, empty, "{name}");
+            all.add(tally);
+        }
+    }
+    all
+}
+
+#[test]
+fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
+    let all = all_shapes(&Stub::new(), &[]);
+    println!("all: {all}");
+    assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
+    assert!(all.hits > 12_000 && all.near * 2000 < all.hits, "{all}");
+    // Three roundings that all add up: height, slope, quotient.
+    assert!(!all.balls.is_empty() && at(&all.planes, 1.0) <= 3.0, "{all}");
+}
+
+#[test]
+fn each_rung_of_the_planes_is_as_good_as_it_promises() {
+    let stub = Stub::new();
+    // Eleven times as far away; the field of view is as small as it may be.
+    let far = (OUTSIDE.0 * 11.0, DVec3::new(0.1, 0.2, 0.0));
+    let field = "field of view=2.5";
+    let directions = stub.seen(far, "cube", &["show=ray direction", field]);
+    let far_rays: Vec<Ray> = rays(&Camera::new(far.0, far.1, 2.5), &directions).collect();
+    let near_rays = stub.rays(OUTSIDE);
+    let mut worst = Vec::new();
+    for rung in ["pov", "point", "compensated"] {
+        let set = format!("rung={rung}");
+        for (place, view, rays, more) in
+            [("near", OUTSIDE, &near_rays, &[][..]), ("far", far, &far_rays, &[field])]
+        {
+            let mut tally = Tally::default();
+            for name in ["icosahedron", "slotted cube"] {
+                let solid = exact(&shape(name), &[]);
+                let hits = stub.hits(view, name, &[&[&*set], more].concat());
+                for (ray, hit) in rays.iter().zip(&hits.pixels) {
+                    // The bounds of the best, and a hundred times that: what is right, t will tell.
+                    let stray = Stray { origin: 100.0 * U * ray.origin.length(), direction: 0.0 };
+                    tally.judge(&solid, ray, stray, hit);
+                }
+            }
+            println!("{rung:12} {place}: {tally}");
+            assert!(tally.wrong.is_empty() && tally.hits > 500, "{tally}, {:?}", tally.wrong);
+            worst.push(at(&tally.planes, 1.0));
+        }
+    }
+    assert!(worst[4] <= 3.0 && worst[5] <= 3.0, "{worst:?}");
+    // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.
+    assert!(worst[..4].iter().all(|&most| most > 3.0 && most < 1000.0), "{worst:?}");
+}
+
+/// Where the solid stands: turned by 33 degrees, so many times as large, and moved.
+struct Standing {
+    sets: [&'static str; 3],
+    size: f64,
+    moved: DVec3,
+}
+
+#[test]
+fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
+    let stub = Stub::new();
+    let far = DVec3::new(6000.0, 4800.0, 6400.0);
+    for Standing { sets, size, moved } in [
+        Standing { sets: ["turn=33", "size=1", "moved=0"], size: 1.0, moved: DVec3::ZERO },
+        Standing { sets: ["turn=33", "size=1", "moved=10000"], size: 1.0, moved: far },
+        Standing { sets: ["turn=33", "size=1000", "moved=0"], size: 1e3, moved: DVec3::ZERO },
+        Standing { sets: ["turn=33", "size=0.001", "moved=0"], size: 1e-3, moved: DVec3::ZERO },
+    ] {
+        let turn = Affine3A::from_rotation_y(33f32.to_radians());
+        let column = |axis: glam::Vec3A| (axis.as_dvec3() * size).as_vec3a();
+        let glam::Mat3A { x_axis, y_axis, z_axis } = turn.matrix3;
+        let matrix3 = glam::Mat3A::from_cols(column(x_axis), column(y_axis), column(z_axis));
+        let to_world = Affine3A { matrix3, translation: moved.as_vec3a() };
+        let [x0, x1, x2, x3, y0, y1, y2, y3, z0, z1, z2, z3] = transform(&to_world).matrix;
+        let rows = [[x0, x1, x2, x3], [y0, y1, y2, y3], [z0, z1, z2, z3]];
+        let to_world = Transform::from_rows(rows).unwrap();
+        let scale = to_world.inverse.x_axis.length();
+
+        let [eye, target] = [OUTSIDE.0, OUTSIDE.1].map(|point| point * size + moved);
+        let camera = Camera::new(eye, target, FIELD_OF_VIEW);
+        let mut all = Tally::default();
+        let directions = [&sets[..], &["show=ray direction"]].concat();
+        let directions = stub.seen(OUTSIDE, "cube", &directions);
+        for name in ["king", "halves"] {
+            let solid = exact(&shape(name), &[]);
+            let hits = stub.hits(OUTSIDE, name, &sets);
+            for (ray, hit) in rays(&camera, &directions).zip(&hits.pixels) {
+                let stray = to_world.stray(ray.origin, DVec3::ZERO).length();
+                let turned = (to_world.straying * ray.direction.abs() * U).length();
+                let stray = Stray { origin: stray * scale, direction: turned * scale };
+                let own = Ray {
+                    origin: to_world.inverse * (ray.origin - to_world.translation),
+                    direction: to_world.inverse * ray.direction,
+                    ..ray
+                };
+                all.judge(&solid, &own, stray, hit);
+            }
+        }
+        println!("{sets:?}: {all}");
+        assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
+        // Ten thousand away, a step of f32 is a seventieth of a pixel.
+        let most = if moved == DVec3::ZERO { all.hits / 500 } else { all.hits / 5 };
+        assert!(all.hits > 700 && all.near <= most, "{all}");
+    }
+}
+
+#[test]
+fn normals_point_out_of_the_solid_and_to_the_eye() {
+    let stub = Stub::new();
+    for view in [OUTSIDE, INSIDE] {
+        let rays = stub.rays(view);
+        for name in ["dodecahedron", "die", "all but a cube"] {
+            let [solid, _] = exact(&shape(name), &[]);
+            let mut simple = Vec::new();
+            solid.each(&mut |member| simple.push(member.clone()));
+            let [hits, normals] =
+                ["show=hit", "show=normal"].map(|show| stub.seen(view, name, &[show]));
+            let mut count = 0;
+            for ((ray, hit), normal) in rays.iter().zip(&hits.pixels).zip(&normals.pixels) {
+                if hit[0] < 0.0 {
+                    continue;
+                }
+                let (out, distance) = match &simple[hit[1] as usize] {
+                    Exact::HalfSpace { normal, .. } => (normal.normalize(), 0.0),
+                    Exact::Ball(ball) => {
+                        let out = ray.at(hit[2].into()) - ball.center;
+                        (out.normalize(), ray.origin.distance(ball.center) / ball.radius)
+                    }
+                    _ => unreachable!("only what is simple is seen"),
+                };
+                let to_eye = -out * out.dot(ray.direction).signum();
+                let [x, y, z, _] = normal.map(f64::from);
+                let error = (DVec3::new(x, y, z) * 2.0 - 1.0 - to_eye).length();
+                // A unit vector is off by 6u, its picture by 4u, a ball's point by some u of the way.
+                assert!(error <= (12.0 + 20.0 * distance) * U, "{name}: {error} at {hit:?}");
+                count += 1;
+            }
+            assert!(count > 250, "{name}: {count}");
+        }
+    }
+}
