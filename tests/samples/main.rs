@@ -8,6 +8,7 @@ mod infinite_plane;
 mod instancing;
 mod intersection;
 mod jitter_camera;
+mod leaving_a_surface;
 mod multi_closest_hit;
 mod reflection;
 mod scene_effects;

@@ -1,13 +1,12 @@
-//! 06_reflection: a loop and recursion that agree, mirrors, and rays that start where they should.
+//! 06_reflection: a loop and recursion that agree, and mirrors.
 
 mod plots;
 
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, RayTracingPipeline, Requirements};
-use common::scene::{Camera, Light, Placement, Scene, Sun};
+use common::scene::{Light, Scene, Sun};
 use glam::{DVec3, Vec3};
 use reference::Ray;
-use reference::scene::Scene as Exact;
 
 use run::exact::{answer, rays, reference};
 use run::leaving::{Leaving, Tally};
@@ -81,10 +80,6 @@ fn a_depth_beyond_the_device_s_limit_is_refused() {
     assert!(error.contains(&expected), "{error}");
 }
 
-/// The camera that the tests of rays look through, from above and from low down.
-const HIGH: [&str; 3] =
-    ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
-
 #[test]
 fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
     const MINIMUM: f32 = 0.1;
@@ -137,151 +132,40 @@ fn rays_are_reflected_as_they_should_and_dropped_where_they_may() {
     assert!(traced > 200 && dropped > 2000 && turned > 0, "{traced} {dropped} {turned}");
 }
 
-/// Where a ray may start, from the least to the best.
-const RULES: [&str; 6] = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
-
-/// The chess set in four sizes and places: the controls, and the same for the reference.
-const SETTINGS: [([&str; 2], Placement); 4] = [
-    (["size=0.001", "moved=0"], Placement { size: 1e-3, moved: DVec3::ZERO }),
-    (["size=1", "moved=0"], Placement { size: 1.0, moved: DVec3::ZERO }),
-    (["size=1000", "moved=0"], Placement { size: 1e3, moved: DVec3::ZERO }),
-    (["size=1", "moved=10000"], Placement { size: 1.0, moved: DVec3::new(6e3, 4.8e3, 6.4e3) }),
-];
-
-/// What the camera saw of the chess set in one setting.
-struct Setting<'a> {
-    sets: Vec<&'a str>,
-    size: &'a str,
-    exact: Exact,
-    camera: Camera,
-    directions: Picture,
-    hits: Picture,
-}
-
-impl<'a> Setting<'a> {
-    fn new(setting: usize, size: &'a str, camera: [&'a str; 3]) -> Self {
-        let (place, placement) = SETTINGS[setting];
-        let more = ["minimum contribution=0", "smooth terminator=off"];
-        let sun = ["sun azimuth=278", "sun elevation=22"];
-        let sets = [&place[..], &camera, &more, &sun].concat();
-        let mut scene = Scene::chess().unwrap();
-        scene.camera.eye = point(camera[0]);
-        let scene = placement.scene(&scene);
-        let show = |view: &str| picture(size, &[&sets[..], &[view]].concat());
-        let (directions, hits) = (show("show=ray direction"), show("show=hit"));
-        Self { exact: reference(&scene), camera: scene.camera, sets, size, directions, hits }
-    }
-
-    fn show(&self, rule: &str, sets: &[&str]) -> Picture {
-        picture(self.size, &[&self.sets[..], &[&format!("origin={rule}")], sets].concat())
-    }
-
-    /// Judges the ray number `bounce` of every pixel that starts by this rule, and the shadow ray of
-    /// its start.
-    fn reflected(&self, rule: &str, bounce: u32) -> Tally {
-        let tmin = if rule == "tmin" { 1e-4 } else { 0.0 };
-        let rays_of = |bounce: u32| -> Vec<_> {
-            let bounce = format!("bounce={bounce}");
-            let show = |view: &str| self.show(rule, &[view, &bounce]).pixels;
-            let pixels = show("show=ray origin").into_iter().zip(show("show=ray direction"));
-            let pixels = pixels.zip(show("show=hit"));
-            let ray = |(([a, b, c, _], [x, y, z, _]), hit): (([f32; 4], [f32; 4]), [f32; 4])| {
-                (Ray::from_f32([a, b, c], [x, y, z], tmin, 1e30), answer(&hit))
-            };
-            pixels.map(ray).collect()
-        };
-        let arriving: Vec<_> = if bounce == 1 {
-            let answers = self.hits.pixels.iter().map(answer);
-            rays(&self.camera, &self.directions).zip(answers).collect()
-        } else {
-            rays_of(bounce - 1)
-        };
-        let mut tally = Tally::default();
-        for ((arriving, hit), (ray, found)) in arriving.into_iter().zip(rays_of(bounce)) {
-            if let Some(hit) = hit.filter(|_| ray.direction != DVec3::ZERO) {
-                let leaving = Leaving::new(&self.exact, &arriving, &hit, &ray);
-                tally.add(&leaving, &ray, |leaving| leaving.nearest(found));
-            }
+#[test]
+fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
+    let scene = Scene::chess_of_metal().unwrap();
+    let exact = reference(&scene);
+    // Where nothing is lifted, a mirrored ray starts where the shadow ray of the same hit does.
+    let sets = ["minimum contribution=0", "smooth terminator=off"];
+    let show = |sets_too: &[&str]| picture("240x150", &[&sets[..], sets_too].concat()).pixels;
+    let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]));
+    let directions = picture("240x150", &[&sets[..], &["show=ray direction"]].concat());
+    let [on, found] = ["show=ray direction", "show=hit"].map(|view| show(&[view, "bounce=1"]));
+    let sun = Sun { azimuth: 340.0, elevation: 20.0, ..Sun::default() };
+    let light = Light::directional(&sun, 0.0).place.to_array();
+    let [mut mirrored, mut shadows] = [(); 2].map(|()| Tally::default());
+    for (i, arriving) in rays(&scene.camera, &directions).enumerate() {
+        let Some(hit) = answer(&hits[i]) else { continue };
+        let [x, y, z, visible] = starts[i];
+        let [a, b, c, _] = on[i];
+        let ray = Ray::from_f32([x, y, z], [a, b, c], 0.0, 1e30);
+        if ray.direction != DVec3::ZERO {
+            let leaving = Leaving::new(&exact, &arriving, &hit, &ray);
+            mirrored.add(&leaving, &ray, |leaving| leaving.nearest(answer(&found[i])));
         }
-        tally
-    }
-
-    /// Judges the shadow ray of every pixel that faces the sun.
-    fn shadow(&self, rule: &str) -> Tally {
-        let tmin = if rule == "tmin" { 1e-4 } else { 0.0 };
-        let sun = Sun { azimuth: 278.0, elevation: 22.0, ..Sun::default() };
-        let light = Light::directional(&sun, 0.0).place.to_array();
-        let shadows = self.show(rule, &["show=shadow origin"]);
-        let arriving = rays(&self.camera, &self.directions).zip(&self.hits.pixels);
-        let mut tally = Tally::default();
-        for ((arriving, hit), &[x, y, z, visible]) in arriving.zip(&shadows.pixels) {
-            let Some(hit) = answer(hit) else { continue };
-            let ray = Ray::from_f32([x, y, z], light, tmin, 1e30);
-            let leaving = Leaving::new(&self.exact, &arriving, &hit, &ray);
-            // What is below the surface, the shader knows without a ray.
-            if leaving.steepness() > 0.0 {
-                tally.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
-            }
-        }
-        tally
-    }
-}
-
-fn point(set: &str) -> DVec3 {
-    let numbers = set.split_once('=').unwrap().1.split(',');
-    DVec3::from_slice(&numbers.map(|number| number.parse().unwrap()).collect::<Vec<_>>())
-}
-
-/// The best rule: nothing wrong in this setting. A lesser one: so many wrong that the test is no empty one.
-fn hold(setting: usize, lesser: &str, wrong: impl Fn(&Tally) -> usize) {
-    let setting = Setting::new(setting, SIZE, HIGH);
-    for tally in [setting.reflected("bound", 1), setting.shadow("bound")] {
-        println!("bound: {tally}");
-        assert_eq!((tally.self_hits, tally.lost), (0, 0), "{:?}", tally.first);
-        assert!(tally.rays > 4000 && tally.close * 8 < tally.rays, "{tally}");
-    }
-    for tally in [setting.reflected(lesser, 1), setting.shadow(lesser)] {
-        assert!(wrong(&tally) * 1000 > tally.rays, "{lesser}: {tally}");
-    }
-}
-
-#[test]
-fn no_self_hit_and_no_lost_occluder_where_the_set_is_small() {
-    hold(0, "normal", |tally| tally.lost);
-}
-
-#[test]
-fn no_self_hit_and_no_lost_occluder_in_the_set_s_own_size() {
-    hold(1, "nothing", |tally| tally.self_hits);
-}
-
-#[test]
-fn no_self_hit_and_no_lost_occluder_where_the_set_is_large() {
-    hold(2, "integers", |tally| tally.self_hits);
-}
-
-#[test]
-fn no_self_hit_and_no_lost_occluder_where_the_set_is_far_away() {
-    hold(3, "tmin", |tally| tally.self_hits);
-}
-
-#[test]
-#[ignore = "over a million rays: some minutes"]
-fn a_million_rays_leave_no_acne_and_no_leak() {
-    const LOW: [&str; 3] =
-        ["camera eye=-8.2,2.9,5.2", "camera target=-0.2,0.35,0.8", "field of view=32"];
-    let (mut all, mut slivers) = (0, 0);
-    for (number, camera) in (0..4).flat_map(|number| [(number, HIGH), (number, LOW)]) {
-        let setting = Setting::new(number, "400x250", camera);
-        let tallies = [1, 2, 3].map(|bounce| setting.reflected("bound", bounce));
-        for tally in tallies.into_iter().chain([setting.shadow("bound")]) {
-            println!("{}: {tally}", SETTINGS[number].0.join(", "));
-            assert_eq!((tally.self_hits, tally.lost - tally.slivers), (0, 0), "{:?}", tally.first);
-            all += tally.rays;
-            slivers += tally.slivers;
+        let ray = Ray::from_f32([x, y, z], light, 0.0, 1e30);
+        let leaving = Leaving::new(&exact, &arriving, &hit, &ray);
+        // What is below the surface, the shader knows without a ray.
+        if leaving.steepness() > 0.0 {
+            shadows.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
         }
     }
-    println!("{all} rays, {slivers} on slivers moved past an edge");
-    // A bound that were too large would have many more.
-    assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
+    for tally in [mirrored, shadows] {
+        println!("{tally}");
+        // The height of a sliver is larger than what the reference allows; 26 has a smaller one.
+        assert_eq!((tally.self_hits, tally.lost - tally.slivers), (0, 0), "{:?}", tally.first);
+        assert!(tally.rays > 10_000 && tally.slivers * 1000 < tally.rays, "{tally}");
+        assert!(tally.close * 8 < tally.rays, "{tally}");
+    }
 }

@@ -1,0 +1,42 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "common/hit.glsl"
+#include "common/lighting.glsl"
+#include "mirror.glsl"
+#include "path.glsl"
+#include "shadow.glsl"
+#include "report.glsl"
+
+layout(location = 0) rayPayloadInEXT Path path;
+hitAttributeEXT vec2 weights;
+
+// The nearest hit: lit here, and the mirrored ray is traced from here.
+void main() {
+    // ANCHOR: trace
+    // The built-in variables are read before anything is traced: afterwards the software driver takes
+    // these for the last ray's own.
+    Hit hit = report(weights);
+    Ray ray = Ray(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT);
+    advance(path, ray, hit);
+    if (goes_on(path)) {
+        traceRayEXT(
+            tlas,
+            gl_RayFlagsNoneEXT,
+            0xff,                       // cull mask: every instance
+            0,                          // sbtRecordOffset: the first hit record of the instance
+            1,                          // sbtRecordStride: one record a geometry
+            0,                          // missIndex: recursive.rmiss
+            ray.origin,
+            0.0,                        // tmin
+            ray.direction,
+            1e30,                       // tmax
+            0                           // payload location: the one that came in goes on
+        );
+    }
+    // ANCHOR_END: trace
+}

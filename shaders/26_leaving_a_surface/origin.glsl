@@ -1,0 +1,165 @@
+// Where a ray starts that leaves a surface: five ways that fail somewhere, one that does not, and that of
+// chapter 05.
+//
+// A start below the surface hits it again: acne. A start too far above it is beyond what stands close
+// by: leaks.
+
+const float ROUNDING = 5.9604645e-8;
+
+// Where a ray starts.
+struct Start {
+    vec3 origin;
+    float tmin;      // a length, however long the direction is
+};
+
+struct Ray {
+    Start start;
+    vec3 direction;
+};
+
+// The point that a ray leaves.
+struct Departure {
+    vec3 reached;    // where the last ray's t ends
+    vec3 position;   // the same in the triangle, by its corners
+    vec3 normal;     // of the triangle: unit, on the side that the last ray came from
+    float height;    // chapter 05's
+    float sunk;      // how far the way into the world and back puts the position below the triangle
+    float error;     // what rounding may hide of that, in units of ROUNDING
+    float rise;      // how far a step of 1 along the normal goes up in the mesh's space
+    mat3 to_mesh;    // into the mesh's space, where the rest is
+    vec3 to_a;       // from the position to the first corner
+    vec3 e1;         // from the first corner to the others
+    vec3 e2;
+};
+
+// ANCHOR: departure
+Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
+    uvec3 corner = instance.triangles.at[hit.triangle];
+    vec3 a = instance.vertices.at[corner.x].position;
+    Departure from;
+    from.e1 = instance.vertices.at[corner.y].position - a;
+    from.e2 = instance.vertices.at[corner.z].position - a;
+    precise vec3 within = hit.weights.x * from.e1 + hit.weights.y * from.e2;
+    precise vec3 point = a + within;
+    from.reached = arriving.start.origin + hit.t * arriving.direction;
+    from.position = hit.position;
+    from.normal = hit.face;
+    from.height = hit.height;
+    from.to_mesh = mat3(hit.to_mesh);
+    from.to_a = -within;
+
+    vec3 up = normalize(cross(from.e1, from.e2));
+    // A normal comes into the world by the transposed matrix that takes points out of it.
+    up = faceforward(up, -from.normal, up * from.to_mesh);
+    mat3 sizes = mat3(abs(from.to_mesh[0]), abs(from.to_mesh[1]), abs(from.to_mesh[2]));
+    precise vec3 back = hit.to_mesh * vec4(from.position, 1.0);
+    vec3 rounding = abs(point) + 3.0 * (abs(from.e1) + abs(from.e2))
+        + 8.0 * (sizes * abs(from.position) + abs(hit.to_mesh[3]));
+    from.sunk = dot(up, point - back);
+    from.error = dot(abs(up), rounding);
+    from.rise = dot(up, from.to_mesh * from.normal);
+    return from;
+}
+// ANCHOR_END: departure
+
+// ANCHOR: naive
+// The point that the last ray reached, as it stands. Half of all such points lie below the surface.
+Start start_nothing(Departure from) {
+    return Start(from.reached, 0.0);
+}
+
+// The same, but whatever is near does not count.
+Start start_tmin(Departure from) {
+    return Start(from.reached, 1e-4);
+}
+
+// A step up, as long for a grain of sand as for a planet.
+Start start_normal(Departure from) {
+    return Start(from.reached + 1e-4 * from.normal, 0.0);
+}
+// ANCHOR_END: naive
+
+// ANCHOR: up_by_floats
+// Up by so many floats: a step that grows with the coordinate. Near zero, where floats lie dense, a
+// fixed length instead (Waechter and Binder, Ray Tracing Gems, chapter 6; the constants are theirs).
+vec3 up_by_floats(vec3 point, vec3 normal) {
+    ivec3 steps = ivec3(256.0 * normal);
+    ivec3 bits = floatBitsToInt(point) + mix(steps, -steps, lessThan(point, vec3(0.0)));
+    vec3 near_zero = point + (1.0 / 65536.0) * normal;
+    return mix(intBitsToFloat(bits), near_zero, lessThan(abs(point), vec3(1.0 / 32.0)));
+}
+// ANCHOR_END: up_by_floats
+
+// ANCHOR: integers
+Start start_integers(Departure from) {
+    return Start(up_by_floats(from.reached, from.normal), 0.0);
+}
+
+// The same from the point in the triangle, which does not get worse with the way the last ray came.
+Start start_reprojected(Departure from) {
+    return Start(up_by_floats(from.position, from.normal), 0.0);
+}
+// ANCHOR_END: integers
+
+// ANCHOR: test_error
+// How high above the plane of a triangle, in units of ROUNDING, a ray must start lest rounding in
+// the triangle test finds it below: for the test of Woop, Benthin and Wald (JCGT 2:1, 2013) and for that
+// of Moeller and Trumbore (JGT 2:1, 1997). All in the mesh's space; the page derives it.
+float triangle_test_error(Departure from, vec3 direction) {
+    vec3 a = from.to_a, b = a + from.e1, c = a + from.e2;
+    float longest = max(max(length(from.e1), length(from.e2)), length(from.e2 - from.e1));
+    float area = length(cross(from.e1, from.e2));   // twice the triangle's
+
+    // The axis along which the ray goes farthest becomes z, and the corners slide along the ray to z = 0.
+    vec3 size = abs(direction);
+    vec3 d = direction;
+    if (size.x >= max(size.y, size.z)) {
+        a = a.yzx; b = b.yzx; c = c.yzx; d = d.yzx;
+    } else if (size.y >= size.z) {
+        a = a.zxy; b = b.zxy; c = c.zxy; d = d.zxy;
+    }
+    vec2 slope = d.xy / d.z;
+    vec2 p = abs(a.xy - slope * a.z), q = abs(b.xy - slope * b.z), r = abs(c.xy - slope * c.z);
+    float products = (q.x * r.y + q.y * r.x) * abs(a.z) + (r.x * p.y + r.y * p.x) * abs(b.z)
+        + (p.x * q.y + p.y * q.x) * abs(c.z);
+
+    // The normal's own error, before it is divided by its length: products that cancel leave it behind.
+    vec3 u = abs(from.e1), v = abs(from.e2);
+    vec3 normal_error = u.yzx * v.zxy + u.zxy * v.yzx;
+    vec3 reach = abs(from.to_a) + longest * size / length(direction);
+    return 24.0 * longest + (products + 8.0 * dot(reach, normal_error)) / area;
+}
+// ANCHOR_END: test_error
+
+// ANCHOR: bound
+// From the point in the triangle, up by no more than rounding may cost. How much the matrices cost is
+// not guessed: the point is sent back through the inverse, as the device will send the ray.
+Start start_bound(Departure from, vec3 direction) {
+    float error = from.error + triangle_test_error(from, from.to_mesh * direction);
+    float height = max(from.sunk + ROUNDING * error, 0.0);
+
+    // A step along the world's normal, and the rounding of the sum.
+    float step = height / from.rise + ROUNDING * dot(abs(from.normal), abs(from.position));
+    return Start(from.position + step * from.normal, 0.0);
+}
+// ANCHOR_END: bound
+
+// ANCHOR: height
+// Chapter 05's: one step for every direction above the surface, so it knows no direction.
+Start start_height(Departure from) {
+    return Start(from.position + from.height * from.normal, 0.0);
+}
+// ANCHOR_END: height
+
+// The start by the rule that the pipeline is made for, for a ray in this direction.
+Start start_of_ray(Departure from, vec3 direction) {
+    switch (ORIGIN) {
+        case ORIGIN_NOTHING: return start_nothing(from);
+        case ORIGIN_TMIN: return start_tmin(from);
+        case ORIGIN_NORMAL: return start_normal(from);
+        case ORIGIN_INTEGERS: return start_integers(from);
+        case ORIGIN_REPROJECTED: return start_reprojected(from);
+        case ORIGIN_HEIGHT: return start_height(from);
+        default: return start_bound(from, direction);
+    }
+}

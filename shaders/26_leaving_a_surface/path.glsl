@@ -1,0 +1,77 @@
+// A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+
+// ANCHOR: path
+struct Path {
+    vec4 color;        // what the eye sees so far
+    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
+    uint bounce;       // the next ray's number: 0 comes from the camera
+};
+
+// Adds what a ray meets. The picture is the sum over the path; every other view shows one ray's.
+void gather(inout Path path, vec4 seen) {
+    if (SHOW == SHOW_PICTURE) {
+        path.color += vec4(path.throughput * seen.rgb, path.bounce == 0 ? seen.a : 0.0);
+    } else if (path.bounce == push.bounce) {
+        path.color = seen;
+    }
+}
+
+// Whether the next ray is worth tracing.
+bool goes_on(Path path) {
+    float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
+    return path.bounce <= push.depth && contribution > 0.0
+        && contribution >= push.minimum_contribution;
+}
+// ANCHOR_END: path
+
+// What a view shows of a hit instead of the picture.
+vec4 view_of(Hit hit, Ray ray, vec3 shadow_origin, float visible) {
+    bool missed = hit.t < 0.0;
+    switch (SHOW) {
+        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
+        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
+        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
+        case SHOW_DIRECTION: return vec4(ray.direction, hit.t);
+        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
+        case SHOW_RAY_ORIGIN: return vec4(ray.start.origin, ray.start.tmin);
+        default: return missed ? vec4(-1.0) : vec4(shadow_origin, visible);
+    }
+}
+
+// What a ray has met is lit and gathered, and says which ray comes next.
+void advance(inout Path path, inout Ray ray, Hit hit) {
+    vec3 color = hit.color;
+    vec3 shadow_origin = vec3(0.0);
+    float visible = 1.0;
+    vec3 mirror = vec3(0.0);
+    Ray next = ray;
+    if (hit.t >= 0.0) {
+        // ANCHOR: light
+        Departure from = departure(hit, push.scene.instances.at[hit.instance], ray);
+        if (SHADOW_RAYS != SHADOW_OFF) {
+            vec2 first = random(gl_LaunchIDEXT.xy, 0, path.bounce, DIMENSION_LIGHT).xy;
+            visible = visibility(push.light, hit, from, push.light_samples, first);
+        }
+        // Fetched after the shadow rays: a material would wait in registers for them.
+        MaterialRecord material = push.scene.materials.at[hit.material];
+        if (material.illumination >= ILLUMINATION_MIRROR) {
+            mirror = fresnel(material.specular, max(dot(hit.normal, -ray.direction), 0.0));
+        }
+        // What is reflected does not reach the colour below.
+        hit.color *= 1.0 - mirror;
+        vec3 to_light = light_direction(push.light, hit);
+        shadow_origin = start_of_ray(from, to_light).origin + hit.lift;
+        color = material.emission + hit.color * ambient(hit.normal)
+            + lit_by(push.light, hit, material, to_light, -ray.direction, visible);
+        // ANCHOR_END: light
+        // ANCHOR: next
+        next.direction = mirrored(ray.direction, hit.normal, hit.face);
+        next.start = start_of_ray(from, next.direction);
+        // ANCHOR_END: next
+    }
+    bool is_picture = SHOW == SHOW_PICTURE;
+    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray, shadow_origin, visible));
+    path.throughput *= mirror;
+    path.bounce++;
+    ray = next;
+}

@@ -1,0 +1,55 @@
+//! What the page of 26_leaving_a_surface shows beside its picture. Drawn when asked for:
+//! `cargo test --test samples leaving_a_surface::plots -- --ignored --nocapture`.
+
+use common::app::Picture;
+
+use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
+use run::plot::crops;
+
+/// The whole of a picture.
+fn whole(picture: &Picture) -> (&Picture, [u32; 4]) {
+    (picture, [0, 0, picture.width, picture.height])
+}
+
+#[test]
+#[ignore = "draws docs/images/26_origins.png"]
+fn origins() {
+    let show = |place: [&str; 2], rule: &str| {
+        picture("640x400", &[&place[..], &[&format!("origin={rule}")]].concat())
+    };
+    let rows = SETTINGS.map(|(place, _)| RULES.map(|rule| show(place, rule)));
+    let crop = |picture| (picture, [455, 130, 155, 155]);
+    crops("26_origins.png", 1, &rows.each_ref().map(|row| row.iter().map(crop).collect()));
+}
+
+#[test]
+#[ignore = "draws docs/images/26_leaks.png"]
+fn leaks() {
+    let show = |setting: usize, rule: &str| {
+        let close = ["camera target=0.5,0.25,3.5", "field of view=7", &format!("origin={rule}")];
+        picture("320x320", &[&SETTINGS[setting].0[..], &close].concat())
+    };
+    let wrong = [show(0, "tmin"), show(0, "normal"), show(3, "reprojected")];
+    let right = [show(0, "bound"), show(1, "bound"), show(3, "bound")];
+    crops("26_leaks.png", 1, &[wrong, right].each_ref().map(|row| row.iter().map(whole).collect()));
+}
+
+#[test]
+#[ignore = "prints what becomes of rays that start by each rule"]
+fn table_of_origins() {
+    for (setting, (place, _)) in SETTINGS.iter().enumerate() {
+        let setting = Setting::new(setting, "240x150", HIGH);
+        for rule in RULES.into_iter().chain(["height"]) {
+            let tallies = [setting.reflected(rule, 1), setting.shadow(rule)];
+            let percent = |count: fn(&Tally) -> usize| {
+                tallies.each_ref().map(|tally| 100.0 * count(tally) as f64 / tally.rays as f64)
+            };
+            let [acne, dark] = percent(|tally| tally.self_hits);
+            let [lost, lit] = percent(|tally| tally.lost);
+            println!(
+                "| {} | {rule} | {acne:.2} | {lost:.2} | {dark:.2} | {lit:.2} |",
+                place.join(", ")
+            );
+        }
+    }
+}
