@@ -66,7 +66,7 @@ Start start_reprojected(Departure from) {
 // ANCHOR: test_error
 // How high above the plane of a triangle, in units of ROUNDING, a ray must start lest rounding in
 // the triangle test finds it below: for the test of Woop, Benthin and Wald (JCGT 2:1, 2013) and for that
-// of Moeller and Trumbore (JGT 2:1, 1997). All in the mesh's space; the page of 06 derives it.
+// of Moeller and Trumbore (JGT 2:1, 1997). All in the mesh's space; the page of 26 derives it.
 float triangle_test_error(Departure from, vec3 direction) {
     vec3 a = from.to_a, b = a + from.e1, c = a + from.e2;
     float longest = max(max(length(from.e1), length(from.e2)), length(from.e2 - from.e1));
