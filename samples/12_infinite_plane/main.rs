@@ -1,8 +1,9 @@
 //! 12 · Infinite plane: a surface that no acceleration structure can hold, met before the ray is traced.
 //!
-//! New since 06_reflection: a plane that bounds each ray, the miss shader of rays that reach it, four
+//! New since 06_reflection: a plane that bounds each ray and reports itself where the ray reaches it, four
 //! ways to intersect it, a checker board without aliasing, two lights at once, and three scenes.
 
+mod plane;
 mod scenes;
 
 use std::process::ExitCode;
@@ -11,16 +12,16 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    ShaderBindingTable, ShaderStruct,
+    ShaderStruct, TextureTable, Variant, Variants,
 };
 use common::scene::board::Board;
-use common::scene::plane::{HalfSpace, Plane};
+use common::scene::plane::Plane;
 use common::scene::{
-    Camera, CameraBasis, Light, Placement, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
-    input_usage,
+    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
 };
 use common::{Controls, Frame, Sample, Setup};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
+use plane::InfinitePlane;
 use scenes::Preset;
 
 fn main() -> ExitCode {
@@ -30,54 +31,36 @@ fn main() -> ExitCode {
 const LIGHT_POINT: u32 = 1;
 const LIGHT_BOTH: u32 = 2;
 
-const METHOD_ITERATIVE: u32 = 0;
-const METHOD_RECURSIVE: u32 = 1;
-const MAX_DEPTH: u32 = 8;
-
-/// A place 10000 units from the origin, and no axis spared.
-const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
-
 struct Demo {
     model: Scene,
     scene: SceneOnGpu,
-    /// The preset and the placement that were built.
-    placed: (u32, Placement),
-    world: Buffer,
-    reflections: Buffer,
-    pipelines: Vec<(Variant, RayTracingPipeline, ShaderBindingTable)>,
+    pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
     lamp: PointLight,
     light: u32,
     light_size: f32,
     light_samples: u32,
-    shadow_rays: u32,
-    smooth_terminator: bool,
-    method: u32,
     depth: u32,
-    deepest: u32,
     minimum_contribution: f32,
-    origin: u32,
-    size: u32,
-    moved: u32,
-    bounce: u32,
-    show: u32,
+    constants: Constants,
     preset: u32,
-    plane: HalfSpace,
-    plane_on: bool,
-    inside: u32,
-    board: Board,
-    rung: u32,
-    plane_test: u32,
+    /// The preset that was built.
+    built: u32,
+    plane: InfinitePlane,
+    reflections: Buffer,
+    world: Buffer,
 }
 
-/// What a pipeline is made for: the method, how deep its rays nest, how and when the plane is tested.
+/// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
-struct Variant {
-    method: u32,
-    recursion: u32,
+struct Constants {
+    show: u32,
+    shadow_rays: u32,
+    smooth_terminator: bool,
     rung: u32,
     plane_test: u32,
+    inside: u32,
 }
 
 common::shader_struct! {
@@ -87,13 +70,8 @@ common::shader_struct! {
         scene: SceneAddresses,
         world: Address,
         light_samples: u32,
-        shadow_rays: u32,
-        smooth_terminator: u32,
         depth: u32,
         minimum_contribution: f32,
-        origin: u32,
-        bounce: u32,
-        show: u32,
     }
 }
 
@@ -103,7 +81,6 @@ common::shader_struct! {
         reflections: Address,
         plane: Plane,
         board: Board,
-        inside: u32,
         light_count: u32,
         lights: [Light; 2],
     }
@@ -121,41 +98,35 @@ impl Sample for Demo {
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         gpu.share_structs(&[World::LAYOUT, Plane::LAYOUT, Board::LAYOUT, Light::LAYOUT]);
-        let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
-        let world = Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?;
         let reflections: Vec<Vec3> = model.model.materials.iter().map(scenes::reflection).collect();
         let reflections = Buffer::with_data(gpu, "reflections", &reflections, input_usage())?;
+        let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+        let world = Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?;
         Ok(Self {
             model,
             scene,
-            placed: (0, Placement::default()),
-            world,
-            reflections,
-            pipelines: Vec::new(),
+            pipelines: Variants::default(),
             camera,
             sun,
             lamp,
             light,
             light_size: 0.0,
             light_samples: 16,
-            shadow_rays: 0,
-            smooth_terminator: true,
-            method: METHOD_ITERATIVE,
             depth: 4,
-            deepest: MAX_DEPTH.min(gpu.limits.max_ray_recursion_depth.saturating_sub(2)),
             minimum_contribution: 1.0 / 512.0,
-            origin: 5,
-            size: 1,
-            moved: 0,
-            bounce: 0,
-            show: 0,
+            constants: Constants {
+                show: 0,
+                shadow_rays: 0,
+                smooth_terminator: true,
+                rung: 3,
+                plane_test: 0,
+                inside: 1,
+            },
             preset: 0,
-            plane,
-            plane_on: true,
-            inside: 0,
-            board,
-            rung: 3,
-            plane_test: 0,
+            built: 0,
+            plane: InfinitePlane::new(plane, board),
+            reflections,
+            world,
         })
     }
 
@@ -164,24 +135,6 @@ impl Sample for Demo {
         if c.choice("preset", &mut self.preset, &scenes::PRESETS) {
             self.take_preset();
         }
-        c.checkbox("plane", &mut self.plane_on);
-        let forms = ["normal and distance", "point and normal"];
-        c.choice("plane form", &mut self.plane.form, &forms);
-        c.vector("plane normal", &mut self.plane.normal, -1e3..=1e3);
-        c.slider("plane distance", &mut self.plane.distance, -1e6..=1e6);
-        c.vector("plane point", &mut self.plane.point, -1e6..=1e6);
-        c.checkbox("inverse", &mut self.plane.inverse);
-        c.choice("inside", &mut self.inside, &["surface", "color", "through"]);
-        c.color("inside color", &mut self.board.inner);
-        c.choice("checker", &mut self.board.checker, &["filtered", "point", "off"]);
-        c.color("light squares", &mut self.board.light);
-        c.color("dark squares", &mut self.board.dark);
-        c.slider("square", &mut self.board.square, 0.01..=100.0);
-        c.slider("plane reflection", &mut self.board.reflection, 0.0..=1.0);
-        c.slider("plane specular", &mut self.board.specular, 0.0..=1.0);
-        c.slider("plane roughness", &mut self.board.roughness, 0.05..=1.0);
-        c.choice("rung", &mut self.rung, &["pov", "point", "cut-off", "compensated"]);
-        c.choice("plane test", &mut self.plane_test, &["before", "after"]);
         let views = [
             "picture",
             "normal",
@@ -190,64 +143,47 @@ impl Sample for Demo {
             "ray direction",
             "shadow",
             "shadow origin",
-            "ray origin",
             "rungs",
         ];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.constants.show, &views);
         c.choice("light", &mut self.light, &["directional", "point", "both"]);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.vector("lamp position", &mut self.lamp.position, -100.0..=100.0);
         c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("light samples", &mut self.light_samples, 1..=64);
-        c.choice("shadow rays", &mut self.shadow_rays, &["first hit", "nearest hit", "off"]);
-        c.checkbox("smooth terminator", &mut self.smooth_terminator);
-        c.choice("method", &mut self.method, &["iterative", "recursive"]);
-        let deepest = if self.method == METHOD_RECURSIVE { self.deepest } else { MAX_DEPTH };
-        // What a loop may do can be too deep for this device's recursion.
-        self.depth = self.depth.min(deepest);
-        c.integer("depth", &mut self.depth, 0..=deepest);
+        let rays = ["first hit", "nearest hit", "off"];
+        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.integer("depth", &mut self.depth, 0..=8);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
-        let rules = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
-        c.choice("origin", &mut self.origin, &rules);
-        c.choice("size", &mut self.size, &["0.001", "1", "1000"]);
-        c.choice("moved", &mut self.moved, &["0", "10000"]);
-        c.integer("bounce", &mut self.bounce, 0..=MAX_DEPTH);
+        self.plane.controls(c);
+        let rungs = ["pov", "point", "cut-off", "compensated"];
+        c.choice("rung", &mut self.constants.rung, &rungs);
+        c.choice("plane test", &mut self.constants.plane_test, &["before", "after"]);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: place
-        let placement = Placement {
-            size: [1e-3, 1.0, 1e3][self.size as usize],
-            moved: [DVec3::ZERO, FAR][self.moved as usize],
-        };
-        if (self.preset, placement) != self.placed {
-            let preset = Preset::new(self.preset, &self.model);
-            let placed = placement.scene(&preset.scene);
-            self.scene.rebuild(frame.gpu, &placed, self.scene.options)?;
-            self.placed = (self.preset, placement);
+        if self.preset != self.built {
+            let Preset { scene, .. } = Preset::new(self.preset, &self.model);
+            self.scene.rebuild(frame.gpu, &scene, self.scene.options)?;
+            self.built = self.preset;
         }
-        // ANCHOR_END: place
-        let chosen = self.choose_pipeline(frame.gpu)?;
         // ANCHOR: world
-        let camera = placement.camera(&self.camera).basis(frame.aspect());
-        // Without a plane, any will do that no ray is tested against.
-        let placed = self.plane.placed(&placement).filter(|_| self.plane_on);
-        let plane = Plane::new(placed.unwrap_or((DVec3::Y, 0.0)), camera.origin);
+        let camera = self.camera.basis(frame.aspect());
+        let (plane, board) = self.plane.for_shaders(camera.origin);
         let sun = Light::directional(&self.sun, self.light_size);
-        let size = self.light_size * placement.size as f32;
-        let lamp = Light::point(&placement.lamp(&self.lamp), size);
+        let lamp = Light::point(&self.lamp, self.light_size);
         let world = World {
             reflections: self.reflections.address.into(),
             plane,
-            board: self.board.placed(&placement, &self.plane, &plane),
-            inside: placed.map_or(0, |_| self.inside + 1),
+            board,
             light_count: if self.light == LIGHT_BOTH { 2 } else { 1 },
             lights: if self.light == LIGHT_POINT { [lamp, sun] } else { [sun, lamp] },
         };
-        self.world.write(0, &[world])?;
+        self.world.update(frame.cmd, &[world])?;
         // ANCHOR_END: world
         // ANCHOR: trace
         let push = Push {
@@ -255,19 +191,16 @@ impl Sample for Demo {
             scene: self.scene.addresses,
             world: self.world.address.into(),
             light_samples: self.light_samples,
-            shadow_rays: self.shadow_rays,
-            smooth_terminator: self.smooth_terminator.into(),
             depth: self.depth,
             minimum_contribution: self.minimum_contribution,
-            origin: self.origin,
-            bounce: self.bounce,
-            show: self.show,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        let (_, pipeline, sbt) = &self.pipelines[chosen];
+        let constants = Constants { inside: self.plane.rule(), ..self.constants };
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.image.extent);
         // ANCHOR_END: trace
@@ -282,47 +215,32 @@ impl Demo {
             Preset::new(self.preset, &self.model);
         self.camera = scene.camera;
         (self.sun, self.lamp, self.light) = (sun, lamp, light);
-        (self.plane, self.board) = (plane, board);
+        (self.plane.half_space, self.plane.board) = (plane, board);
     }
-
-    // ANCHOR: variant
-    /// Which of the pipelines is for the method, the depth and the tests in use; it is made when first
-    /// wanted.
-    fn choose_pipeline(&mut self, gpu: &Gpu) -> Result<usize> {
-        // A loop's rays all come from the raygen shader, and at a hit there is the shadow ray. By
-        // recursion the camera's ray and every reflection are a level each.
-        let recursion = if self.method == METHOD_RECURSIVE { 1 + self.depth + 1 } else { 1 + 1 };
-        let Self { method, rung, plane_test, .. } = *self;
-        let variant = Variant { method, recursion, rung, plane_test };
-        let known = self.pipelines.iter().position(|(known, ..)| *known == variant);
-        if let Some(known) = known {
-            return Ok(known);
-        }
-        let pipeline = pipeline(gpu, &self.scene, variant)?;
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
-        self.pipelines.push((variant, pipeline, sbt));
-        Ok(self.pipelines.len() - 1)
-    }
-    // ANCHOR_END: variant
 }
 
 // ANCHOR: pipeline
-/// The method is a specialization constant: in the loop's pipeline no shader calls itself. So are the
-/// plane's rung and when it is tested.
-fn pipeline(gpu: &Gpu, scene: &SceneOnGpu, variant: Variant) -> Result<RayTracingPipeline> {
+/// The plane adds no shader: raygen knows where it is.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")
-        .miss("plane.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .constant(0, variant.method)
-        .constant(1, variant.rung)
-        .constant(2, variant.plane_test)
-        .recursion(variant.recursion)
+        .constant(0, constants.show)
+        .constant(1, constants.shadow_rays)
+        .constant(2, constants.smooth_terminator.into())
+        .constant(3, constants.rung)
+        .constant(4, constants.plane_test)
+        .constant(5, constants.inside)
+        .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
-        .textures(&scene.textures)
+        .textures(textures)
         .push_constants::<Push>()
         .build(gpu)
 }

@@ -5,21 +5,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/offset.glsl"
-#include "common/origin.glsl"
-#include "lighting.glsl"
-#include "common/board.glsl"
+#include "common/place.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
-
-// The point of the triangle that was hit.
-Departure from;
-
-Start start_from(Met met, vec3 direction) {
-    return met.on_plane ? Start(met.position, 0.0) : start_of_ray(push.origin, from, direction);
-}
 
 // ANCHOR: curvature
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
@@ -36,50 +27,33 @@ float curvature(InstanceRecord instance, uint triangle) {
 }
 // ANCHOR_END: curvature
 
-// The nearest hit: normal, material and light give the colour.
+// The nearest hit: what surface it is, and where.
 void main() {
-    // ANCHOR: after
-    // Tested after: the trace went on behind the plane, and all for nothing.
-    if (PLANE_TEST == PLANE_AFTER && payload.plane <= gl_HitTEXT) {
-        shade_plane();
-        return;
-    }
-    // ANCHOR_END: after
     // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
     // ANCHOR_END: fetch
-    // ANCHOR: normal
+    // ANCHOR: report
+    place(hit, instance, triangle, weights);
+    hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
-    HitPoint hit = hit_point(instance, triangle, weights);
-    normal = faceforward(normal, -hit.normal, normal);
-    // ANCHOR_END: normal
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+    hit.lift = vec3(0.0);
+    if (SMOOTH_TERMINATOR) {
+        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
+    }
 
+    hit.color = material.base_color;
     if (material.base_texture >= 0) {
-        vec4 texel = textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0);
-        material.base_color *= texel.rgb;
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
-    // ANCHOR: met
-    from = departure(hit, instance, triangle, weights);
-    Met met;
-    met.t = gl_HitTEXT;
-    met.position = hit.position;
-    met.normal = normal;
-    met.flat_normal = hit.normal;
-    met.lift = vec3(0.0);
-    met.up = hit.normal;
-    if (push.smooth_terminator != 0) {
-        met.lift = lift_to_smooth(hit, instance, triangle, weights);
-        met.up = met.lift == vec3(0.0) ? met.up : normal;
-    }
-    met.on_plane = false;
-    met.curvature = curvature(instance, triangle);
-    met.material = material;
-    met.reflection = push.world.reflections.at[instance.material];
-    // ANCHOR_END: met
-    shade(met, vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID), false_color(triangle));
+    hit.material = instance.material;
+    hit.triangle = triangle;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.curvature = curvature(instance, triangle);
+    // ANCHOR_END: report
 }

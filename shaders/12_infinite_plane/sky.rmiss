@@ -5,24 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 
-layout(location = 0) rayPayloadInEXT Path payload;
+layout(location = 0) rayPayloadInEXT Hit hit;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    vec4 seen = vec4(sky(gl_WorldRayDirectionEXT), 1.0);
-    if (push.show == SHOW_HIT) {
-        seen = vec4(-1.0);
-    }
-    if (push.show == SHOW_DIRECTION) {
-        seen = vec4(gl_WorldRayDirectionEXT, -1.0);
-    }
-    if (push.show == SHOW_SHADOW_ORIGIN) {
-        seen = vec4(-1.0);
-    }
-    if (push.show == SHOW_RAY_ORIGIN) {
-        seen = vec4(gl_WorldRayOriginEXT, gl_RayTminEXT);
-    }
-    gather(payload, seen);
-    // Nothing lies beyond the sky.
-    payload.throughput = vec3(0.0);
+    hit.t = -1.0;
+    hit.color = sky(gl_WorldRayDirectionEXT);
 }

@@ -56,6 +56,18 @@ pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE), (TRACE, both));
 }
 
+/// Earlier traces have read a buffer before a recorded update changes it.
+pub fn trace_to_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    // Nothing was written that the update would have to see: waiting is enough.
+    memory(gpu, cmd, (TRACE, Access::NONE), (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE));
+}
+
+/// What was recorded into a buffer becomes visible to the traces that read it.
+pub fn update_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
+    memory(gpu, cmd, written, (TRACE, Access::SHADER_STORAGE_READ));
+}
+
 /// Earlier traces are done with the shader binding table before a transfer changes it.
 pub fn trace_to_table_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
     // Nothing was written that the transfer would have to see: waiting is enough.

@@ -8,6 +8,9 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::{Gpu, barrier};
 
+/// What `vkCmdUpdateBuffer` takes at most, in bytes.
+const MOST_UPDATED: u64 = 65_536;
+
 /// A `VkBuffer` bound to memory of its own, freed on drop.
 pub struct Buffer {
     /// The Vulkan handle.
@@ -156,6 +159,28 @@ impl Buffer {
             barrier::after_upload(&self.gpu, cmd);
             Ok(())
         })
+    }
+
+    /// Records that the buffer begins with `data` for the traces that follow in `cmd`; nothing waits.
+    ///
+    /// For what changes from frame to frame and is small: at most 65,536 bytes, a multiple of 4, into a
+    /// buffer made with `TRANSFER_DST`.
+    ///
+    /// # Errors
+    /// If the data is none of that, or does not fit.
+    pub fn update<T: Pod>(&self, cmd: vk::CommandBuffer, data: &[T]) -> Result<()> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let size = bytes.len() as u64;
+        anyhow::ensure!(
+            size > 0 && size <= MOST_UPDATED.min(self.size) && size.is_multiple_of(4),
+            "{size} bytes cannot be recorded for a buffer of {} bytes",
+            self.size
+        );
+        barrier::trace_to_update(&self.gpu, cmd);
+        // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
+        unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, 0, bytes) };
+        barrier::update_to_trace(&self.gpu, cmd);
+        Ok(())
     }
 
     /// The content as a vector of `T`, copied back through a mapped buffer.
