@@ -1,4 +1,7 @@
 // What lies on the plane: squares, or one colour.
+#include "common/scene.glsl"
+#include "hit.glsl"
+#include "plane.glsl"
 #include "checker.glsl"
 
 struct Board {
@@ -57,8 +60,9 @@ const uint PLANE_INSIDE = 1;
 
 // ANCHOR: report
 // The plane at the distance t of a ray, where the cone around the ray is `width` wide: reported as a
-// hit shader reports a triangle.
-Hit hit_of_plane(Plane plane, Board board, bool shines, vec3 origin, vec3 direction, float t, float width) {
+// hit shader reports a triangle. If it `shines`, its colour from inside is one of its own.
+Hit hit_of_plane(
+    Plane plane, Board board, bool shines, vec3 origin, vec3 direction, float t, float width) {
     vec3 outward = normalize(plane.normal);
     bool inside = dot(direction, plane.normal) > 0.0;
     // From the anchor, not from the world's origin: small numbers near the camera. And onto the plane,

@@ -5,7 +5,6 @@
 #include "common/light.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
-#include "hit.glsl"
 #include "plane.glsl"
 #include "board.glsl"
 

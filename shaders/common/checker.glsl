@@ -1,3 +1,5 @@
+// Taught by 12_infinite_plane, whose own file this is a copy of.
+//
 // A checker board, averaged over what a pixel sees of it.
 
 // ANCHOR: checker

@@ -1,3 +1,5 @@
+// Taught by 12_infinite_plane, whose own file this is a copy of.
+//
 // A ray against a plane, in four ways that are equal on paper.
 //
 // o is the ray's origin, d its direction of any length. Where the ray's line meets the plane goes to

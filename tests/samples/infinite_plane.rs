@@ -235,24 +235,24 @@ fn rays_in_the_plane_and_rays_that_begin_on_it_miss() {
 
 #[test]
 fn testing_before_and_after_give_the_same_bits() {
-    let model = Octahedron::new(Vec3::Y);
-    for sets in [
-        &["preset=four spheres", "method=recursive"][..],
-        &["preset=pov", "camera eye=-1,-3,2"],
-        &["moved=10000", "light=both", "light size=0.1", "light samples=4"],
+    let (near, far) = (Octahedron::new(Vec3::Y), Octahedron::new(Vec3::new(6e3, 4801.0, 6.4e3)));
+    let at_the_far_one = [
+        "plane distance=4800",
+        "camera eye=5996.6,4801.6,6407.2",
+        "camera target=6000.6,4800.62,6400",
+        "light=both",
+        "light size=0.1",
+        "light samples=4",
+    ];
+    for (model, sets) in [
+        (&near, &["preset=four spheres"][..]),
+        (&near, &["preset=pov", "camera eye=-1,-3,2"]),
+        (&far, &at_the_far_one),
     ] {
         let [before, after] = ["plane test=before", "plane test=after"]
             .map(|test| model.picture(&[sets, &[test]].concat()));
         assert_eq!(bits(&before), bits(&after), "{sets:?}");
     }
-}
-
-#[test]
-fn a_loop_and_recursion_give_the_same_bits() {
-    let model = Octahedron::out_of_sight();
-    let [turns, nested] = ["method=iterative", "method=recursive"]
-        .map(|method| model.picture(&["preset=four spheres", method, "depth=8"]));
-    assert_eq!(bits(&turns), bits(&nested));
 }
 
 #[test]
@@ -271,20 +271,6 @@ fn without_the_plane_the_picture_is_that_of_06() {
     assert!(changed > 2000, "{changed}");
 }
 
-/// Rays of a bounce as the GPU wrote them, with what they hit.
-fn traced(sets: &[&str], bounce: u32) -> Vec<(Ray, [f32; 4])> {
-    let bounce = format!("bounce={bounce}");
-    let show = |view| picture(&[sets, &[&bounce, "minimum contribution=0", view]].concat());
-    let [origins, directions, hits] =
-        ["show=ray origin", "show=ray direction", "show=hit"].map(show);
-    let rays = origins.pixels.iter().zip(&directions.pixels).zip(hits.pixels);
-    let rays = rays.map(|((&[ox, oy, oz, tmin], &[x, y, z, _]), hit)| {
-        (Ray::from_f32([ox, oy, oz], [x, y, z], tmin, 1e30), hit)
-    });
-    // A path that has ended left nothing behind.
-    rays.filter(|(ray, _)| ray.direction != DVec3::ZERO).collect()
-}
-
 /// The board preset as the reference sees it.
 fn pieces() -> reference::scene::Scene {
     let mut scene = Scene::chess().unwrap();
@@ -296,17 +282,21 @@ fn pieces() -> reference::scene::Scene {
     reference(&scene)
 }
 
-#[test]
-fn plane_and_pieces_mirror_each_other() {
-    let exact = pieces();
-    let first = traced(&[], 0);
-    let second = traced(&[], 1);
-    let (mut of_plane, mut of_pieces, mut edges) = (0, 0, 0);
-    let mut worst: f64 = 0.0;
-    for (ray, hit) in first.iter().chain(&second) {
-        let scene = exact.closest_hit(ray, |_| true);
-        let plane = level(0.0).intersect(ray);
-        let on_plane = ray.origin.y.abs() < 1e-6;
+/// Where the board preset is looked at from, and from where that eye's image in the plane would look.
+const EYE: [&str; 2] = ["camera eye=-3.4,1.6,7.2", "camera target=0.6,0.62,0"];
+const IMAGE: [&str; 2] = ["camera eye=-3.4,-1.6,7.2", "camera target=0.6,-0.62,0"];
+
+/// Holds every hit of a view of the board preset to the exact one; tells how many are on the plane and
+/// on pieces. Rays that come from below pass the plane.
+fn hits_are_exact(exact: &reference::scene::Scene, sets: &[&str], sign: f64) -> [usize; 2] {
+    let show = |view| picture(&[sets, &[view]].concat());
+    let (hits, directions) = (show("show=hit"), show("show=ray direction"));
+    let camera =
+        Camera::new(DVec3::new(-3.4, sign * 1.6, 7.2), DVec3::new(0.6, sign * 0.62, 0.0), 37.0);
+    let ([mut of_plane, mut of_pieces, mut edges], mut worst) = ([0; 3], 0.0f64);
+    for (ray, hit) in rays(&camera, &directions).zip(&hits.pixels) {
+        let scene = exact.closest_hit(&ray, |_| true);
+        let plane = level(0.0).intersect(&ray).filter(|_| sign > 0.0);
         let first_of_both = match (scene, plane) {
             (Some(scene), Some(plane)) if scene.t < plane.t => Some(scene.instance as f32),
             (_, Some(_)) => Some(PLANE),
@@ -315,29 +305,144 @@ fn plane_and_pieces_mirror_each_other() {
         };
         if first_of_both.unwrap_or(-1.0) != hit[0] {
             // Excused where an edge is grazed, or where a piece's foot and the plane are one.
-            let near = exact.near_candidates(ray);
+            let near = exact.near_candidates(&ray);
             let foot = plane.is_some_and(|plane| {
                 near.iter().any(|near| (near.hit.t - plane.t).abs() <= near.t_bound)
             });
-            let grazed = near.iter().any(|near| near.may_hit(ray) && !near.must_hit(ray));
+            let grazed = near.iter().any(|near| near.may_hit(&ray) && !near.must_hit(&ray));
             assert!(foot || grazed, "{ray:?} {hit:?} {scene:?} {plane:?}");
             edges += 1;
             continue;
         }
         if hit[0] == PLANE {
             worst = worst.max(ulp_error(hit[2], plane.unwrap().t) * plane.unwrap().normal.y.abs());
-            of_pieces += usize::from(!on_plane);
+            of_plane += 1;
         } else if hit[0] >= 0.0 {
-            of_plane += usize::from(on_plane);
+            of_pieces += 1;
         }
     }
     println!(
-        "{} rays: {of_pieces} end on the plane, {of_plane} go from it to a piece, {edges} at edges; \
-         t on the plane is off by {worst:.1} ULP at most",
-        first.len() + second.len()
+        "{of_plane} rays end on the plane, {of_pieces} on pieces, {edges} at edges; \
+         t on the plane is off by {worst:.1} ULP at most"
     );
-    assert!(of_plane > 300 && of_pieces > 3000, "{of_plane} {of_pieces}");
-    assert!(edges * 200 < first.len(), "{edges}");
+    assert!(edges * 200 < hits.pixels.len(), "{edges}");
+    [of_plane, of_pieces]
+}
+
+#[test]
+fn the_plane_mirrors_the_pieces() {
+    let exact = pieces();
+    let image = [&IMAGE[..], &["inside=through", "depth=0"]].concat();
+    let [of_plane, of_pieces] = hits_are_exact(&exact, &EYE, 1.0);
+    assert!(of_plane > 3000 && of_pieces > 1000, "{of_plane} {of_pieces}");
+    let [of_plane, of_pieces] = hits_are_exact(&exact, &image, -1.0);
+    assert!(of_plane == 0 && of_pieces > 1000, "{of_plane} {of_pieces}");
+
+    // A plane that does nothing but mirror shows what an eye sees that is the first one's image.
+    let mirror = [
+        "plane reflection=1",
+        "plane specular=0",
+        "light squares=0,0,0",
+        "dark squares=0,0,0",
+        "depth=1",
+    ];
+    let mirrored = picture(&[&EYE[..], &mirror].concat());
+    let [direct, behind] = [&[][..], &["show=hit"]].map(|view| picture(&[&image, view].concat()));
+    let met = picture(&[&EYE[..], &["show=hit"]].concat());
+    let (width, height) = (120, 75);
+    let ([mut alike, mut other], mut piece) = ([0; 2], 0);
+    for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
+        let (at, image) = (row * width + column, (height - 1 - row) * width + column);
+        if met.pixels[at][0] != PLANE {
+            continue;
+        }
+        let (a, b) = (mirrored.pixels[at], direct.pixels[image]);
+        let close = (0..3).all(|i| (a[i] - b[i]).abs() < 1e-3 * (1.0 + b[i]));
+        *if close { &mut alike } else { &mut other } += 1;
+        piece += usize::from(close && behind.pixels[image][0] >= 0.0);
+    }
+    println!("{alike} pixels mirror what the image sees, {piece} of them a piece; {other} do not");
+    assert!(piece > 300 && other * 50 < alike, "{piece} {alike} {other}");
+}
+
+#[test]
+fn what_mirrors_mirrors_the_plane() {
+    // From below the plane, whose underside shines in squares; above it nothing else is.
+    let model = Octahedron::new(Vec3::Y);
+    let sets = [
+        "plane distance=3",
+        "inside=color",
+        "inside color=1,1,1",
+        "checker=point",
+        "smooth terminator=off",
+        "minimum contribution=0",
+        "camera eye=-1,1.4,2.4",
+        "camera target=0,1,0",
+    ];
+    let show = |more: &[&str]| model.picture(&[&sets[..], more].concat());
+    let [once, twice] = ["depth=0", "depth=1"].map(|depth| show(&[depth]));
+    let [hits, normals, starts, directions] = ["hit", "normal", "shadow origin", "ray direction"]
+        .map(|view| show(&[&format!("show={view}")]));
+    let ([mut square, mut sky, mut borders], mut light) = ([0; 3], 0);
+    for i in (0..hits.pixels.len()).filter(|&i| hits.pixels[i][0] >= 0.0) {
+        let vector = |picture: &Picture| DVec3::from_slice(&picture.pixels[i].map(f64::from)[..3]);
+        let (normal, incoming) = (2.0 * vector(&normals) - 1.0, vector(&directions));
+        let cosine = -normal.dot(incoming);
+        let direction = incoming + 2.0 * cosine * normal;
+        let mirror = (1.0 - cosine).powi(5) * DVec3::new(0.6, 0.7, 0.8) + DVec3::new(0.4, 0.3, 0.2);
+        let seen = (vector(&twice) - vector(&once)) / mirror;
+        let ray = Ray {
+            origin: vector(&starts),
+            direction,
+            ..Ray::from_f32([0.0; 3], [1.0; 3], 0.0, 1e30)
+        };
+        let Some(plane) = level(3.0).intersect(&ray) else {
+            // The sky is blue.
+            assert!(seen.z - seen.x > 0.01, "{ray:?} {seen}");
+            sky += 1;
+            continue;
+        };
+        let at = ray.origin + plane.t * ray.direction;
+        if [at.x, at.z].iter().any(|x| (x - x.round()).abs() < 2e-3) {
+            borders += 1;
+            continue;
+        }
+        let expected = if (at.x.floor() + at.z.floor()) % 2.0 == 0.0 { 1.0 } else { 0.0 };
+        assert!((seen - expected).abs().max_element() < 1e-3, "{ray:?} {seen} {expected}");
+        square += 1;
+        light += usize::from(expected == 1.0);
+    }
+    println!(
+        "{square} mirrored rays meet a square, {light} a light one, {borders} a border, {sky} the sky"
+    );
+    assert!(light > 100 && square - light > 100 && sky > 100, "{square} {light} {sky}");
+    assert!(borders * 20 < square, "{borders}");
+}
+
+#[test]
+fn no_ray_meets_the_plane_that_it_leaves() {
+    // Tilted and far from the world's origin, the points of a plane lie beside it by rounding.
+    let model = Octahedron::out_of_sight();
+    let black = ["plane specular=0", "light squares=0,0,0", "dark squares=0,0,0", "depth=1"];
+    let near = ["plane distance=1", "camera eye=6.3,2.9,6.1", "camera target=0,0.5,0"];
+    let far =
+        ["plane distance=1e5", "camera eye=-30144,90458,30156", "camera target=-30150,90453,30150"];
+    for place in [near, far] {
+        let sets = ["plane normal=-1,3,1", "sun azimuth=300", "sun elevation=40"];
+        let place = &[&sets[..], &place].concat()[..];
+        let show = |more: &[&str]| model.picture(&[place, more].concat());
+        let (hits, shadows) = (show(&["show=hit"]), show(&["show=shadow"]));
+        let mirrors = show(&[&black[..], &["plane reflection=1"]].concat());
+        let mut count = 0;
+        for i in (0..hits.pixels.len()).filter(|&i| hits.pixels[i][0] == PLANE) {
+            assert_eq!(shadows.pixels[i][0], 1.0, "{:?}", hits.pixels[i]);
+            // The sky is nowhere as dark as the plane's own black.
+            assert!(mirrors.pixels[i][2] > 0.2, "{:?}", mirrors.pixels[i]);
+            count += 1;
+        }
+        println!("{count} pixels of {place:?}");
+        assert!(count > 1000, "{count}");
+    }
 }
 
 #[test]
@@ -474,9 +579,21 @@ fn the_four_spheres_are_where_they_should_be() {
 fn the_checker_board_is_averaged_over_each_pixel() {
     let model = Octahedron::out_of_sight();
     // From above to the horizon.
-    let sets = ["camera eye=0.3,1.5,0.2", "camera target=1,0.9,-2", "field of view=60", "show=hit"];
+    let sets = [
+        "camera eye=0.3,1.5,0.2",
+        "camera target=1,0.9,-2",
+        "field of view=60",
+        "plane reflection=0",
+        "light squares=1,1,1",
+        "dark squares=0,0,0",
+    ];
+    // What the plane is, how light, and how far away.
     let light = |size: &str, checker: &str| {
-        shown(size, &[&sets[..], &[checker]].concat(), &["--scene", &model.path()]).pixels
+        let [hits, squares] = ["show=hit", "show=triangle"].map(|show| {
+            shown(size, &[&sets[..], &[checker, show]].concat(), &["--scene", &model.path()]).pixels
+        });
+        let both = hits.iter().zip(squares).map(|(hit, square)| [hit[0], square[0], hit[2]]);
+        both.collect::<Vec<_>>()
     };
     const FINE: usize = 12;
     let (width, height) = (64, 40);
