@@ -1,6 +1,7 @@
 // What lies on the plane: squares, or one colour.
 #include "common/scene.glsl"
 #include "hit.glsl"
+#include "ray.glsl"
 #include "plane.glsl"
 #include "checker.glsl"
 
@@ -46,6 +47,7 @@ float shininess(float roughness) {
 }
 // ANCHOR_END: shininess
 
+// What the board is made of, its colour apart.
 MaterialRecord board_material(Board board) {
     MaterialRecord material;
     material.specular = vec3(board.specular);
@@ -59,25 +61,25 @@ const uint PLANE_OUTSIDE = 0;
 const uint PLANE_INSIDE = 1;
 
 // ANCHOR: report
-// The plane at the distance t of a ray, where the cone around the ray is `width` wide: reported as a
-// hit shader reports a triangle. If it `shines`, its colour from inside is one of its own.
-Hit hit_of_plane(
-    Plane plane, Board board, bool shines, vec3 origin, vec3 direction, float t, float width) {
+// The plane at the distance t of a ray, reported as a hit shader reports a triangle. If it `shines`, its
+// colour from inside is one of its own.
+Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     vec3 outward = normalize(plane.normal);
-    bool inside = dot(direction, plane.normal) > 0.0;
+    bool inside = dot(ray.direction, plane.normal) > 0.0;
     // From the anchor, not from the world's origin: small numbers near the camera. And onto the plane,
     // which rounding has left.
-    vec3 from_anchor = origin - plane.anchor + t * direction;
+    vec3 from_anchor = ray.origin - plane.anchor + t * ray.direction;
     from_anchor -= (dot(from_anchor, plane.normal) - plane.rest)
         / dot(plane.normal, plane.normal) * plane.normal;
     vec2 middle = vec2(dot(from_anchor, board.u), dot(from_anchor, board.v)) / board.square;
-    vec2 box = footprint(width, direction, outward, board.u, board.v) / board.square;
+    float width = ray.width + ray.spread * t;
+    vec2 box = footprint(width, ray.direction, outward, board.u, board.v) / board.square;
     box = board.checker == CHECKER_FILTERED ? box : vec2(0.0);
     float light = board.checker == CHECKER_OFF ? 1.0 : checker_light(board.anchor + middle, box);
 
     Hit hit;
     hit.position = plane.anchor + from_anchor;
-    hit.height = 0.0;   // a ray that leaves the plane does not ask for it again
+    hit.height = 0.0;   // a ray that leaves the plane is not tested against it
     hit.face = inside ? -outward : outward;
     hit.t = t;
     hit.normal = hit.face;

@@ -27,7 +27,7 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     World world;
     uint light_samples;   // shadow rays a hit, where the light has a size
-    uint depth;                   // how often a path may be reflected
+    uint depth;           // how often a path may be reflected
     float minimum_contribution;
 } push;
 

@@ -6,55 +6,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
-
-layout(set = 1, binding = 0) uniform sampler2D textures[];
+#include "report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
-// ANCHOR: curvature
-// By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
-float curvature(InstanceRecord instance, uint triangle) {
-    uvec3 corner = instance.triangles.at[triangle];
-    float most = 0.0;
-    for (int i = 0; i < 3; i++) {
-        Vertex a = instance.vertices.at[corner[i]];
-        Vertex b = instance.vertices.at[corner[(i + 1) % 3]];
-        vec3 edge = gl_ObjectToWorldEXT * vec4(b.position - a.position, 0.0);
-        most = max(most, length(b.normal - a.normal) / length(edge));
-    }
-    return most;
-}
-// ANCHOR_END: curvature
-
 // The nearest hit: what surface it is, and where.
 void main() {
-    // ANCHOR: fetch
-    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
-    uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
-    MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
-    place(hit, instance, triangle, weights);
-    hit.t = gl_HitTEXT;
-    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
-    vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
-    hit.normal = faceforward(normal, -hit.face, normal);
-    hit.lift = vec3(0.0);
-    if (SMOOTH_TERMINATOR) {
-        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
-    }
-
-    hit.color = material.base_color;
-    if (material.base_texture >= 0) {
-        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
-    }
-    hit.material = instance.material;
-    hit.triangle = triangle;
-    hit.instance = gl_InstanceCustomIndexEXT;
-    hit.curvature = curvature(instance, triangle);
-    // ANCHOR_END: report
+    hit = report(weights);
 }

@@ -1,0 +1,96 @@
+// A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+
+#include "ray.glsl"
+
+// ANCHOR: path
+struct Path {
+    vec4 color;        // what the eye sees so far
+    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
+    uint bounce;       // the next ray's number: 0 comes from the camera
+};
+
+// Adds what a ray meets. The picture is the sum over the path; every other view ends with the camera's ray.
+void gather(inout Path path, vec4 seen) {
+    if (SHOW == SHOW_PICTURE) {
+        path.color += vec4(path.throughput * seen.rgb, path.bounce == 0 ? seen.a : 0.0);
+    } else {
+        path.color = seen;
+    }
+}
+
+// Whether the next ray is worth tracing.
+bool goes_on(Path path) {
+    float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
+    return SHOW == SHOW_PICTURE && path.bounce <= push.depth && contribution > 0.0
+        && contribution >= push.minimum_contribution;
+}
+// ANCHOR_END: path
+
+// What a view shows of a hit instead of the picture.
+vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
+    bool missed = hit.t < 0.0;
+    bool plain = missed || hit.instance == PLANE;
+    switch (SHOW) {
+        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
+        case SHOW_TRIANGLE: return vec4(plain ? hit.color : false_color(hit.triangle), 1.0);
+        case SHOW_HIT:
+            return missed ? vec4(-1.0) : vec4(int(hit.instance), hit.triangle, hit.t, hit.material);
+        case SHOW_DIRECTION: return vec4(direction, hit.t);
+        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
+        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+    }
+}
+
+// Whether that is the plane from inside, in a colour of its own that asks for no light.
+bool shines(Hit hit) {
+    return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == PLANE_INSIDE;
+}
+
+// What a ray has met is lit and gathered, and says which ray comes next.
+void advance(inout Path path, inout Ray ray, Hit hit) {
+    // ANCHOR: light
+    vec3 color = hit.color;
+    Start start = shadow_start(hit);
+    float visible = 1.0;
+    vec3 mirror = vec3(0.0);
+    if (hit.t >= 0.0 && !shines(hit)) {
+        MaterialRecord material;
+        vec3 reflection;
+        if (hit.instance == PLANE) {
+            material = board_material(push.world.board);
+            reflection = vec3(push.world.board.reflection);
+        } else {
+            material = push.scene.materials.at[hit.material];
+            reflection = push.world.reflections.at[hit.material];
+        }
+        if (reflection != vec3(0.0)) {
+            mirror = fresnel(reflection, max(dot(hit.normal, -ray.direction), 0.0));
+        }
+        // What is reflected does not reach the colour below.
+        hit.color *= 1.0 - mirror;
+        color = material.emission + hit.color * ambient(hit.normal);
+        visible = 0.0;
+        for (uint i = 0; i < push.world.light_count; i++) {
+            Light light = push.world.lights[i];
+            float part = 1.0;
+            if (SHADOW_RAYS != SHADOW_OFF) {
+                vec2 first = random(gl_LaunchIDEXT.xy, 0, path.bounce, DIMENSION_LIGHT).xy;
+                part = visibility(light, start, push.light_samples, first);
+            }
+            color += lit_by(light, hit, material, start, -ray.direction, part);
+            visible += part / float(push.world.light_count);
+        }
+    }
+    // ANCHOR_END: light
+    // ANCHOR: next
+    bool is_picture = SHOW == SHOW_PICTURE;
+    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start, visible));
+    path.throughput *= mirror;
+    path.bounce++;
+    ray.origin = hit.position + hit.height * hit.face;
+    ray.direction = mirrored(ray.direction, hit.normal, hit.face);
+    // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
+    ray.width += ray.spread * hit.t;
+    ray.spread += 2.0 * hit.curvature * ray.width;
+    // ANCHOR_END: next
+}
