@@ -4,7 +4,7 @@
 // `t`, behind the origin as well as before it; the answer is whether it does.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
-#include "common/error_free.glsl"
+#include "error_free.glsl"
 
 const uint PLANE_POV = 0;
 const uint PLANE_POINT = 1;

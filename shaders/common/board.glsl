@@ -1,3 +1,5 @@
+// Taught by 12_infinite_plane; this one is for hit and miss shaders that light the plane themselves.
+//
 // The plane where a ray has met it: a board of squares.
 
 // ANCHOR: footprint

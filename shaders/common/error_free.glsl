@@ -1,3 +1,5 @@
+// Taught by 12_infinite_plane, whose own file this is a copy of.
+//
 // The error of a sum and of a product, as a float of its own.
 //
 // This needs rounding to nearest and `precise`. FUSED is whether fma() rounds once, which GLSL does not

@@ -1,0 +1,62 @@
+// The error of a sum and of a product, as a float of its own.
+//
+// This needs rounding to nearest and `precise`. FUSED is whether fma() rounds once, which GLSL does not
+// promise: who has asked the device defines it before; 0 is right everywhere.
+#ifndef FUSED
+#define FUSED 0
+#endif
+
+// ANCHOR: exact
+// a + b is sum.x + sum.y, exactly (Knuth).
+vec2 two_sum(float a, float b) {
+    precise float sum = a + b;
+    precise float back = sum - a;
+    precise float error = (a - (sum - back)) + (b - back);
+    return vec2(sum, error);
+}
+
+// The upper 12 bits of a number and the lower 12: products of such halves are exact (Veltkamp).
+vec2 split(float a) {
+    precise float wide = 4097.0 * a;
+    precise float high = wide - (wide - a);
+    precise float low = a - high;
+    return vec2(high, low);
+}
+
+// a·b is product.x + product.y, exactly: by an fma() that rounds once, or from halves (Dekker).
+vec2 two_product(float a, float b) {
+    precise float product = a * b;
+    if (FUSED != 0) {
+        precise float error = fma(a, b, -product);
+        return vec2(product, error);
+    }
+    vec2 x = split(a);
+    vec2 y = split(b);
+    precise float error = ((x.x * y.x - product) + x.x * y.y + x.y * y.x) + x.y * y.y;
+    return vec2(product, error);
+}
+// ANCHOR_END: exact
+
+// two_sum where |a| >= |b|, or a = 0 (Dekker).
+vec2 quick_two_sum(float a, float b) {
+    precise float sum = a + b;
+    precise float error = b - (sum - a);
+    return vec2(sum, error);
+}
+
+// ANCHOR: compensated
+// start + a·b, where the error of each product and of each sum is kept, and added at the end.
+// (Ogita, Rump and Oishi 2005, algorithm Dot2.)
+float dot_compensated(vec2 start, vec3 a, vec3 b) {
+    precise float sum = start.x;
+    precise float error = start.y;
+    for (int i = 0; i < 3; i++) {
+        vec2 product = two_product(a[i], b[i]);
+        vec2 next = two_sum(sum, product.x);
+        sum = next.x;
+        error += product.y + next.y;
+    }
+    precise float result = sum + error;
+    return result;
+}
+// ANCHOR_END: compensated
