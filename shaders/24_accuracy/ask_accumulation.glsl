@@ -1,7 +1,7 @@
 // The mean of n samples: pattern, value, spike or head, every, n; of the last two, whole numbers of more
 // bits than a float has, the upper and the lower 16 bits.
 #include "answer.glsl"
-#include "common/accumulation.glsl"
+#include "accumulation.glsl"
 
 const float PATTERN_FIREFLY = 1.0;
 const float PATTERN_HEAD = 2.0;

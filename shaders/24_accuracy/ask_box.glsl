@@ -2,7 +2,7 @@
 #include "answer.glsl"
 #include "common/box.glsl"
 #include "box_padded.glsl"
-#include "common/box_two_float.glsl"
+#include "box_two_float.glsl"
 
 bool box_by(uint rung, vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 faces[2]) {
     switch (rung) {

@@ -1,5 +1,5 @@
 // A ray against a box in 64 bits. After ask_box.glsl.
-#include "common/box_f64.glsl"
+#include "box_f64.glsl"
 
 Answer ask_box_f64(Query query, Numbers numbers) {
     Answer answer = NO_HIT;

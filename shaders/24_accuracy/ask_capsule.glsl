@@ -1,7 +1,7 @@
 // A ray against a capsule: a.xyz, b.xyz, radius.
 #include "answer.glsl"
-#include "common/capsule.glsl"
-#include "common/capsule_two_float.glsl"
+#include "capsule.glsl"
+#include "capsule_two_float.glsl"
 
 Answer ask_capsule(uint rung, Query query, Numbers numbers) {
     vec3 a = vector_at(numbers, query.first);

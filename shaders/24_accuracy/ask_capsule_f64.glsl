@@ -1,5 +1,5 @@
 // A ray against a capsule in 64 bits. After ask_capsule.glsl.
-#include "common/capsule_f64.glsl"
+#include "capsule_f64.glsl"
 
 Answer ask_capsule_f64(Query query, Numbers numbers) {
     uint first = query.first;

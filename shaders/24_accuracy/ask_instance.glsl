@@ -2,7 +2,7 @@
 // part in two floats an entry; all by rows.
 #include "answer.glsl"
 #include "common/instance.glsl"
-#include "common/instance_two_float.glsl"
+#include "instance_two_float.glsl"
 #include "common/sphere.glsl"
 
 const uint INSTANCE_MATRIX = 0;

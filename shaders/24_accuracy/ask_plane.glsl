@@ -1,6 +1,6 @@
 // A ray against a plane: normal.xyz, D·|N| in two floats, anchor.xyz, rest.
 #include "answer.glsl"
-#include "common/plane_two_float.glsl"
+#include "plane_two_float.glsl"
 
 Plane plane_at(Numbers numbers, uint first) {
     return Plane(

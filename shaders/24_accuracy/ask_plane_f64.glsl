@@ -1,5 +1,5 @@
 // A ray against a plane in 64 bits. After ask_plane.glsl.
-#include "common/plane_f64.glsl"
+#include "plane_f64.glsl"
 
 Answer ask_plane_f64(Query query, Numbers numbers) {
     Answer answer = NO_HIT;

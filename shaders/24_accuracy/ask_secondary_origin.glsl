@@ -2,7 +2,7 @@
 // normal.xyz, direction.xyz, occluder_y. Kind 0: the query's ray finds the point, and the hit is the same
 // sphere once more, which should not be. Kind 1: from the point given; the hit is the plane above it.
 #include "answer.glsl"
-#include "common/origin_sphere.glsl"
+#include "origin_sphere.glsl"
 #include "common/sphere.glsl"
 
 Answer ask_secondary_origin(uint rung, Query query, Numbers numbers) {

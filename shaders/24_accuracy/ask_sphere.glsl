@@ -1,7 +1,7 @@
 // A ray against a sphere: center.xyz, radius, c = |o - center|² - radius² from 64 bits.
 #include "answer.glsl"
 #include "common/sphere.glsl"
-#include "common/sphere_two_float.glsl"
+#include "sphere_two_float.glsl"
 
 bool sphere_by(uint rung, vec3 f, vec3 d, float r, float c, out vec2 t) {
     switch (rung) {

@@ -1,5 +1,5 @@
 // A ray against a sphere in 64 bits. After ask_sphere.glsl.
-#include "common/sphere_f64.glsl"
+#include "sphere_f64.glsl"
 
 Answer ask_sphere_f64(Query query, Numbers numbers) {
     Answer answer = NO_HIT;

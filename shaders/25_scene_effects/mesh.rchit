@@ -5,8 +5,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/offset.glsl"
-#include "common/origin.glsl"
+#include "offset.glsl"
+#include "origin.glsl"
 #include "lighting.glsl"
 
 #ifdef EFFECT_TEXTURES

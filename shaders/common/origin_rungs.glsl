@@ -1,4 +1,4 @@
-// What the starts at triangles (origin.glsl) and those at spheres (origin_sphere.glsl) share.
+// Taught by 26_leaving_a_surface; what the starts at triangles and those at spheres share.
 
 const uint ORIGIN_NOTHING = 0;
 const uint ORIGIN_TMIN = 1;

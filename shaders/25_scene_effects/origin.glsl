@@ -1,7 +1,7 @@
 // Where a ray starts that leaves a surface: five ways that fail somewhere, and one that does not.
 //
 // A start below the surface hits it again: acne. A start too far above it is beyond what stands close
-// by: leaks. For closest hit shaders, after common/offset.glsl: that has the hit.
+// by: leaks. For closest hit shaders, after offset.glsl: that has the hit.
 #include "common/start.glsl"
 #include "common/origin_rungs.glsl"
 

@@ -1,4 +1,4 @@
-// A ray against a capsule in two-floats: where common/capsule.glsl ends.
+// A ray against a capsule in two-floats: where capsule.glsl ends.
 //
 // o is the ray's origin, the segment goes from a to b. A root on the body is kept as the ray's parameter
 // and as the outward vector there, like a root on a sphere.

@@ -1,8 +1,8 @@
-// Where a ray starts that leaves a sphere: common/origin.glsl has the same rules for triangles.
+// Where a ray starts that leaves a sphere: 25_scene_effects/origin.glsl has the same rules for triangles.
 //
 // A start below the surface meets it again; a start too far above it is beyond what stands close by.
-#include "start.glsl"
-#include "origin_rungs.glsl"
+#include "common/start.glsl"
+#include "common/origin_rungs.glsl"
 #include "two_float.glsl"
 
 // The point of a sphere that a ray leaves.

@@ -4,7 +4,7 @@
 // direction of any length, r the radius. Where the line enters and where it leaves goes to `t`. A capsule
 // is convex, so that the cylinder's root counts if it lies beside the segment, and if it lies beyond an
 // end, that end's sphere has the root or there is none. u = 0 is a sphere.
-#include "sphere.glsl"
+#include "common/sphere.glsl"
 
 const uint CAPSULE_TEXTBOOK = 0;
 const uint CAPSULE_STABLE = 1;

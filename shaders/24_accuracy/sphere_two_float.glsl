@@ -1,5 +1,5 @@
 // A ray against a sphere, where common/sphere.glsl ends: with more than 24 bits, where they matter, and
-// everywhere. After common/two_float.glsl's sums and products, which say what they need.
+// everywhere. After two_float.glsl's sums and products, which say what they need.
 #include "two_float.glsl"
 
 const uint SPHERE_COMPENSATED = 5;

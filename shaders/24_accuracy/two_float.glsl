@@ -8,7 +8,7 @@
 // This needs rounding to nearest and `precise`. It trusts neither division nor sqrt, which Vulkan lets
 // be off by 2.5 ULP and more: what they give is a first guess, and the exact remainder corrects it.
 
-#include "error_free.glsl"
+#include "common/error_free.glsl"
 
 // ANCHOR: scaling
 // Powers of two change no bit of a number but its exponent: a way out of the reach of overflow.
