@@ -1,4 +1,4 @@
-// Where a ray starts that leaves a sphere: 25_scene_effects/origin.glsl has the same rules for triangles.
+// Where a ray starts that leaves a sphere: 26_leaving_a_surface has the same rules for triangles.
 //
 // A start below the surface meets it again; a start too far above it is beyond what stands close by.
 #include "common/start.glsl"
