@@ -170,8 +170,9 @@ impl Sample for Demo {
 }
 
 // ANCHOR: pipeline
-/// A hit group for each kind of surface. Only the raygen shader traces rays: a recursion depth of 1 is
-/// enough.
+/// A hit group for each kind of surface: triangles, and the ground.
+///
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(
     gpu: &Gpu,
     textures: &TextureTable,
