@@ -15,10 +15,10 @@
 // 3. The next ray, which the device takes back into the mesh's space by an inverse of its own. If that
 //    came from cofactors in 32 bits that do not cancel, it is off by 18u·|W|, which costs
 //    18u·|L||W||L||p|; product and translation are sums of four terms: 7u·|L||W|·(|world| + |T|).
-//    (common/src/reference/transform.rs has the steps, and matrices whose cofactors cancel.)
+//    (common/reference/src/transform.rs has the steps, and matrices whose cofactors cancel.)
 // 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
 //    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
-//    quotient, r the longest edge (common/src/reference/bound.rs has the steps), and for the rounded
+//    quotient, r the longest edge (common/reference/src/bound.rs has the steps), and for the rounded
 //    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room.
 //
 // 1 to 3 are vectors, and what counts of them is the part along the plane's normal.
