@@ -177,7 +177,7 @@ impl<'a> New<'a> {
         let later = |line: &&str| line.starts_with("mod ") && **line > *declaration;
         let last =
             lines.iter().rposition(|line| line.starts_with("mod ")).map_or(lines.len(), |i| i + 1);
-        let at = lines.iter().position(|line| later(line)).unwrap_or(last);
+        let at = lines.iter().position(later).unwrap_or(last);
         lines.insert(at, &declaration);
         Ok(lines.join("\n") + "\n")
     }
