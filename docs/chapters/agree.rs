@@ -76,6 +76,13 @@ fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
     if !own_package && !project.has(&test) {
         missing(format!("has no test {test}"), "write it".to_owned());
     }
+    // Cargo builds a package's programs for the sake of its test programs alone.
+    if own_package && !own_manifest(project, name).contains("[[test]]") {
+        missing(
+            "is a package without a test program: `cargo test` would not build it".to_owned(),
+            format!("add [[test]] to samples/{name}/Cargo.toml"),
+        );
+    }
     if !project.has(&golden) {
         missing(
             format!("has no golden {golden}"),
@@ -99,6 +106,10 @@ fn opening(project: &Project, chapter: &Chapter, main: &str) -> Option<Fault> {
     let what = "the first line does not name the chapter".to_owned();
     let wrong = !text.starts_with(&opening);
     wrong.then(|| Fault::new(main, 1, what, format!("begin it with `{}…`", opening)))
+}
+
+fn own_manifest(project: &Project, name: &str) -> String {
+    project.read(&format!("samples/{name}/Cargo.toml")).unwrap_or_default()
 }
 
 fn module_file(chapter: &Chapter) -> String {

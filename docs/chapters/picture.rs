@@ -170,11 +170,7 @@ impl Sources {
         }
         if scene {
             // Where the pieces stand and how the light falls is framework code.
-            let read_by_all = |path: &String| {
-                !path.starts_with("common/src/scene/file/") && path != "common/src/scene/effects.rs"
-            };
-            let framework = project.files("common/src/scene").into_iter();
-            files.extend(framework.filter(|path| scene_files || read_by_all(path)));
+            files.extend(project.files("common/src/scene"));
             let asset = |path: &String| {
                 path.matches('/').count() == 2
                     || scene_files && path.starts_with("samples/assets/scenes/")

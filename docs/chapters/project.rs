@@ -76,6 +76,8 @@ pub struct Project {
     pub manifest: String,
     /// The chapters, by number.
     pub chapters: Vec<Chapter>,
+    /// The root modules of other packages' libraries, from the project's root.
+    pub libs: Vec<String>,
     /// The programs of all packages.
     pub bins: Vec<Target>,
     /// The test programs of all packages.
@@ -98,12 +100,13 @@ impl Project {
         })?;
         let named = |(name, chapter)| Chapter { name, ..chapter };
         let chapters = read.package.metadata.chapters.into_iter().map(named).collect();
-        let (mut bins, mut tests) = (read.bin, read.test);
+        let (mut libs, mut bins, mut tests) = (Vec::new(), read.bin, read.test);
         for member in read.workspace.members.iter().filter(|member| *member != ".") {
             let manifest = self::read(&root.join(member).join("Cargo.toml"))?;
             let targets: Targets =
                 toml::from_str(&manifest).with_context(|| format!("{member}/Cargo.toml"))?;
             let placed = |target: Target| Target { path: below(member, &target.path), ..target };
+            libs.extend(targets.lib.map(|lib| below(member, &lib.path)));
             bins.extend(targets.bin.into_iter().map(placed));
             tests.extend(targets.test.into_iter().map(placed));
         }
@@ -111,6 +114,7 @@ impl Project {
             root: root.to_owned(),
             manifest,
             chapters,
+            libs,
             bins,
             tests,
             default_run: read.package.default_run,
@@ -218,10 +222,18 @@ struct Workspace {
 /// What the manifest of another package of the project says.
 #[derive(Deserialize)]
 struct Targets {
+    lib: Option<Library>,
     #[serde(default)]
     bin: Vec<Target>,
     #[serde(default)]
     test: Vec<Target>,
+}
+
+/// A library, which needs no name of its own.
+#[derive(Deserialize)]
+struct Library {
+    #[serde(default)]
+    path: String,
 }
 
 /// The path `relative` to a folder, from the project's root.

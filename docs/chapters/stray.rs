@@ -33,7 +33,8 @@ fn why(
         "rs" => {
             let path = |target: &&crate::project::Target| target.path == file;
             let target = project.bins.iter().chain(&project.tests).find(path).is_some();
-            (target || sources.declares(folder, stem), "no [[bin]] and no `mod` names it")
+            let root = target || project.libs.iter().any(|lib| lib == file);
+            (root || sources.declares(folder, stem), "no [[bin]] and no `mod` names it")
         }
         "md" if folder == "docs" => {
             let page = project.chapters.iter().any(|chapter| chapter.page() == file);

@@ -99,7 +99,13 @@ fn stray_files_are_named() {
 
 #[test]
 fn parts_of_a_chapter_that_do_not_agree_are_named() {
-    let cases: [Case; 4] = [
+    let cases: [Case; 5] = [
+        (
+            "a package that `cargo test` leaves out",
+            |f| f.write("samples/02_basic/Cargo.toml", "[package]\nname = \"basic\"\n"),
+            "Cargo.toml:25: '02_basic' is a package without a test program: `cargo test` would not build it",
+            "; add [[test]] to samples/02_basic/Cargo.toml",
+        ),
         (
             "a golden lost",
             |f| f.remove("tests/golden/02_basic.png"),
