@@ -3,9 +3,11 @@
 use dashu::rational::RBig;
 use glam::DVec3;
 
-use super::exact::{Vector, rational};
+use super::rational::rational;
+use super::ray::Ray;
 use super::surd::Surd;
-use super::{Ray, Surface};
+use super::surface::Surface;
+use super::vector::Vector;
 
 /// A closed axis-aligned box; its surface, not its interior, is what a ray hits.
 ///
@@ -121,8 +123,8 @@ impl Aabb {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exact::to_f64;
     use super::super::random::{Random, f32s, towards};
+    use super::super::rational::to_f64;
     use super::*;
     use proptest::prelude::*;
 

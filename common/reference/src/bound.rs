@@ -62,8 +62,8 @@
 
 use glam::DVec3;
 
-use super::Ray;
 use super::crossing::Crossing;
+use super::ray::Ray;
 use super::transform::{Transform, U};
 use super::triangle::Triangle;
 

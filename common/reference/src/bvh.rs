@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Ray;
+use super::ray::Ray;
 
 /// Items in a leaf; a box test costs about as much as a triangle test.
 const LEAF: usize = 4;

@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 
-use super::exact::{Vector, rational};
+use super::rational::rational;
+use super::ray::Ray;
 use super::sphere::roots;
 use super::surd::Surd;
-use super::{Ray, Surface};
+use super::surface::Surface;
+use super::vector::Vector;
 
 /// All points at a distance from a segment; with `a = b` a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]

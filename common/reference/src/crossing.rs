@@ -1,9 +1,11 @@
 //! Where the line of a ray crosses the plane of a triangle, and how near to the border, in f64.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::Ray;
-use super::triangle::Triangle;
+use super::ray::Ray;
+
+/// Three vertices in world space.
+pub type Triangle = [DVec3; 3];
 
 /// Where the line of a ray meets the plane of a triangle, inside it or not, in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]

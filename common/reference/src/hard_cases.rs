@@ -8,10 +8,12 @@ use super::capsule::Capsule;
 use super::heightfield::Heightfield;
 use super::instance::Ellipsoid;
 use super::plane::{Plane, PointPlane};
+use super::ray::Ray;
 use super::sphere::Sphere;
 use super::surd::Surd;
+use super::surface::Surface;
+use super::triangle;
 use super::ulp::ulp_error;
-use super::{Ray, Surface, triangle};
 
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hard_cases.json");
 

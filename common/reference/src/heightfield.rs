@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Ray, Surface};
+use super::ray::Ray;
+use super::surface::Surface;
 
 /// `y = k·(a·S(fx·x)·S(fz·z + 1/4) + b·S(gx·x + gz·z))`, `S(u) = 8v·(1 - 2|v|)`, `v = u - round(u)`.
 ///

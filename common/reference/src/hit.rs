@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::Ray;
 use super::bound::Graze;
 use super::crossing::Crossing;
+use super::ray::Ray;
 
 /// A ray and a triangle of the scene, where they meet or nearly meet.
 #[derive(Clone, Copy, Debug, PartialEq)]

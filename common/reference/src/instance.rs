@@ -3,9 +3,11 @@
 use dashu::rational::RBig;
 use glam::{DMat3, DVec3};
 
-use super::exact::{Vector, rational};
+use super::rational::rational;
+use super::ray::Ray;
 use super::sphere::first_root;
-use super::{Ray, Surface};
+use super::surface::Surface;
+use super::vector::Vector;
 
 /// The unit sphere under `point ↦ linear·point + translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]

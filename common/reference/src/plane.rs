@@ -5,9 +5,12 @@ use std::cmp::Ordering;
 use dashu::rational::RBig;
 use glam::DVec3;
 
-use super::exact::{Vector, rational, sign};
+use super::dot2::{dot2, vector_dot2};
+use super::rational::{rational, sign};
+use super::ray::Ray;
 use super::surd::Surd;
-use super::{ExactSurface, Ray, Surface, dot2, vector_dot2};
+use super::surface::{ExactSurface, Surface};
+use super::vector::Vector;
 
 /// POV-Ray's plane `{<A,B,C>, D}`: all points p with `normal·p = distance·|normal|`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,8 +149,8 @@ mod tests {
         let direction = f32s(DVec3::new(0.3, -0.1, 0.0));
         let ray = Ray { direction, ..towards(DVec3::Y, DVec3::ZERO) };
         let plane = Plane { normal: DVec3::new(1.0, 3.0, 0.0), distance: 0.0 };
-        let hits = [plane.intersect(&ray), plane.intersect_exact(&ray).map(|hit| hit.to_f64())];
-        assert_eq!(hits[0].is_some(), hits[1].is_some());
+        let (hit, exact) = (plane.intersect(&ray), plane.intersect_exact(&ray));
+        assert_eq!(hit.is_some(), exact.is_some());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use glam::DMat3;
 use glam::DVec3;
 
-use super::Ray;
+use super::ray::Ray;
 
 /// SplitMix64 (Steele, Lea and Flood, *Fast Splittable Pseudorandom Number Generators*, 2014).
 pub struct Random(pub u64);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::Ray;
+use super::ray::Ray;
 use super::verdict::Answer;
 
 /// A GPU's triangle test, every operation rounded to f32: t, or a miss.

@@ -3,9 +3,12 @@
 use dashu::rational::RBig;
 use glam::DVec3;
 
-use super::exact::{Vector, rational};
+use super::dot2::{dot2, vector_dot2};
+use super::rational::rational;
+use super::ray::Ray;
 use super::surd::Surd;
-use super::{ExactSurface, Ray, Surface, dot2, vector_dot2};
+use super::surface::{ExactSurface, Surface};
+use super::vector::Vector;
 
 /// A sphere; its surface, not its interior, is what a ray hits.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@ use dashu::base::{BitTest, SquareRoot};
 use dashu::integer::{IBig, UBig};
 use dashu::rational::RBig;
 
-use super::Ray;
-use super::exact::{rational, sign, to_f64};
+use super::rational::{rational, sign, to_f64};
+use super::ray::Ray;
 
 /// The real number `rational + factor·√radicand`, exactly.
 ///
@@ -165,6 +165,13 @@ mod tests {
             let plain = p + q * r.sqrt();
             let exact = surd(p, q, r).to_f64();
             prop_assert!((exact - plain).abs() <= 3.0 * f64::EPSILON * plain);
+        }
+
+        /// Rust's own square root is correctly rounded, so it must be found again.
+        #[test]
+        fn square_root_is_correctly_rounded(x in proptest::num::f64::POSITIVE | proptest::num::f64::SUBNORMAL) {
+            let x = x.abs();
+            prop_assert_eq!(surd(0.0, 1.0, x).to_f64(), x.sqrt());
         }
 
         /// p - √(p²) is zero, and one unit in the last place more or less gives it a sign.

@@ -1,15 +1,15 @@
 //! Ray against triangle: watertight in f64, and exactly.
 
 use dashu::rational::RBig;
-use glam::DVec3;
 
 use super::crossing::{Crossing, Shear};
-use super::exact::{Vector, sign};
+use super::rational::sign;
+use super::ray::Ray;
 use super::surd::Surd;
-use super::{ExactSurface, Ray};
+use super::surface::ExactSurface;
+use super::vector::Vector;
 
-/// Three vertices in world space.
-pub type Triangle = [DVec3; 3];
+pub use super::crossing::Triangle;
 
 /// Where a ray hits a triangle, exactly.
 #[derive(Clone, Debug)]
@@ -59,9 +59,10 @@ pub fn intersect_exact(ray: &Ray, triangle: &Triangle) -> Option<ExactTriangleHi
 
 #[cfg(test)]
 mod tests {
-    use super::super::exact::to_f64;
     use super::super::random::{Random, f32s, towards};
+    use super::super::rational::to_f64;
     use super::*;
+    use glam::DVec3;
     use proptest::prelude::*;
 
     const UNIT: Triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];

@@ -10,8 +10,8 @@
 //! Everything else is wrong. What is allowed but differs from the exact answer is named and carries
 //! its margin and bound, so that tests can count and print it.
 
-use super::Ray;
 use super::hit::{Candidate, Hit};
+use super::ray::Ray;
 use super::scene::Scene;
 
 /// What the GPU wrote for a ray that hit.
