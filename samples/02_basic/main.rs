@@ -21,17 +21,18 @@ fn main() -> ExitCode {
 
 struct Demo {
     scene: SceneOnGpu,
-    pipelines: Variants<Constants>,
+    pipelines: Variants<Show>,
     camera: Camera,
     sun: Sun,
-    constants: Constants,
+    show: Show,
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
-#[derive(Clone, Copy, PartialEq)]
-struct Constants {
-    show: u32,
+// ANCHOR: show
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
 }
+// ANCHOR_END: show
 
 common::shader_struct! {
     /// What every shader of this chapter can read.
@@ -56,14 +57,13 @@ impl Sample for Demo {
             pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            constants: Constants { show: 0 },
+            show: Show::Picture,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.constants.show, &views);
+        c.choice("show", &mut self.show);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
@@ -82,26 +82,22 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
 }
 
 // ANCHOR: pipeline
-/// The pipeline for the shaders' constants.
-fn pipeline(
-    gpu: &Gpu,
-    textures: &TextureTable,
-    constants: Constants,
-) -> Result<RayTracingPipeline> {
+/// The pipeline for what is shown: a specialization constant of the shaders.
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .constant(0, constants.show)
+        .constant(0, show)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -3,6 +3,8 @@
 //! New since 02_basic: the any-hit shader `decide.rahit`, cut-outs, transparency at random, and a
 //! buffer that lists every surface that a ray crosses.
 
+mod hits;
+
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -12,7 +14,7 @@ use common::gpu::{
     TextureTable, Variant, Variants, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
 };
 use common::{Controls, Frame, Sample, Setup};
 
@@ -20,15 +22,8 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-/// How many hits of a ray the list has room for; the same number is in `push.glsl`.
-const MAX_HITS: u64 = 32;
-/// Bytes of a hit in the list: instance, triangle, distance.
-const HIT_SIZE: u64 = 12;
-/// The mode that lists hits.
-const ALL_HITS: u32 = 4;
-
 struct Demo {
-    model: Scene,
+    source: Scene,
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
@@ -38,15 +33,22 @@ struct Demo {
     samples: u32,
     invocations: u32,
     layer: u32,
-    no_duplicates: bool,
+    options: SceneOptions,
     hits: Buffer,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
+    /// What the any-hit shader decides by.
+    enum Mode: MODE { Opaque, Cutout = "cut-out", Random, Naive = "naive random", AllHits }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    mode: u32,
+    show: Show,
+    mode: Mode,
 }
 
 common::shader_struct! {
@@ -59,7 +61,7 @@ common::shader_struct! {
         samples: u32,
         invocations: u32,
         layer: u32,
-        hits: Address,
+        hits: Address<hits::ListedHit>,
     }
 }
 
@@ -69,64 +71,63 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut model = setup.scene_or(Scene::chess)?;
+        let mut source = setup.scene_or(Scene::chess)?;
         // ANCHOR: pieces
         // Less than opaque, so that the build leaves the pieces to the any-hit shader.
-        for material in &mut model.model.materials {
+        for material in &mut source.model.materials {
             if ["white", "black"].contains(&material.name.as_str()) {
                 material.opacity = 0.5;
             }
         }
         // ANCHOR_END: pieces
-        let camera = model.camera;
-        let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
+        let camera = source.camera;
+        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         Ok(Self {
-            model,
+            source,
             scene,
             pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            constants: Constants { show: 0, mode: 1 },
+            constants: Constants { show: Show::Picture, mode: Mode::Cutout },
             opacity: 0.4,
             samples: 16,
             invocations: 1,
             layer: 0,
-            no_duplicates: false,
-            hits: hit_list(gpu, 0)?,
+            options: setup.options,
+            hits: hits::list(gpu, 0)?,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.constants.show, &views);
-        let modes = ["opaque", "cut-out", "random", "naive random", "all hits"];
-        c.choice("mode", &mut self.constants.mode, &modes);
+        c.choice("show", &mut self.constants.show);
+        c.choice("mode", &mut self.constants.mode);
         c.slider("opacity", &mut self.opacity, 0.0..=1.0);
         c.integer("samples", &mut self.samples, 1..=256);
         c.integer("invocations", &mut self.invocations, 1..=4);
-        c.integer("layer", &mut self.layer, 0..=MAX_HITS as u32 - 1);
-        c.checkbox("no duplicates", &mut self.no_duplicates);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.integer("layer", &mut self.layer, 0..=hits::MAX_HITS - 1);
+        c.checkbox("no duplicates", &mut self.options.no_duplicate_any_hit);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
-    fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: rebuild
-        let mut options = self.scene.options;
-        options.no_duplicate_any_hit = self.no_duplicates;
-        if options != self.scene.options {
-            self.scene.rebuild(frame.gpu, &self.model, options)?;
+    // ANCHOR: rebuild
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        if self.options != self.scene.options {
+            self.scene.rebuild(gpu, &self.source, self.options)?;
         }
-        // ANCHOR_END: rebuild
+        Ok(())
+    }
+    // ANCHOR_END: rebuild
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: hits
         let vk::Extent2D { width, height } = frame.image.extent;
-        let rays =
-            if self.constants.mode == ALL_HITS { u64::from(width) * u64::from(height) } else { 0 };
-        if self.hits.size < rays * MAX_HITS * HIT_SIZE {
-            self.hits = hit_list(frame.gpu, rays)?;
+        let is_listed = self.constants.mode == Mode::AllHits;
+        let rays = if is_listed { u64::from(width) * u64::from(height) } else { 0 };
+        if self.hits.size < hits::size(rays) {
+            self.hits = hits::list(frame.gpu, rays)?;
         }
         // The frame before may still write the list when this one begins.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
@@ -149,7 +150,7 @@ impl Sample for Demo {
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -176,9 +177,3 @@ fn pipeline(
         .build(gpu)
 }
 // ANCHOR_END: pipeline
-
-/// A list of hits for so many rays.
-fn hit_list(gpu: &Gpu, rays: u64) -> Result<Buffer> {
-    let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-    Buffer::new(gpu, "hits", rays * MAX_HITS * HIT_SIZE, usage)
-}

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Binding, Buffer, Descriptor, Gpu, HitGroup, Image, RayTracingPipeline, Requirements,
+    Binding, Buffer, Descriptor, Gpu, HitGroup, Image, Number, RayTracingPipeline, Requirements,
     TextureTable, Variant, Variants, barrier,
 };
 use common::scene::{
@@ -22,28 +22,31 @@ fn main() -> ExitCode {
 
 /// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
 const PIECES: usize = 1024;
-/// From here on `show` is data, which has no mean.
-const SHOW_HIT: u32 = 3;
 
 struct Demo {
     scene: SceneOnGpu,
-    pipelines: Variants<Constants>,
+    pipelines: Variants<Show>,
     camera: Camera,
     sun: Sun,
-    constants: Constants,
-    sequence: u32,
-    scrambling: u32,
-    filter: u32,
+    show: Show,
+    sequence: Sequence,
+    scrambling: Scrambling,
+    filter: Filter,
     seed: u32,
     accumulate: bool,
     means: Image,
     offsets: Buffer,
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
-#[derive(Clone, Copy, PartialEq)]
-struct Constants {
-    show: u32,
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
+    /// What places the rays in their pixels.
+    enum Sequence: SEQUENCE { Centre, Random, Halton = "Halton", R2 = "R2", Sobol = "Sobol" }
+    /// What makes the pixels' sequences differ.
+    enum Scrambling: SCRAMBLING { None, Rotation, Owen = "Owen" }
+    /// What weighs a pixel's neighbourhood.
+    enum Filter: FILTER { Box, Tent, BlackmanHarris = "Blackman-Harris" }
 }
 
 common::shader_struct! {
@@ -52,9 +55,9 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        sequence: u32,
-        scrambling: u32,
-        pixel_filter: u32,
+        sequence: Number<Sequence>,
+        scrambling: Number<Scrambling>,
+        pixel_filter: Number<Filter>,
         seed: u32,
         frame: u32,
         accumulated: u32,
@@ -75,10 +78,10 @@ impl Sample for Demo {
             pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            constants: Constants { show: 0 },
-            sequence: 4,
-            scrambling: 2,
-            filter: 2,
+            show: Show::Picture,
+            sequence: Sequence::Sobol,
+            scrambling: Scrambling::Owen,
+            filter: Filter::BlackmanHarris,
             seed: 0,
             accumulate: true,
             means: Image::storage(gpu, "means", vk::Extent2D { width: 1, height: 1 })?,
@@ -88,16 +91,13 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = ["picture", "normal", "triangle", "hit", "ray direction"];
-        c.choice("show", &mut self.constants.show, &views);
-        let sequences = ["centre", "random", "Halton", "R2", "Sobol"];
-        c.choice("sequence", &mut self.sequence, &sequences);
-        c.choice("scrambling", &mut self.scrambling, &["none", "rotation", "Owen"]);
-        c.choice("filter", &mut self.filter, &["box", "tent", "Blackman-Harris"]);
+        c.choice("show", &mut self.show);
+        c.choice("sequence", &mut self.sequence);
+        c.choice("scrambling", &mut self.scrambling);
+        c.choice("filter", &mut self.filter);
         c.integer("seed", &mut self.seed, 0..=1000);
         c.checkbox("accumulate", &mut self.accumulate);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -115,9 +115,9 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            sequence: self.sequence,
-            scrambling: self.scrambling,
-            pixel_filter: self.filter,
+            sequence: self.sequence.into(),
+            scrambling: self.scrambling.into(),
+            pixel_filter: self.filter.into(),
             seed: self.seed,
             frame: frame.index,
             accumulated: if self.accumulates() { frame.index } else { 0 },
@@ -129,32 +129,29 @@ impl Sample for Demo {
             Descriptor::StorageBuffer(&self.offsets),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
 
     // ANCHOR: accumulates
     fn accumulates(&self) -> bool {
-        self.accumulate && self.constants.show < SHOW_HIT
+        // Data has no mean.
+        self.accumulate && ![Show::Hit, Show::Direction].contains(&self.show)
     }
     // ANCHOR_END: accumulates
 }
 
 // ANCHOR: pipeline
-/// The pipeline for the shaders' constants.
-fn pipeline(
-    gpu: &Gpu,
-    textures: &TextureTable,
-    constants: Constants,
-) -> Result<RayTracingPipeline> {
+/// The pipeline for what is shown: a specialization constant of the shaders.
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .constant(0, constants.show)
+        .constant(0, show)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

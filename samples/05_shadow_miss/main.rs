@@ -12,9 +12,9 @@ use common::gpu::{
     Variants,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
 };
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup};
 use glam::Vec3;
 
 fn main() -> ExitCode {
@@ -25,19 +25,22 @@ struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    sun: Sun,
-    lamp: PointLight,
-    light: u32,
-    light_size: f32,
-    light_samples: u32,
+    lighting: Lighting,
     constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+    }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    shadow_rays: u32,
+    show: Show,
+    shadow_rays: ShadowRays,
     smooth_terminator: bool,
 }
 
@@ -47,7 +50,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: Light,
-        light_samples: u32,
     }
 }
 
@@ -60,32 +62,25 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             scene,
             pipelines: Variants::default(),
             camera,
-            sun: Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
-            lamp: PointLight::default(),
-            light: 0,
-            light_size: 0.0,
-            light_samples: 16,
-            constants: Constants { show: 0, shadow_rays: 0, smooth_terminator: true },
+            lighting: Lighting::new(sun),
+            constants: Constants {
+                show: Show::Picture,
+                shadow_rays: ShadowRays::FirstHit,
+                smooth_terminator: true,
+            },
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views =
-            ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
-        c.choice("show", &mut self.constants.show, &views);
-        c.choice("light", &mut self.light, &["directional", "point"]);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
-        c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
-        c.slider("light size", &mut self.light_size, 0.0..=1.0);
-        c.integer("light samples", &mut self.light_samples, 1..=64);
-        let rays = ["first hit", "nearest hit", "off"];
-        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
@@ -96,11 +91,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: match self.light {
-                0 => Light::directional(&self.sun, self.light_size),
-                _ => Light::point(&self.lamp, self.light_size),
-            },
-            light_samples: self.light_samples,
+            light: self.lighting.shader(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
@@ -109,7 +100,7 @@ impl Sample for Demo {
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -129,7 +120,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator.into())
+        .constant(2, constants.smooth_terminator)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

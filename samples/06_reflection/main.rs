@@ -11,28 +11,23 @@ use common::gpu::{
     Variants,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
 };
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup};
 use glam::Vec3;
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-const METHOD_RECURSIVE: u32 = 1;
 const MAX_DEPTH: u32 = 8;
 
 struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    sun: Sun,
-    lamp: PointLight,
-    light: u32,
-    light_size: f32,
-    light_samples: u32,
-    method: u32,
+    lighting: Lighting,
+    method: Method,
     depth: u32,
     deepest: u32,
     minimum_contribution: f32,
@@ -40,11 +35,20 @@ struct Demo {
     constants: Constants,
 }
 
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+    }
+    /// What traces a path: a loop, or hits by recursion.
+    enum Method { Iterative, Recursive }
+}
+
 /// What a pipeline is made for: the specialization constants of its shaders, and the method.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    shadow_rays: u32,
+    show: Show,
+    shadow_rays: ShadowRays,
     smooth_terminator: bool,
     /// How often a path may be reflected if hits trace the rays; `None` if a loop does.
     recursive: Option<u32>,
@@ -56,7 +60,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: Light,
-        light_samples: u32,
         depth: u32,
         minimum_contribution: f32,
         bounce: u32,
@@ -72,23 +75,20 @@ impl Sample for Demo {
         let scene = setup.scene_or(Scene::chess_of_metal)?;
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        let sun = Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             scene,
             pipelines: Variants::default(),
             camera,
-            sun: Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
-            lamp: PointLight::default(),
-            light: 0,
-            light_size: 0.0,
-            light_samples: 16,
-            method: 0,
+            lighting: Lighting::new(sun),
+            method: Method::Iterative,
             depth: 4,
             deepest: MAX_DEPTH.min(gpu.limits.max_ray_recursion_depth.saturating_sub(2)),
             minimum_contribution: 1.0 / 512.0,
             bounce: 0,
             constants: Constants {
-                show: 0,
-                shadow_rays: 0,
+                show: Show::Picture,
+                shadow_rays: ShadowRays::FirstHit,
                 smooth_terminator: true,
                 recursive: None,
             },
@@ -97,20 +97,12 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views =
-            ["picture", "normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"];
-        c.choice("show", &mut self.constants.show, &views);
-        c.choice("light", &mut self.light, &["directional", "point"]);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
-        c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
-        c.slider("light size", &mut self.light_size, 0.0..=1.0);
-        c.integer("light samples", &mut self.light_samples, 1..=64);
-        let rays = ["first hit", "nearest hit", "off"];
-        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
-        c.choice("method", &mut self.method, &["iterative", "recursive"]);
-        let deepest = if self.method == METHOD_RECURSIVE { self.deepest } else { MAX_DEPTH };
+        c.choice("method", &mut self.method);
+        let deepest = if self.method == Method::Recursive { self.deepest } else { MAX_DEPTH };
         // What a loop may do can be too deep for this device's recursion.
         self.depth = self.depth.min(deepest);
         c.integer("depth", &mut self.depth, 0..=deepest);
@@ -122,7 +114,7 @@ impl Sample for Demo {
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: variant
-        let recursive = (self.method == METHOD_RECURSIVE).then_some(self.depth);
+        let recursive = (self.method == Method::Recursive).then_some(self.depth);
         let constants = Constants { recursive, ..self.constants };
         let Variant { key, pipeline, sbt } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, constants, pipeline)?;
@@ -133,11 +125,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: match self.light {
-                0 => Light::directional(&self.sun, self.light_size),
-                _ => Light::point(&self.lamp, self.light_size),
-            },
-            light_samples: self.light_samples,
+            light: self.lighting.shader(),
             depth,
             minimum_contribution: self.minimum_contribution,
             bounce: self.bounce,
@@ -147,7 +135,7 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -172,7 +160,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit(hit))
         .constant(0, constants.show)
         .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator.into())
+        .constant(2, constants.smooth_terminator)
         .recursion(recursion)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Record, Requirements,
+    Binding, Descriptor, Gpu, HitGroup, Number, RayTracingPipeline, Record, Requirements,
     ShaderBindingTable, ShaderStruct, TextureTable,
     sbt::{self, Region},
 };
@@ -21,14 +21,11 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-/// The hit groups, in the order in which the pipeline gets them.
-#[derive(Clone, Copy, Debug)]
-enum Group {
-    Plain,
-    Marble,
-    Wood,
-    Lacquer,
-    Inspect,
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction", Group, Record }
+    /// The hit groups, in the order in which the pipeline gets them.
+    enum Group: GROUP { Plain, Marble, Wood, Lacquer, Inspect }
 }
 
 /// Ray types: what a ray wants from the surface that it hits, its look or what there is to know.
@@ -43,7 +40,7 @@ struct Demo {
     sbt: ShaderBindingTable,
     camera: Camera,
     sun: Sun,
-    show: u32,
+    show: Show,
     instance: u32,
     looks: Vec<Look>,
     written: Vec<Look>,
@@ -56,7 +53,8 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        show: u32,
+        show: Number<Show>,
+        rows: u32,
     }
 }
 
@@ -79,31 +77,31 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut model = setup.scene_or(Scene::chess)?;
+        let mut source = setup.scene_or(Scene::chess)?;
         // ANCHOR: records
         let mut looks = Vec::new();
         let mut records = Vec::new();
-        for instance in &mut model.instances {
+        for instance in &mut source.instances {
             instance.record_offset = records.len() as u32;
-            let (group, look) = look(&model.model, instance);
+            let (group, look) = look(&source.model, instance);
             let data = bytemuck::bytes_of(&look).to_vec();
             records.push(Record { group: group as usize, data });
             records.push(Record { group: Group::Inspect as usize, data: Vec::new() });
             looks.push(look);
         }
         // ANCHOR_END: records
-        let camera = model.camera;
-        let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
+        let camera = source.camera;
+        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let pipeline = pipeline(gpu, &scene.textures)?;
         let sbt = ShaderBindingTable::with_hit_records(gpu, &pipeline, &records)?;
         Ok(Self {
-            table: table(gpu, &sbt, &model),
+            table: table(gpu, &sbt, &source),
             scene,
             pipeline,
             sbt,
             camera,
             sun: Sun::default(),
-            show: 0,
+            show: Show::Picture,
             instance: 0,
             written: looks.clone(),
             looks,
@@ -112,15 +110,13 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = ["picture", "normal", "triangle", "hit", "ray direction", "group", "record"];
-        c.choice("show", &mut self.show, &views);
+        c.choice("show", &mut self.show);
         c.integer("instance", &mut self.instance, 0..=self.looks.len() as u32 - 1);
         let look = &mut self.looks[self.instance as usize];
         c.color("tint", &mut look.tint);
         c.slider("scale", &mut look.scale, 0.1..=10.0);
         c.slider("roughness", &mut look.roughness, 0.05..=1.0);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -140,14 +136,15 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            show: self.show,
+            show: self.show.into(),
+            rows: frame.image.extent.height,
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         self.pipeline.bind(frame.cmd, &descriptors, &push)?;
-        self.sbt.trace(frame.cmd, frame.image.extent);
+        self.sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }

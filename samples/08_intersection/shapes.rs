@@ -1,5 +1,6 @@
 //! The scenes of this chapter: spheres and boxes, and where they are.
 
+use common::gpu::Address;
 use common::gpu::order::Bounds;
 use common::scene::{Camera, Instance, Material, Model};
 use glam::{DVec3, Vec3};
@@ -22,6 +23,16 @@ common::shader_struct! {
     }
 }
 
+common::shader_struct! {
+    /// Where shaders find them, and which of them a primitive of the build is.
+    pub struct ShapeAddresses {
+        pub spheres: Address<Sphere>,
+        pub boxes: Address<Box>,
+        pub sphere_ids: Address,
+        pub box_ids: Address,
+    }
+}
+
 impl Sphere {
     /// Corners of the box around it, never inside it by rounding.
     pub fn bounds(&self) -> Bounds {
@@ -40,13 +51,10 @@ impl Sphere {
     }
 }
 
-/// A scene by the position of its name.
-pub const SCENES: [&str; 6] = ["chess", "grid", "random ball", "planet", "one sphere", "dust"];
-pub const CHESS: u32 = 0;
-pub const GRID: u32 = 1;
-pub const RANDOM_BALL: u32 = 2;
-pub const PLANET: u32 = 3;
-pub const ONE_SPHERE: u32 = 4;
+common::shader_enum! {
+    /// The scenes.
+    pub enum SceneKind { Chess, Grid, RandomBall, Planet, OneSphere, Dust }
+}
 
 /// What there is besides triangles.
 #[derive(Default)]
@@ -56,18 +64,18 @@ pub struct Shapes {
 }
 
 /// How many primitives a scene has if nobody says; 0 where that is not free.
-pub fn default_count(scene: u32) -> u32 {
+pub fn default_count(scene: SceneKind) -> u32 {
     match scene {
-        RANDOM_BALL => 1024,
+        SceneKind::RandomBall => 1024,
         _ => 10_000,
     }
 }
 
 /// A view that shows a scene; `distance` is that of *one sphere*, in radii from its surface.
-pub fn camera(scene: u32, chess: Camera, count: u32, distance: f32) -> Camera {
+pub fn camera(scene: SceneKind, chess: Camera, count: u32, distance: f32) -> Camera {
     match scene {
-        CHESS => chess,
-        GRID => {
+        SceneKind::Chess => chess,
+        SceneKind::Grid => {
             let side = f64::from(grid_side(count));
             Camera::new(
                 DVec3::new(0.85, 0.62, 1.2) * side,
@@ -75,15 +83,15 @@ pub fn camera(scene: u32, chess: Camera, count: u32, distance: f32) -> Camera {
                 44.0,
             )
         }
-        RANDOM_BALL => Camera::new(DVec3::new(0.0, 0.0, 60.0), DVec3::ZERO, 60.0),
-        PLANET => Camera::new(DVec3::Y, DVec3::new(0.0, 0.55, -3.0), 40.0),
-        ONE_SPHERE => {
+        SceneKind::RandomBall => Camera::new(DVec3::new(0.0, 0.0, 60.0), DVec3::ZERO, 60.0),
+        SceneKind::Planet => Camera::new(DVec3::Y, DVec3::new(0.0, 0.55, -3.0), 40.0),
+        SceneKind::OneSphere => {
             let distance = 1.0 + f64::from(distance);
             let eye = DVec3::new(2.0, 1.4, 3.0).normalize() * distance;
             // A tenth more than the sphere fills.
             Camera::new(eye, DVec3::ZERO, (2.2 * (1.0 / distance).asin()).to_degrees())
         }
-        _ => {
+        SceneKind::Dust => {
             let eye = DVec3::new(2.0, 1.4, 3.0).normalize() * 1e4;
             Camera::new(eye, DVec3::ZERO, (2.0 * DUST_CLOUD / 1e4).to_degrees())
         }
@@ -103,13 +111,13 @@ impl Shapes {
     /// The shapes of a scene, at most `count` where that is free. For *chess* they stand in for
     /// pawns and rooks; the other scenes have no triangles. Materials are those of [`materials`],
     /// which follow the model's.
-    pub fn new(scene: u32, count: u32, model: &Model, pieces: &[Instance]) -> Self {
+    pub fn new(scene: SceneKind, count: u32, model: &Model, pieces: &[Instance]) -> Self {
         let first = (model.materials.len() - MATERIALS.len()) as u32;
         let mut shapes = Self::default();
         match scene {
-            CHESS => shapes.replace(model, pieces),
-            GRID => shapes.grid(count, first),
-            RANDOM_BALL => {
+            SceneKind::Chess => shapes.replace(model, pieces),
+            SceneKind::Grid => shapes.grid(count, first),
+            SceneKind::RandomBall => {
                 // As many as there are, they fill the same part of the ball.
                 let scale = (1024.0 / f64::from(count)).cbrt() as f32;
                 for i in 0..count {
@@ -118,11 +126,11 @@ impl Shapes {
                     shapes.spheres.push(Sphere { center, radius, material: first + i % 6 });
                 }
             }
-            PLANET => shapes.planet(first),
-            ONE_SPHERE => {
+            SceneKind::Planet => shapes.planet(first),
+            SceneKind::OneSphere => {
                 shapes.spheres.push(Sphere { center: Vec3::ZERO, radius: 1.0, material: first });
             }
-            _ => shapes.spheres.extend((0..count).map(|i| Sphere {
+            SceneKind::Dust => shapes.spheres.extend((0..count).map(|i| Sphere {
                 center: (in_ball(i) * DUST_CLOUD).as_vec3(),
                 radius: DUST_GRAIN,
                 material: first + i % 6,

@@ -4,9 +4,12 @@ use anyhow::{Context, Result};
 use common::scene::{Camera, Instance, Mesh, Model, Scene, Vertex};
 use glam::{Affine3A, DVec3, Mat3, Vec2, Vec3};
 
-/// A scene by the position of its name.
-pub const SCENES: [&str; 2] = ["ripples", "specimens"];
-pub const SPECIMENS: u32 = 1;
+common::shader_enum! {
+    /// The scenes.
+    pub enum SceneKind { Ripples, Specimens }
+    /// How a mesh is there many times: by instances, or by copies of it.
+    pub enum Geometry { Instances, Copies }
+}
 
 /// The bits of the visibility mask.
 pub const BOARD: u8 = 1;
@@ -16,15 +19,14 @@ pub const BLACK: u8 = 4;
 /// What meshes and pieces are made from; where it changes, they are made again.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
-    pub scene: u32,
+    pub scene: SceneKind,
     pub squares: u32,
-    /// 0 instances of a mesh, 1 a mesh for each piece.
-    pub geometry: u32,
+    pub geometry: Geometry,
 }
 
 impl Build {
     pub fn is_copied(&self) -> bool {
-        self.geometry != 0
+        self.geometry == Geometry::Copies
     }
 }
 
@@ -50,7 +52,7 @@ impl Piece {
     pub fn instance(&self, shift: DVec3) -> Instance {
         let translation = (self.at + shift).as_vec3();
         let transform = Affine3A::from_mat3_translation(self.linear, translation);
-        placed(self.mesh, self.material, transform)
+        instance(self.mesh, self.material, transform)
     }
 }
 
@@ -60,8 +62,8 @@ pub struct Formation {
 }
 
 /// A view that shows a scene.
-pub fn camera(scene: u32) -> Camera {
-    if scene == SPECIMENS {
+pub fn camera(scene: SceneKind) -> Camera {
+    if scene == SceneKind::Specimens {
         return Camera::new(DVec3::new(0.0, 2.3, 9.0), DVec3::new(0.1, 0.75, 0.0), 34.0);
     }
     Camera::new(DVec3::new(0.0, 12.0, 27.0), DVec3::new(0.0, -0.5, 1.0), 36.0)
@@ -81,12 +83,12 @@ pub fn meshes() -> Result<Scene> {
 
 /// One instance a mesh.
 fn one_each(model: &Model) -> Vec<Instance> {
-    let place = |(index, mesh): (usize, &Mesh)| placed(index, mesh.material, Affine3A::IDENTITY);
+    let place = |(index, mesh): (usize, &Mesh)| instance(index, mesh.material, Affine3A::IDENTITY);
     model.meshes.iter().enumerate().map(place).collect()
 }
 
 /// A mesh at a place.
-fn placed(mesh: usize, material: usize, transform: Affine3A) -> Instance {
+fn instance(mesh: usize, material: usize, transform: Affine3A) -> Instance {
     Instance { mesh, transform, material, record_offset: 0 }
 }
 
@@ -119,13 +121,13 @@ impl Formation {
         Ok(if build.is_copied() { formation.copies(&meshes) } else { (meshes, formation) })
     }
 
-    /// A scene by its position in [`SCENES`], of so many squares where that is free.
+    /// A scene of so many squares where that is free.
     ///
     /// # Errors
     /// If the model lacks a mesh or a material.
-    pub fn new(scene: u32, squares: u32, model: &Model) -> Result<Self> {
+    pub fn new(scene: SceneKind, squares: u32, model: &Model) -> Result<Self> {
         let set = Set::of(model)?;
-        if scene == SPECIMENS { Ok(set.specimens()) } else { Ok(set.ripples(squares)) }
+        if scene == SceneKind::Specimens { Ok(set.specimens()) } else { Ok(set.ripples(squares)) }
     }
 
     /// How many triangles are seen, all pieces together.

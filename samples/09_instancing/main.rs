@@ -5,23 +5,22 @@
 
 mod formation;
 mod pieces;
-mod placed;
+mod top_level;
 
 use std::ops::Range;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use ash::vk;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
     Variant, Variants, barrier,
 };
-use common::scene::{Camera, CameraBasis, Light, PointLight, SceneAddresses, SceneOnGpu, Sun};
-use common::{Controls, Frame, Sample, Setup};
-use formation::Build;
+use common::scene::{Camera, CameraBasis, Light, SceneAddresses, SceneOnGpu, ShadowRays, Sun};
+use common::{Controls, Frame, Lighting, Sample, Setup};
+use formation::{Build, Geometry, SceneKind};
 use glam::{DVec3, Vec3};
 use pieces::Pieces;
-use placed::{FLAGS, Placement, SEEN};
+use top_level::{FLAGS, PieceRecord, SEEN, TopLevelBuild};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -35,29 +34,41 @@ struct Demo {
     pieces: Pieces,
     pipelines: Variants<Constants>,
     camera: Camera,
-    sun: Sun,
-    lamp: PointLight,
-    light: u32,
-    light_size: f32,
-    light_samples: u32,
+    lighting: Lighting,
     build: Build,
     far: f32,
-    coordinates: u32,
+    coordinates: Coordinates,
     white_flags: u32,
     camera_sees: u32,
     shadows_of: u32,
     constants: Constants,
 }
 
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+        InstanceId, ObjectNormal, ObjectOrigin,
+    }
+    /// Which triangles a ray passes through.
+    enum Culling: CULL { Off, Back = "back faces", Front = "front faces" }
+    /// What takes a normal to the world.
+    enum Normals: NORMALS { Matrix, DeviceInverse, HostInverse }
+    /// What takes a ray to the mesh's space.
+    enum ObjectRay: OBJECT_RAY { Device, Matrix, Inverse }
+    /// About which origin everything is placed.
+    enum Coordinates { World, CameraRelative = "camera-relative", Both }
+}
+
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    shadow_rays: u32,
+    show: Show,
+    shadow_rays: ShadowRays,
     smooth_terminator: bool,
-    culling: u32,
-    normals: u32,
-    object_ray: u32,
+    culling: Culling,
+    normals: Normals,
+    object_ray: ObjectRay,
 }
 
 common::shader_struct! {
@@ -65,12 +76,10 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        pieces: Address,
+        pieces: Address<PieceRecord>,
         light: Light,
-        light_samples: u32,
         camera_mask: u32,
         shadow_mask: u32,
-        first_column: u32,
     }
 }
 
@@ -80,30 +89,28 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let build = Build { scene: 0, squares: 10_000, geometry: 0 };
+        let build =
+            Build { scene: SceneKind::Ripples, squares: 10_000, geometry: Geometry::Instances };
         let pieces = Pieces::new(build)?;
         let scene = SceneOnGpu::new(gpu, &pieces.meshes, setup.options)?;
         let constants = Constants {
-            show: 0,
-            shadow_rays: 0,
+            show: Show::Picture,
+            shadow_rays: ShadowRays::FirstHit,
             smooth_terminator: true,
-            culling: 0,
-            normals: 2,
-            object_ray: 0,
+            culling: Culling::Off,
+            normals: Normals::HostInverse,
+            object_ray: ObjectRay::Device,
         };
+        let sun = Sun { azimuth: 300.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             scene,
             pieces,
             pipelines: Variants::default(),
             camera: formation::camera(build.scene),
-            sun: Sun { azimuth: 300.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
-            lamp: PointLight::default(),
-            light: 0,
-            light_size: 0.0,
-            light_samples: 16,
+            lighting: Lighting::new(sun),
             build,
             far: 0.0,
-            coordinates: 1,
+            coordinates: Coordinates::CameraRelative,
             white_flags: 0,
             camera_sees: 0,
             shadows_of: 0,
@@ -113,55 +120,43 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        if c.choice("scene", &mut self.build.scene, &formation::SCENES) {
+        if c.choice("scene", &mut self.build.scene) {
             self.camera = formation::camera(self.build.scene);
         }
-        if c.choice("geometry", &mut self.build.geometry, &["instances", "copies"]) {
+        if c.choice("geometry", &mut self.build.geometry) {
             self.build.squares = self.build.squares.min(1_000);
         }
         // A million squares take 400 MB as instances, a thousand take 250 MB as copies.
-        let most = if self.build.geometry == 0 { 1_000_000 } else { 1_000 };
+        let most = if self.build.geometry == Geometry::Instances { 1_000_000 } else { 1_000 };
         c.integer("squares", &mut self.build.squares, 1..=most);
         c.slider("far", &mut self.far, 0.0..=1e7);
-        c.choice("coordinates", &mut self.coordinates, &["world", "camera-relative", "both"]);
-        c.choice("camera sees", &mut self.camera_sees, &SEEN.map(|(name, _)| name));
-        c.choice("shadows of", &mut self.shadows_of, &SEEN.map(|(name, _)| name));
-        c.choice("culling", &mut self.constants.culling, &["off", "back faces", "front faces"]);
-        c.choice("flags of white", &mut self.white_flags, &FLAGS.map(|(name, _)| name));
-        let normals = ["matrix", "device inverse", "host inverse"];
-        c.choice("normals", &mut self.constants.normals, &normals);
-        c.choice("object ray", &mut self.constants.object_ray, &["device", "matrix", "inverse"]);
-        let views = [
-            "picture",
-            "normal",
-            "triangle",
-            "hit",
-            "ray direction",
-            "shadow",
-            "shadow origin",
-            "instance id",
-            "object normal",
-            "object origin",
-        ];
-        c.choice("show", &mut self.constants.show, &views);
-        c.choice("light", &mut self.light, &["directional", "point"]);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
-        c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
-        c.slider("light size", &mut self.light_size, 0.0..=1.0);
-        c.integer("light samples", &mut self.light_samples, 1..=64);
-        let rays = ["first hit", "nearest hit", "off"];
-        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.choice("coordinates", &mut self.coordinates);
+        c.one_of("camera sees", &mut self.camera_sees, &SEEN.map(|(name, _)| name));
+        c.one_of("shadows of", &mut self.shadows_of, &SEEN.map(|(name, _)| name));
+        c.choice("culling", &mut self.constants.culling);
+        c.one_of("flags of white", &mut self.white_flags, &FLAGS.map(|(name, _)| name));
+        c.choice("normals", &mut self.constants.normals);
+        c.choice("object ray", &mut self.constants.object_ray);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        self.pieces.rebuild(gpu, &mut self.scene, self.build)
+    }
+
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        self.pieces.rebuild(frame.gpu, &mut self.scene, self.build)?;
         let width = frame.image.extent.width;
         // World coordinates to the left of it, camera-relative ones to the right.
-        let middle = [width, 0, width / 2][self.coordinates as usize];
+        let middle = match self.coordinates {
+            Coordinates::World => width,
+            Coordinates::CameraRelative => 0,
+            Coordinates::Both => width / 2,
+        };
         self.trace(frame, 0, 0..middle)?;
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         self.trace(frame, 1, middle..width)
@@ -191,32 +186,28 @@ impl Demo {
         camera.eye += shift;
         camera.target += shift;
         // ANCHOR_END: origin
-        let placement = Placement { shift, flags: FLAGS[self.white_flags as usize].1 };
-        let placed = self.pieces.place(frame.gpu, &self.scene, which, placement)?;
+        let build = TopLevelBuild { shift, flags: FLAGS[self.white_flags as usize].1 };
+        let top_level = self.pieces.top_level(frame.gpu, &self.scene, which, build)?;
         // ANCHOR: trace
-        let position = (self.lamp.position.as_dvec3() + shift).as_vec3();
-        let lamp = PointLight { position, ..self.lamp };
         let push = Push {
             camera: camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            pieces: placed.records.address.into(),
-            light: match self.light {
-                0 => Light::directional(&self.sun, self.light_size),
-                _ => Light::point(&lamp, self.light_size),
-            },
-            light_samples: self.light_samples,
+            pieces: top_level.records.address.into(),
+            light: self.lighting.moved(shift),
             camera_mask: SEEN[self.camera_sees as usize].1.into(),
             shadow_mask: SEEN[self.shadows_of as usize].1.into(),
-            first_column: columns.start,
         };
         let descriptors = [
-            Descriptor::AccelerationStructure(&placed.tlas),
+            Descriptor::AccelerationStructure(&top_level.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, vk::Extent2D { width: columns.len() as u32, ..frame.image.extent });
+        let mut area = frame.area;
+        area.offset.x = columns.start as i32;
+        area.extent.width = columns.len() as u32;
+        sbt.trace(frame.cmd, area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -236,7 +227,7 @@ fn pipeline(
         .hit(HitGroup::triangles().any_hit("slice.rahit").closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator.into())
+        .constant(2, constants.smooth_terminator)
         .constant(3, constants.culling)
         .constant(4, constants.normals)
         .constant(5, constants.object_ray)

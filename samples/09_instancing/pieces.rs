@@ -6,22 +6,22 @@ use common::gpu::Gpu;
 use common::scene::{Mesh, Scene, SceneOnGpu};
 
 use crate::formation::{Build, Formation};
-use crate::placed::{PieceRecord, Placed, Placement};
+use crate::top_level::{PieceRecord, TopLevel, TopLevelBuild};
 
 /// The pieces, on the host and on the device.
 pub struct Pieces {
     /// Of each mesh one instance, which the device needs to find it.
     pub meshes: Scene,
     formation: Formation,
-    /// The instances about each of the two origins, where they were last needed.
-    placed: [Option<Placed>; 2],
+    /// The top level about each of the two origins, as it was last needed.
+    top_levels: [Option<TopLevel>; 2],
     built: Build,
 }
 
 impl Pieces {
     pub fn new(build: Build) -> Result<Self> {
         let (meshes, formation) = Formation::build(build)?;
-        Ok(Self { meshes, formation, placed: [None, None], built: build })
+        Ok(Self { meshes, formation, top_levels: [None, None], built: build })
     }
 
     /// Makes meshes and pieces again if they were made from something else.
@@ -37,20 +37,20 @@ impl Pieces {
         Ok(())
     }
 
-    /// The instances about one of the two origins, made again if they were placed otherwise.
-    pub fn place(
+    /// The top level about one of the two origins, made again if it was made for something else.
+    pub fn top_level(
         &mut self,
         gpu: &Gpu,
         scene: &SceneOnGpu,
         which: usize,
-        placement: Placement,
-    ) -> Result<&Placed> {
-        let known = self.placed[which].take().filter(|placed| placed.placement == placement);
-        let placed = match known {
-            Some(placed) => placed,
-            None => Placed::new(gpu, &self.meshes, scene, &self.formation, placement)?,
+        build: TopLevelBuild,
+    ) -> Result<&TopLevel> {
+        let known = self.top_levels[which].take().filter(|known| known.build == build);
+        let top_level = match known {
+            Some(known) => known,
+            None => TopLevel::new(gpu, &self.meshes, scene, &self.formation, build)?,
         };
-        Ok(self.placed[which].insert(placed))
+        Ok(self.top_levels[which].insert(top_level))
     }
 
     // ANCHOR: memory
@@ -58,7 +58,7 @@ impl Pieces {
     pub fn memory(&self, scene: &SceneOnGpu) -> serde_json::Value {
         let meshes = &self.meshes.model.meshes;
         let bytes = |mesh: &Mesh| size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
-        let placed = self.placed.iter().flatten();
+        let top_levels = self.top_levels.iter().flatten();
         let pieces = self.formation.pieces.len();
         serde_json::json!({
             "pieces": pieces,
@@ -66,8 +66,8 @@ impl Pieces {
             "triangles": self.formation.triangles(&self.meshes.model),
             "mesh_bytes": meshes.iter().map(bytes).sum::<usize>(),
             "bottom_level_bytes": scene.blas.iter().map(|blas| blas.size).sum::<u64>(),
-            "top_level_bytes": placed.clone().map(|placed| placed.tlas.size).sum::<u64>(),
-            "record_bytes": placed.map(|_| pieces * size_of::<PieceRecord>()).sum::<usize>(),
+            "top_level_bytes": top_levels.clone().map(|level| level.tlas.size).sum::<u64>(),
+            "record_bytes": top_levels.map(|_| pieces * size_of::<PieceRecord>()).sum::<usize>(),
             "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
         })
     }

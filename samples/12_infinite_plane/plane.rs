@@ -6,14 +6,19 @@ use common::scene::board::Board;
 use common::scene::plane::{HalfSpace, Plane};
 use glam::{DVec3, Vec3};
 
+common::shader_enum! {
+    /// What is seen of the plane from inside: its surface, a colour of its own, or nothing.
+    pub enum Inside: INSIDE { Surface, Color, Through }
+}
+
 /// A plane without end, as a scene has it beside its triangles.
 pub struct InfinitePlane {
     /// Whether it is there.
     pub exists: bool,
     /// The plane is the surface of this.
     pub half_space: HalfSpace,
-    /// What is seen of it from inside: its surface (0), a colour (1), nothing (2).
-    pub inside: u32,
+    /// What is seen of it from inside.
+    pub inside: Inside,
     /// What lies on it.
     pub board: Board,
 }
@@ -21,7 +26,7 @@ pub struct InfinitePlane {
 impl InfinitePlane {
     /// The surface of a half-space, with a board on it.
     pub fn new(half_space: HalfSpace, board: Board) -> Self {
-        Self { exists: true, half_space, inside: 0, board }
+        Self { exists: true, half_space, inside: Inside::Surface, board }
     }
 
     // ANCHOR: controls
@@ -29,15 +34,16 @@ impl InfinitePlane {
     pub fn controls(&mut self, c: &mut Controls) {
         let Self { exists, half_space, inside, board } = self;
         c.checkbox("plane", exists);
-        let forms = ["normal and distance", "point and normal"];
-        c.choice("plane form", &mut half_space.form, &forms);
+        c.choice("plane form", &mut half_space.form);
         c.vector("plane normal", &mut half_space.normal, -1e3..=1e3);
         c.slider("plane distance", &mut half_space.distance, -1e6..=1e6);
         c.vector("plane point", &mut half_space.point, -1e6..=1e6);
         c.checkbox("inverse", &mut half_space.inverse);
-        c.choice("inside", inside, &["surface", "color", "through"]);
+        c.choice("inside", inside);
         c.color("inside color", &mut board.inner);
-        c.choice("checker", &mut board.checker, &["filtered", "point", "off"]);
+        let mut checker = board.checker.variant();
+        c.choice("checker", &mut checker);
+        board.checker = checker.into();
         c.color("light squares", &mut board.light);
         c.color("dark squares", &mut board.dark);
         c.slider("square", &mut board.square, 0.01..=100.0);
@@ -47,9 +53,9 @@ impl InfinitePlane {
     }
     // ANCHOR_END: controls
 
-    /// What `INSIDE` is in the shaders: 0 if there is no plane. A normal of length 0 has none.
-    pub fn rule(&self) -> u32 {
-        if self.exists && self.half_space.normal != Vec3::ZERO { self.inside + 1 } else { 0 }
+    /// Whether there is a plane: a normal of length 0 has none.
+    pub fn is_there(&self) -> bool {
+        self.exists && self.half_space.normal != Vec3::ZERO
     }
 
     /// Plane and board for shaders whose camera is at `eye`.

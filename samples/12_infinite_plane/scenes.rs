@@ -1,13 +1,17 @@
 //! The scenes of this chapter: what stands on the plane, above it and in it.
 
 use anyhow::Result;
-use common::scene::board::Board;
+use common::scene::board::{Board, Checker};
 use common::scene::plane::HalfSpace;
 use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3, Vec3Swizzles};
 
-/// The names of the presets, in the order of their numbers.
-pub const PRESETS: [&str; 3] = ["board", "four spheres", "pov"];
+common::shader_enum! {
+    /// The names of the presets.
+    pub enum PresetName { Board, FourSpheres, Pov }
+    /// Which lights shine.
+    pub enum Lights { Directional, Point, Both }
+}
 
 /// What stands where, how it is lit and looked at, and the plane beside it.
 pub struct Preset {
@@ -17,8 +21,8 @@ pub struct Preset {
     pub sun: Sun,
     /// The lamp.
     pub lamp: PointLight,
-    /// The sun shines (0), the lamp (1), or both (2).
-    pub light: u32,
+    /// Which of them shine.
+    pub lights: Lights,
     /// The plane is the surface of this.
     pub plane: HalfSpace,
     /// What lies on it.
@@ -77,12 +81,12 @@ pub fn reflection(material: &Material) -> Vec3 {
 // ANCHOR_END: reflection
 
 impl Preset {
-    /// The preset of a number. `scene` stands on the board; the others take meshes of its model.
-    pub fn new(number: u32, scene: &Scene) -> Self {
-        match number {
-            0 => board(scene),
-            1 => four_spheres(scene),
-            _ => pov(scene),
+    /// The preset of a name. `scene` stands on the board; the others take meshes of its model.
+    pub fn new(name: PresetName, scene: &Scene) -> Self {
+        match name {
+            PresetName::Board => board(scene),
+            PresetName::FourSpheres => four_spheres(scene),
+            PresetName::Pov => pov(scene),
         }
     }
 }
@@ -100,7 +104,7 @@ fn board(scene: &Scene) -> Preset {
         scene: Scene { model: scene.model.clone(), instances, camera: scene.camera },
         sun: Sun { azimuth: 285.0, elevation: 17.0, radiance: Vec3::new(5.2, 4.0, 2.7) },
         lamp: PointLight::default(),
-        light: 0,
+        lights: Lights::Directional,
         plane: HalfSpace::new(Vec3::Y, 0.0),
         board: Board {
             light: Vec3::new(0.62, 0.46, 0.26),
@@ -126,7 +130,7 @@ fn four_spheres(scene: &Scene) -> Preset {
         // Along (0, -1, 0.1).
         sun: Sun { azimuth: 180.0, elevation: 84.28941, radiance: Vec3::splat(1.3) },
         lamp: PointLight { position: Vec3::new(1.0, 20.0, -10.0), intensity: Vec3::splat(1500.0) },
-        light: 2,
+        lights: Lights::Both,
         plane: HalfSpace::new(Vec3::Y, -14.0),
         board: Board {
             light: Vec3::new(0.05, 0.45, 0.07),
@@ -134,7 +138,7 @@ fn four_spheres(scene: &Scene) -> Preset {
             specular: 0.5,
             roughness: 0.42,
             reflection: 0.1,
-            checker: 2,
+            checker: Checker::Off.into(),
             square: 4.0,
             ..Board::default()
         },
@@ -161,7 +165,7 @@ fn pov(scene: &Scene) -> Preset {
         scene: Scene { model, instances, camera },
         sun: Sun { azimuth: 300.0, elevation: 40.0, radiance: Vec3::new(4.0, 3.4, 2.7) },
         lamp: PointLight::default(),
-        light: 0,
+        lights: Lights::Directional,
         plane,
         board: Board {
             light: Vec3::new(0.6, 0.56, 0.48),

@@ -1,9 +1,8 @@
 //! The ground on the device: one box, beside the pieces that stand on it.
 
 use anyhow::Result;
-use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
-use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, input_usage, transform};
+use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
 use super::ground::{Ground, Landscape};
@@ -28,7 +27,7 @@ impl Land {
     /// The ground is one box, whatever its height function is. Its hit group is the second.
     pub fn new(
         gpu: &Gpu,
-        model: &Scene,
+        source: &Scene,
         scene: &SceneOnGpu,
         landscape: Landscape,
         eye: Vec3,
@@ -41,12 +40,18 @@ impl Land {
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
         let blas = AccelerationStructure::bottom(gpu, "ground", &[geometry], options)?;
 
-        let mut instances = vec![instance(&Affine3A::IDENTITY, model.instances.len(), 1, &blas)];
+        let mut instances =
+            vec![instance_on_gpu(&Affine3A::IDENTITY, source.instances.len(), 1, &blas)];
         let mut boxes = vec![bounds];
-        for (index, piece) in model.instances.iter().enumerate() {
-            if let Some(piece) = stand(landscape, piece, &model.model.meshes[piece.mesh]) {
-                instances.push(instance(&piece.transform, index, 0, &scene.blas[piece.mesh]));
-                boxes.push(model.instance_bounds(&piece));
+        for (index, piece) in source.instances.iter().enumerate() {
+            if let Some(piece) = stand(landscape, piece, &source.model.meshes[piece.mesh]) {
+                instances.push(instance_on_gpu(
+                    &piece.transform,
+                    index,
+                    0,
+                    &scene.blas[piece.mesh],
+                ));
+                boxes.push(source.instance_bounds(&piece));
             }
         }
         // ANCHOR_END: build
@@ -96,19 +101,3 @@ pub fn stand(landscape: Landscape, piece: &Instance, mesh: &Mesh) -> Option<Inst
     (high - low < STEEP).then_some(piece)
 }
 // ANCHOR_END: stand
-
-fn instance(
-    placement: &Affine3A,
-    custom_index: usize,
-    record: u32,
-    blas: &AccelerationStructure,
-) -> vk::AccelerationStructureInstanceKHR {
-    vk::AccelerationStructureInstanceKHR {
-        transform: transform(placement),
-        instance_custom_index_and_mask: vk::Packed24_8::new(custom_index as u32, 0xff),
-        instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(record, 0),
-        acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
-            device_handle: blas.address,
-        },
-    }
-}

@@ -13,45 +13,50 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    ShaderStruct, TextureTable, Variant, Variants,
+    TextureTable, Variant, Variants,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
+    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, input_usage,
 };
-use common::{Controls, Frame, Sample, Setup};
-use ground::{Ground, HeightfieldShape, Landscape};
+use common::{Controls, Frame, Lighting, Sample, Setup};
+use ground::{Ground, Landscape};
 use land::Land;
-use scenes::Preset;
+use scenes::{Preset, PresetName};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
-    model: Scene,
+    source: Scene,
     scene: SceneOnGpu,
     land: Land,
     ground: Buffer,
     pipelines: Variants<Constants>,
     camera: Camera,
-    sun: Sun,
-    lamp: PointLight,
-    light: u32,
-    light_size: f32,
-    light_samples: u32,
-    preset: u32,
+    lighting: Lighting,
+    preset: PresetName,
     landscape: Landscape,
     constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+        Steps, Error, March,
+    }
+    /// How rays are marched.
+    enum Rung: HEIGHTFIELD { Relaxed, Lipschitz, OverRelaxed = "over-relaxed", Bisected }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    shadow_rays: u32,
+    show: Show,
+    shadow_rays: ShadowRays,
     smooth_terminator: bool,
-    /// How rays are marched: a position in `heightfield.glsl`.
-    rung: u32,
+    rung: Rung,
 }
 
 common::shader_struct! {
@@ -59,9 +64,8 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        ground: Address,
+        ground: Address<Ground>,
         light: Light,
-        light_samples: u32,
     }
 }
 
@@ -71,28 +75,28 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut model = setup.scene_or(scenes::chess)?;
-        model.model.materials.push(scenes::earth());
-        let Preset { landscape, camera, sun, lamp } = Preset::new(0);
-        let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
-        let land = Land::new(gpu, &model, &scene, landscape, camera.eye.as_vec3())?;
-        gpu.share_structs(&[Ground::LAYOUT, HeightfieldShape::LAYOUT]);
+        let mut source = setup.scene_or(scenes::chess)?;
+        source.model.materials.push(scenes::earth());
+        let Preset { landscape, camera, sun, lamp } = Preset::new(PresetName::Hills);
+        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
+        let land = Land::new(gpu, &source, &scene, landscape, camera.eye.as_vec3())?;
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let ground = Buffer::new(gpu, "ground", size_of::<Ground>() as u64, usage)?;
-        let constants = Constants { show: 0, shadow_rays: 0, smooth_terminator: true, rung: 3 };
+        let constants = Constants {
+            show: Show::Picture,
+            shadow_rays: ShadowRays::FirstHit,
+            smooth_terminator: true,
+            rung: Rung::Bisected,
+        };
         Ok(Self {
-            model,
+            source,
             scene,
             land,
             ground,
             pipelines: Variants::default(),
             camera,
-            sun,
-            lamp,
-            light: 0,
-            light_size: 0.0,
-            light_samples: 16,
-            preset: 0,
+            lighting: Lighting { lamp, ..Lighting::new(sun) },
+            preset: PresetName::Hills,
             landscape,
             constants,
         })
@@ -101,69 +105,51 @@ impl Sample for Demo {
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         // A preset brings its landscape, its view and its lights.
-        if c.choice("preset", &mut self.preset, &scenes::PRESETS) {
+        if c.choice("preset", &mut self.preset) {
             let Preset { landscape, camera, sun, lamp } = Preset::new(self.preset);
-            (self.landscape, self.camera, self.sun, self.lamp) = (landscape, camera, sun, lamp);
+            (self.landscape, self.camera) = (landscape, camera);
+            (self.lighting.sun, self.lighting.lamp) = (sun, lamp);
         }
         c.slider("steepness", &mut self.landscape.k, 0.0..=16.0);
         c.integer("rings", &mut self.landscape.rings, 0..=100);
-        let rungs = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
-        c.choice("rung", &mut self.constants.rung, &rungs);
-        let views = [
-            "picture",
-            "normal",
-            "triangle",
-            "hit",
-            "ray direction",
-            "shadow",
-            "shadow origin",
-            "steps",
-            "error",
-            "march",
-        ];
-        c.choice("show", &mut self.constants.show, &views);
-        c.choice("light", &mut self.light, &["directional", "point"]);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
-        c.vector("lamp position", &mut self.lamp.position, -100.0..=100.0);
-        c.slider("light size", &mut self.light_size, 0.0..=1.0);
-        c.integer("light samples", &mut self.light_samples, 1..=64);
-        let rays = ["first hit", "nearest hit", "off"];
-        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.choice("rung", &mut self.constants.rung);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
-    fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: rebuild
-        let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+    // ANCHOR: rebuild
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let eye = self.camera.eye.as_vec3();
         if self.land.is_outdated(self.landscape, eye) {
-            self.land = Land::new(frame.gpu, &self.model, &self.scene, self.landscape, eye)?;
+            self.land = Land::new(gpu, &self.source, &self.scene, self.landscape, eye)?;
         }
         // The last material is the ground's.
-        let material = self.model.model.materials.len() as u32 - 1;
+        let material = self.source.model.materials.len() as u32 - 1;
         self.ground.write(0, &[self.land.ground(material)])?;
-        // ANCHOR_END: rebuild
+        Ok(())
+    }
+    // ANCHOR_END: rebuild
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             ground: self.ground.address.into(),
-            light: match self.light {
-                0 => Light::directional(&self.sun, self.light_size),
-                _ => Light::point(&self.lamp, self.light_size),
-            },
-            light_samples: self.light_samples,
+            light: self.lighting.shader(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.land.tlas),
             Descriptor::StorageImage(frame.image),
         ];
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -186,7 +172,7 @@ fn pipeline(
         .hit(HitGroup::procedural("terrain.rint").closest_hit("terrain.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator.into())
+        .constant(2, constants.smooth_terminator)
         .constant(3, constants.rung)
         .recursion(1)
         .binding(Binding::AccelerationStructure)

@@ -6,8 +6,10 @@ use glam::{DVec3, Vec3, Vec3A};
 
 use super::ground::{Landscape, MIDDLE};
 
-/// The names of the presets, in the order of their numbers.
-pub const PRESETS: [&str; 5] = ["hills", "from above", "near ground", "steep", "flat"];
+common::shader_enum! {
+    /// The names of the presets.
+    pub enum PresetName { Hills, FromAbove, NearGround, Steep, Flat }
+}
 
 /// The ground, and how it is lit and looked at.
 pub struct Preset {
@@ -42,18 +44,18 @@ pub fn earth() -> Material {
 
 impl Preset {
     // ANCHOR: presets
-    /// The preset of a number.
-    pub fn new(number: u32) -> Self {
-        let (k, rings, eye, target, field) = match number {
+    /// The preset of a name.
+    pub fn new(name: PresetName) -> Self {
+        let (k, rings, eye, target, field) = match name {
             // 5 degrees down, from afar.
-            0 => (1.0, 6, [-10.0, 5.6, 48.0], [7.4, 1.1, 0.0], 12.0),
+            PresetName::Hills => (1.0, 6, [-10.0, 5.6, 48.0], [7.4, 1.1, 0.0], 12.0),
             // 60 degrees.
-            1 => (1.0, 6, [2.5, 17.0, 7.5], [7.6, 1.0, -0.3], 38.0),
+            PresetName::FromAbove => (1.0, 6, [2.5, 17.0, 7.5], [7.6, 1.0, -0.3], 38.0),
             // 1 degree, by one who stands on the next hill.
-            2 => (1.0, 6, [-10.0, 2.6, 19.0], [8.0, 2.15, 0.0], 18.0),
-            3 => (14.0, 3, [-44.0, 30.0, 44.0], [8.0, 15.0, 0.0], 38.0),
+            PresetName::NearGround => (1.0, 6, [-10.0, 2.6, 19.0], [8.0, 2.15, 0.0], 18.0),
+            PresetName::Steep => (14.0, 3, [-44.0, 30.0, 44.0], [8.0, 15.0, 0.0], 38.0),
             // From a height of 1.
-            _ => (0.0, 25, [8.0, 1.0, 7.0], [8.0, 0.8, -3.0], 30.0),
+            PresetName::Flat => (0.0, 25, [8.0, 1.0, 7.0], [8.0, 0.8, -3.0], 30.0),
         };
         Self {
             landscape: Landscape { k, rings },

@@ -3,12 +3,10 @@
 use common::Controls;
 use glam::Vec3;
 
-/// There is none.
-pub const NONE: u32 = 0;
-/// It is in the solids, too.
-pub const EVERYWHERE: u32 = 1;
-/// It fills what is outside of them.
-pub const OUTSIDE: u32 = 2;
+common::shader_enum! {
+    /// Where fog is: nowhere, in the solids too, or outside of them.
+    pub enum Extent: FOG { None, Everywhere, Outside }
+}
 
 common::shader_struct! {
     /// Fog, as shaders get it.
@@ -40,13 +38,13 @@ impl Fog {
     }
 
     // ANCHOR: extent
-    /// Where it is: [`NONE`], [`EVERYWHERE`] if solids are hollow, or [`OUTSIDE`]. A camera that a
-    /// closed solid encloses sees none: no path ever comes out.
-    pub fn extent(&self, hollow: bool, enclosed: bool) -> u32 {
+    /// Where it is; hollow solids let it in. A camera that a closed solid encloses sees none: no path
+    /// ever comes out.
+    pub fn extent(&self, hollow: bool, enclosed: bool) -> Extent {
         match (self.distance > 0.0, hollow, enclosed) {
-            (false, ..) | (true, false, true) => NONE,
-            (true, true, _) => EVERYWHERE,
-            (true, false, false) => OUTSIDE,
+            (false, ..) | (true, false, true) => Extent::None,
+            (true, true, _) => Extent::Everywhere,
+            (true, false, false) => Extent::Outside,
         }
     }
     // ANCHOR_END: extent

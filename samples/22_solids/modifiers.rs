@@ -6,10 +6,10 @@ use glam::Vec3;
 use crate::shapes::SHAPES;
 use crate::solid::{Bound, Solid, plane};
 
-/// The ways to cut a solid with a plane, in the order of their numbers.
-pub const CUTS: [&str; 3] = ["nothing", "clipped by", "intersection"];
-const CLIPPED_BY: u32 = 1;
-const INTERSECTION: u32 = 2;
+common::shader_enum! {
+    /// The ways to cut a solid with a plane.
+    pub enum Cut { Nothing, ClippedBy, Intersection }
+}
 
 /// What the user asks of all solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +24,8 @@ pub struct Modifiers {
     pub inverse: bool,
     /// Fog comes in.
     pub hollow: bool,
-    /// How each is cut, a number in [`CUTS`].
-    pub cut: u32,
+    /// How each is cut.
+    pub cut: Cut,
     /// The cutting plane in the solid's own space: what lies beyond is gone.
     pub cut_normal: Vec3,
     /// How far that plane is from the solid's origin.
@@ -42,7 +42,7 @@ impl Default for Modifiers {
             turn: 0.0,
             inverse: false,
             hollow: false,
-            cut: 0,
+            cut: Cut::Nothing,
             cut_normal: Vec3::new(1.0, 1.0, 2.0),
             cut_distance: 0.1,
             shared: true,
@@ -54,12 +54,12 @@ impl Modifiers {
     // ANCHOR: controls
     /// The controls.
     pub fn controls(&mut self, c: &mut Controls) {
-        c.choice("solid", &mut self.shape, &SHAPES);
+        c.one_of("solid", &mut self.shape, &SHAPES);
         c.integer("planes", &mut self.planes, 4..=32);
         c.slider("turn", &mut self.turn, 0.0..=360.0);
         c.checkbox("inverse solids", &mut self.inverse);
         c.checkbox("hollow", &mut self.hollow);
-        c.choice("cut", &mut self.cut, &CUTS);
+        c.choice("cut", &mut self.cut);
         c.vector("cut normal", &mut self.cut_normal, -1e3..=1e3);
         c.slider("cut distance", &mut self.cut_distance, -1e3..=1e3);
         c.checkbox("shared planes", &mut self.shared);
@@ -75,11 +75,11 @@ impl Modifiers {
             (self.cut_normal != Vec3::ZERO).then(|| plane(self.cut_normal, self.cut_distance));
         match (self.cut, cut) {
             // Surface goes, and none comes in its place: one looks inside.
-            (CLIPPED_BY, Some(cut)) => (solid, clip.into_iter().chain([cut]).collect()),
+            (Cut::ClippedBy, Some(cut)) => (solid, clip.into_iter().chain([cut]).collect()),
             // The plane becomes a part of the surface.
-            (INTERSECTION, Some(cut)) => {
+            (Cut::Intersection, Some(cut)) => {
                 let half_space = Solid::Convex(vec![cut], "red");
-                (solid.within(half_space), clip.into_iter().collect())
+                (solid.intersection(half_space), clip.into_iter().collect())
             }
             _ => (solid, clip.into_iter().collect()),
         }

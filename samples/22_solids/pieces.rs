@@ -7,7 +7,7 @@ use super::solid::{Bound, Solid, ball, block, plane};
 /// What two balls have in common, standing on its rim.
 pub fn lens(material: &'static str) -> Solid {
     let side = |x: f32| Solid::Convex(vec![ball(Vec3::X * x, 1.7)], material);
-    side(1.3).within(side(-1.3))
+    side(1.3).intersection(side(-1.3))
 }
 
 // ANCHOR: die
@@ -32,7 +32,7 @@ pub fn die() -> Solid {
         let along = out.cross(across);
         for dent in dents {
             let center = out * 1.09 + across * dent.x + along * dent.y;
-            solid = solid.without(Solid::Convex(vec![ball(center, 0.2)], "red"));
+            solid = solid.difference(Solid::Convex(vec![ball(center, 0.2)], "red"));
         }
     }
     solid
@@ -55,15 +55,15 @@ fn column(radius: f32, low: f32, high: f32, stretch: f32) -> Vec<Bound> {
 pub fn tower(material: &'static str) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
     let cut = |bounds| Solid::Convex(bounds, "red");
-    let low = part(column(0.9, -1.4, -1.0, 1.0)).and(part(column(0.62, -1.0, 0.7, 1.0)));
-    let head = part(column(0.8, 0.7, 1.4, 1.0)).without(cut(column(0.52, 1.0, 1.4, 3.0)));
+    let low = part(column(0.9, -1.4, -1.0, 1.0)).union(part(column(0.62, -1.0, 0.7, 1.0)));
+    let head = part(column(0.8, 0.7, 1.4, 1.0)).difference(cut(column(0.52, 1.0, 1.4, 3.0)));
     let notch = |size: Vec3| {
         let mut bounds = block(Vec3::new(-size.x, 1.1, -size.z), Vec3::new(size.x, 2.0, size.z));
         bounds.push(plane(Vec3::Y * 5.0, 1.4));
         cut(bounds)
     };
-    let notches = notch(Vec3::new(0.17, 0.0, 1.0)).and(notch(Vec3::new(1.0, 0.0, 0.17)));
-    low.and(head.without(notches))
+    let notches = notch(Vec3::new(0.17, 0.0, 1.0)).union(notch(Vec3::new(1.0, 0.0, 0.17)));
+    low.union(head.difference(notches))
 }
 // ANCHOR_END: tower
 
@@ -88,33 +88,33 @@ fn slice(middle: f32, radius: f32, low: f32, high: f32) -> Vec<Bound> {
 fn stem(material: &'static str, collar: f32) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
     part(slice(-1.55, 0.85, -1.4, -1.05))
-        .and(part(taper([0.6, -1.05], [0.27, collar])))
-        .and(part(slice(collar, 0.46, collar - 0.07, collar + 0.07)))
+        .union(part(taper([0.6, -1.05], [0.27, collar])))
+        .union(part(slice(collar, 0.46, collar - 0.07, collar + 0.07)))
 }
 
 /// Its head is a ball under a pyramid; what is cut from that has no end but the head's.
 pub fn bishop(material: &'static str) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
     let head = part(vec![ball(Vec3::Y * 0.66, 0.42), plane(Vec3::NEG_Y, -0.35)])
-        .and(part(taper([0.355, 0.86], [0.06, 1.25])));
+        .union(part(taper([0.355, 0.86], [0.06, 1.25])));
     let across = Vec3::new(2.0, 3.0, 0.0);
     let slot = vec![plane(across, 0.72), plane(-across, -0.62), plane(Vec3::NEG_X, -0.02)];
     let bead = part(vec![ball(Vec3::Y * 1.31, 0.11)]);
-    stem(material, 0.35).and(head.without(Solid::Convex(slot, "gold"))).and(bead)
+    stem(material, 0.35).union(head.difference(Solid::Convex(slot, "gold"))).union(bead)
 }
 
 // ANCHOR: king
 /// His cross is a plate from which four balls have been taken.
 pub fn king(material: &'static str) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
-    let crown = part(taper([0.3, 0.4], [0.52, 1.0])).and(part(slice(0.72, 0.54, 1.0, 1.5)));
+    let crown = part(taper([0.3, 0.4], [0.52, 1.0])).union(part(slice(0.72, 0.54, 1.0, 1.5)));
     let middle = Vec3::Y * 1.64;
     let half = Vec3::new(0.42, 0.42, 0.1);
     let mut cross = part(block(middle - half, middle + half));
     for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let corner = middle + 0.29 * Vec3::new(x, y, 0.0);
-        cross = cross.without(Solid::Convex(vec![ball(corner, 0.225)], "gold"));
+        cross = cross.difference(Solid::Convex(vec![ball(corner, 0.225)], "gold"));
     }
-    stem(material, 0.4).and(crown).and(cross)
+    stem(material, 0.4).union(crown).union(cross)
 }
 // ANCHOR_END: king

@@ -1,15 +1,21 @@
 //! Solids as shaders get them: lists of planes, balls, faces and parts, and a program for each solid.
 
+use common::gpu::Number;
 use common::scene::plane::Plane;
 use glam::{DVec3, Vec3};
 
 use super::solid::{Ball, Bound, Solid, half_space};
 
+common::shader_enum! {
+    /// What bounds a convex part.
+    pub enum FaceKind: FACE { Plane, Ball }
+}
+
 common::shader_struct! {
     /// One bound of a convex part, as shaders get it.
     pub struct Face {
-        /// 0 a plane, 1 a ball.
-        pub kind: u32,
+        /// A plane or a ball.
+        pub kind: Number<FaceKind>,
         /// Which.
         pub index: u32,
         /// -1 where the part lies on the side that the plane's normal points to.
@@ -119,7 +125,7 @@ impl Programs {
             // The solid's own middle is near enough to all of it.
             self.planes.push(Plane::new(half_space(normal, distance), Vec3::ZERO));
         }
-        Face { kind: 0, index: index as u32, side }
+        Face { kind: FaceKind::Plane.into(), index: index as u32, side }
     }
     // ANCHOR_END: shared
 
@@ -129,6 +135,6 @@ impl Programs {
         if known.is_none() {
             self.balls.push(ball);
         }
-        Face { kind: 1, index: index as u32, side: 1.0 }
+        Face { kind: FaceKind::Ball.into(), index: index as u32, side: 1.0 }
     }
 }

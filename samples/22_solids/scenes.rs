@@ -9,16 +9,17 @@ use crate::modifiers::Modifiers;
 use crate::shapes;
 use crate::solid::{Bound, Solid, plane};
 
-/// The names of the presets, in the order of their numbers.
-pub const PRESETS: [&str; 7] =
-    ["board", "convex solids", "csg", "clipped", "inside", "ties", "one solid"];
+common::shader_enum! {
+    /// The names of the presets.
+    pub enum PresetName { Board, ConvexSolids, Csg, Clipped, Inside, Ties, OneSolid }
+}
 
 /// What stands where, and how it is lit and looked at.
 pub struct Preset {
     /// What is placed, and the view.
     pub scene: Scene,
     /// The solids, and from their spaces to the world.
-    pub solids: Vec<Placed>,
+    pub solids: Vec<SolidInstance>,
     /// The sun.
     pub sun: Sun,
     /// What fills the air.
@@ -26,7 +27,7 @@ pub struct Preset {
 }
 
 /// A solid in the world.
-pub struct Placed {
+pub struct SolidInstance {
     /// What it is.
     pub solid: Solid,
     /// Where.
@@ -72,27 +73,32 @@ pub fn material(model: &Model, name: &str) -> u32 {
 }
 
 impl Preset {
-    /// The preset of a number; of `modifiers`, the one solid takes its shape. `scene` lends its pieces.
-    pub fn new(number: u32, scene: &Scene, modifiers: &Modifiers) -> Self {
-        match PRESETS[number as usize] {
-            "board" => board(scene),
-            "convex solids" => convex_solids(scene),
-            "csg" => csg(scene),
-            "clipped" => clipped(scene),
-            "inside" => inside(scene),
-            "ties" => ties(scene),
-            _ => one_solid(scene, modifiers),
+    /// The preset of a name; of `modifiers`, the one solid takes its shape. `scene` lends its pieces.
+    pub fn new(name: PresetName, scene: &Scene, modifiers: &Modifiers) -> Self {
+        match name {
+            PresetName::Board => board(scene),
+            PresetName::ConvexSolids => convex_solids(scene),
+            PresetName::Csg => csg(scene),
+            PresetName::Clipped => clipped(scene),
+            PresetName::Inside => inside(scene),
+            PresetName::Ties => ties(scene),
+            PresetName::OneSolid => one_solid(scene, modifiers),
         }
     }
 
     /// Solids on the board, with those pieces of the scene whose mesh has such a name.
-    fn on_board(scene: &Scene, pieces: &[&str], solids: Vec<Placed>, camera: Camera) -> Self {
+    fn on_board(
+        scene: &Scene,
+        pieces: &[&str],
+        solids: Vec<SolidInstance>,
+        camera: Camera,
+    ) -> Self {
         let board = ["board_light", "board_dark", "board_frame"];
         Self::of(scene, &[&board, pieces].concat(), solids, camera)
     }
 
     /// Solids under the sun, with those instances of the scene whose mesh has such a name.
-    fn of(scene: &Scene, stay: &[&str], solids: Vec<Placed>, camera: Camera) -> Self {
+    fn of(scene: &Scene, stay: &[&str], solids: Vec<SolidInstance>, camera: Camera) -> Self {
         let name = |instance: &Instance| scene.model.meshes[instance.mesh].name.as_str();
         let stays = |instance: &&Instance| stay.contains(&name(instance));
         let instances = scene.instances.iter().filter(stays).copied().collect();
@@ -108,19 +114,19 @@ impl Preset {
 /// A solid by its name: its middle, how many times as large, and turned about the vertical, in degrees.
 ///
 /// It sinks in a little: a face in the plane of the board would be two surfaces in one place.
-fn at(name: &str, middle: [f32; 3], size: f32, yaw: f32) -> Placed {
+fn at(name: &str, middle: [f32; 3], size: f32, yaw: f32) -> SolidInstance {
     let turn = Quat::from_rotation_y(yaw.to_radians());
     let middle = Vec3::from(middle) - Vec3::Y * 0.01;
     let transform = Affine3A::from_scale_rotation_translation(Vec3::splat(size), turn, middle);
-    Placed { solid: shapes::shape(shapes::number(name), 20), transform, clip: None }
+    SolidInstance { solid: shapes::shape(shapes::number(name), 20), transform, clip: None }
 }
 
 /// The same, laid onto the face whose normal this is.
-fn on_face(name: &str, middle: [f32; 3], size: f32, yaw: f32, face: Vec3) -> Placed {
-    let mut placed = at(name, middle, size, yaw);
+fn on_face(name: &str, middle: [f32; 3], size: f32, yaw: f32, face: Vec3) -> SolidInstance {
+    let mut instance = at(name, middle, size, yaw);
     let down = Quat::from_rotation_arc(face.normalize(), Vec3::NEG_Y);
-    placed.transform.matrix3 *= Mat3A::from_quat(down);
-    placed
+    instance.transform.matrix3 *= Mat3A::from_quat(down);
+    instance
 }
 
 /// Along the normal of a dodecahedron's face.
@@ -185,9 +191,9 @@ fn clipped(scene: &Scene) -> Preset {
         ("bishop", 0.0, 0.8, plane(Vec3::Z, 0.0)),
         ("shell", 1.9, 0.58, plane(Vec3::new(0.2, 0.5, 1.0), 0.2)),
     ] {
-        let open = Placed { clip: Some(cut), ..at(name, [x, height, -1.3], 0.55, -12.0) };
+        let open = SolidInstance { clip: Some(cut), ..at(name, [x, height, -1.3], 0.55, -12.0) };
         let mut capped = at(name, [x, height, 1.4], 0.55, -12.0);
-        capped.solid = capped.solid.within(Solid::Convex(vec![cut], "red"));
+        capped.solid = capped.solid.intersection(Solid::Convex(vec![cut], "red"));
         solids.extend([open, capped]);
     }
     let camera = Camera::new(DVec3::new(-1.2, 4.4, 6.8), DVec3::new(0.0, 0.3, 0.1), 33.0);
@@ -227,7 +233,7 @@ fn ties(scene: &Scene) -> Preset {
 fn one_solid(scene: &Scene, modifiers: &Modifiers) -> Preset {
     let solid = shapes::shape(modifiers.shape, modifiers.planes);
     let camera = Camera::new(DVec3::new(2.6, 1.9, 3.4), DVec3::new(0.0, -0.1, 0.0), 37.0);
-    let solids = vec![Placed {
+    let solids = vec![SolidInstance {
         solid,
         transform: Affine3A::from_rotation_y(modifiers.turn.to_radians()),
         clip: None,

@@ -48,28 +48,28 @@ pub fn shape(number: u32, planes: u32) -> Solid {
         "crystal" => Solid::Convex(crystal(planes), "blue"),
         "lens" => pieces::lens("gold"),
         "die" => pieces::die(),
-        "bitten cube" => ivory(unit_block()).without(bite()),
-        "cube and no ball" => ivory(unit_block()).within(bite().inverse()),
+        "bitten cube" => ivory(unit_block()).difference(bite()),
+        "cube and no ball" => ivory(unit_block()).intersection(bite().inverse()),
         "tower" => pieces::tower("ivory"),
         "bishop" => pieces::bishop("blue"),
         "king" => pieces::king("ivory"),
         "shell" => {
             let [outer, inner] = [1.0, 0.8].map(|radius| vec![ball(Vec3::ZERO, radius)]);
-            Solid::Convex(outer, "blue").without(Solid::Convex(inner, "red"))
+            Solid::Convex(outer, "blue").difference(Solid::Convex(inner, "red"))
         }
         "wedge" => {
             ivory(vec![plane(Vec3::new(1.0, 2.0, 0.0), 0.3), plane(Vec3::new(-2.0, 3.0, 0.5), 0.3)])
         }
         "room" => ivory(dodecahedron(1.0)),
-        "halves" => half(1.0, "ivory").and(half(-1.0, "ivory")),
-        "overlap of halves" => half(1.0, "ivory").within(half(-1.0, "ivory")),
-        "slotted cube" => tilted_cube().without(slot(1.0)),
-        "overcut cube" => tilted_cube().without(slot(1.5)),
+        "halves" => half(1.0, "ivory").union(half(-1.0, "ivory")),
+        "overlap of halves" => half(1.0, "ivory").intersection(half(-1.0, "ivory")),
+        "slotted cube" => tilted_cube().difference(slot(1.0)),
+        "overcut cube" => tilted_cube().difference(slot(1.5)),
         "grazed cube" => grazed(),
         "all but a cube" => ivory(unit_block()).inverse(),
         "half-space" => ivory(vec![plane(Vec3::Y, -0.6)]),
-        "sunk room" => ivory(dodecahedron(1.0)).and(ivory(vec![plane(Vec3::Y, -0.6)])),
-        "thirds" => third(0, 1).and(third(1, 2)).and(third(2, 0)),
+        "sunk room" => ivory(dodecahedron(1.0)).union(ivory(vec![plane(Vec3::Y, -0.6)])),
+        "thirds" => third(0, 1).union(third(1, 2)).union(third(2, 0)),
         _ => tilted_cube(),
     }
 }
@@ -169,5 +169,5 @@ fn third(from: usize, to: usize) -> Solid {
 fn grazed() -> Solid {
     let above = Solid::Convex(tilted([[-1.0, 2.0], [0.5; 2], [0.5; 2]], 5.0), "red");
     let beside = Solid::Convex(tilted([[1.0; 2], [1.0; 2], [2.0, -1.0]], 0.75), "red");
-    tilted_cube().without(above).without(beside)
+    tilted_cube().difference(above).difference(beside)
 }

@@ -56,18 +56,18 @@ pub fn block(low: Vec3, high: Vec3) -> Vec<Bound> {
 }
 
 impl Solid {
-    /// This and that.
-    pub fn and(self, other: Self) -> Self {
+    /// What is in this or in that.
+    pub fn union(self, other: Self) -> Self {
         Self::Union(Box::new([self, other]))
     }
 
     /// What is in this and in that.
-    pub fn within(self, other: Self) -> Self {
+    pub fn intersection(self, other: Self) -> Self {
         Self::Intersection(Box::new([self, other]))
     }
 
-    /// This without that.
-    pub fn without(self, other: Self) -> Self {
+    /// What is in this and not in that.
+    pub fn difference(self, other: Self) -> Self {
         Self::Difference(Box::new([self, other]))
     }
 

@@ -1,44 +1,43 @@
 //! The solids on the device: their programs in buffers, a box around each, and the top level with them.
 
 use anyhow::Result;
-use ash::vk;
 use common::bytemuck::cast_slice;
 use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
-use common::scene::{Placement, Scene, SceneOnGpu, build_top, input_usage, transform};
+use common::scene::plane::Plane;
+use common::scene::{
+    Moved, Placement, Scene, SceneOnGpu, Size, build_top, input_usage, instance_on_gpu,
+};
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
 
 use crate::modifiers::Modifiers;
-use crate::program::Programs;
-use crate::scenes::{self, Placed};
-use crate::solid::{Bound, REACH, Solid, block};
-
-/// A place 10000 units from the origin, and no axis spared.
-const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
+use crate::program::{Face, Part, Programs};
+use crate::scenes::{self, PresetName, SolidInstance};
+use crate::solid::{Ball, Bound, REACH, Solid, block};
 
 /// What the solids are built from; where it changes, they are built again.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
-    /// A number in [`scenes::PRESETS`].
-    pub preset: u32,
-    /// How many times as large everything is: a thousandth, once, or a thousand times.
-    pub size: u32,
-    /// Everything is at the origin, or at [`FAR`].
-    pub moved: u32,
+    /// What stands where.
+    pub preset: PresetName,
+    /// How large everything is.
+    pub size: Size,
+    /// How far away everything is.
+    pub moved: Moved,
     /// What is asked of all solids.
     pub modifiers: Modifiers,
 }
 
 impl Default for Build {
     fn default() -> Self {
-        Self { preset: 0, size: 1, moved: 0, modifiers: Modifiers::default() }
+        let (size, moved) = (Size::Usual, Moved::Not);
+        Self { preset: PresetName::Board, size, moved, modifiers: Modifiers::default() }
     }
 }
 
 impl Build {
     /// Where everything is.
     pub fn placement(&self) -> Placement {
-        let size = [1e-3, 1.0, 1e3][self.size as usize];
-        Placement { size, moved: [DVec3::ZERO, FAR][self.moved as usize] }
+        Placement::new(self.size, self.moved)
     }
 
     /// Whether the pieces, too, are other ones or elsewhere.
@@ -50,12 +49,12 @@ impl Build {
 common::shader_struct! {
     /// Where shaders find the solids, and which instances they are.
     pub struct Solids {
-        pub planes: Address,
-        pub balls: Address,
-        pub faces: Address,
-        pub parts: Address,
+        pub planes: Address<Plane>,
+        pub balls: Address<Ball>,
+        pub faces: Address<Face>,
+        pub parts: Address<Part>,
         pub steps: Address,
-        pub at: Address,
+        pub at: Address<SolidRecord>,
         /// Custom index of the first solid; the others follow.
         pub first: u32,
         pub count: u32,
@@ -112,7 +111,7 @@ impl SolidsOnGpu {
         gpu: &Gpu,
         scene: &Scene,
         on_gpu: &SceneOnGpu,
-        solids: &[Placed],
+        solids: &[SolidInstance],
         build: Build,
     ) -> Result<Self> {
         let Build { modifiers, .. } = build;
@@ -120,14 +119,16 @@ impl SolidsOnGpu {
             scene.instances.iter().map(|piece| scene.instance_bounds(piece)).collect();
         let pieces = scene.instances.iter().enumerate();
         let mut instances: Vec<_> = pieces
-            .map(|(index, piece)| instance(&piece.transform, index, 0, &on_gpu.blas[piece.mesh]))
+            .map(|(index, piece)| {
+                instance_on_gpu(&piece.transform, index, 0, &on_gpu.blas[piece.mesh])
+            })
             .collect();
         let first = instances.len();
 
         let mut programs = Programs::new(modifiers.shared);
         let (mut records, mut levels, mut inside) = (Vec::new(), Vec::new(), Vec::new());
-        for placed in solids {
-            let (solid, mut clips) = modifiers.of(&placed.solid, placed.clip);
+        for solid_instance in solids {
+            let (solid, mut clips) = modifiers.of(&solid_instance.solid, solid_instance.clip);
             let [first_part, part_count, first_step, step_count] =
                 programs.add(&solid, &|name| scenes::material(&scene.model, name));
             // ANCHOR: clip
@@ -143,8 +144,8 @@ impl SolidsOnGpu {
             let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
             let options = BuildOptions::default();
             let level = AccelerationStructure::bottom(gpu, "solid", &[geometry], options)?;
-            let to_world = place(&placed.transform, &build.placement());
-            instances.push(instance(&to_world, first + records.len(), 1, &level));
+            let to_world = place(&solid_instance.transform, &build.placement());
+            instances.push(instance_on_gpu(&to_world, first + records.len(), 1, &level));
             bounds.push(around(&to_world, corners));
             let to_object = to_world_f64(&to_world).inverse();
             let record = [first_part, part_count, first_step, step_count, clip];
@@ -166,9 +167,17 @@ impl SolidsOnGpu {
             list("solid records", cast_slice(&records))?,
         ];
         let [planes, balls, faces, parts, steps, at] =
-            buffers.each_ref().map(|buffer| buffer.address.into());
-        let (first, count) = (first as u32, records.len() as u32);
-        let addresses = [Solids { planes, balls, faces, parts, steps, at, first, count }];
+            buffers.each_ref().map(|buffer| buffer.address);
+        let addresses = [Solids {
+            planes: planes.into(),
+            balls: balls.into(),
+            faces: faces.into(),
+            parts: parts.into(),
+            steps: steps.into(),
+            at: at.into(),
+            first: first as u32,
+            count: records.len() as u32,
+        }];
         Ok(Self {
             tlas,
             addresses: Buffer::with_data(gpu, "solids", &addresses, input_usage())?,
@@ -236,20 +245,4 @@ fn around(to_world: &Affine3A, [low, high]: [Vec3; 2]) -> order::Bounds {
     let reach =
         matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
     (middle - Vec3::from(reach), middle + Vec3::from(reach))
-}
-
-fn instance(
-    placement: &Affine3A,
-    custom_index: usize,
-    record: u32,
-    blas: &AccelerationStructure,
-) -> vk::AccelerationStructureInstanceKHR {
-    vk::AccelerationStructureInstanceKHR {
-        transform: transform(placement),
-        instance_custom_index_and_mask: vk::Packed24_8::new(custom_index as u32, 0xff),
-        instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(record, 0),
-        acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
-            device_handle: blas.address,
-        },
-    }
 }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::judge::{Expected, Hit, Tolerance};
+use crate::judge::{Expected, ExpectedHit, Tolerance};
 use crate::ladder::Primitive;
 use crate::probe::Ray;
 use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum};
@@ -74,11 +74,11 @@ struct RawRay {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawExpect {
-    hit: Option<Hit>,
+    hit: Option<ExpectedHit>,
     t: Option<String>,
     normal: Option<[String; 3]>,
     faces: Option<Vec<String>>,
-    secondary_hit: Option<Hit>,
+    secondary_hit: Option<ExpectedHit>,
     secondary_t: Option<String>,
     mean: Option<String>,
 }
@@ -412,7 +412,7 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
     ensure!(!foreign, "a {} expects none of these", primitive.name());
     Ok(match primitive {
         Primitive::Accumulation => Expected {
-            hit: Hit::Yes,
+            hit: ExpectedHit::Yes,
             t: Some(mean.context("no mean is expected")?),
             normal: None,
             faces,
@@ -427,7 +427,10 @@ fn expected(primitive: Primitive, raw: &RawExpect) -> Result<Expected> {
         },
         _ => {
             let hit = raw.hit.context("neither hit nor miss is expected")?;
-            ensure!((hit == Hit::Yes) == t.is_some(), "a t is expected where there is a hit");
+            ensure!(
+                (hit == ExpectedHit::Yes) == t.is_some(),
+                "a t is expected where there is a hit"
+            );
             Expected { hit, t, normal, faces, surface: None }
         }
     })

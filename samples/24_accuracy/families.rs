@@ -9,7 +9,7 @@ use reference::{
     aabb::Aabb, capsule::Capsule, heightfield, instance::Ellipsoid, plane, scene, sphere, transform,
 };
 
-use crate::judge::{Expected, Hit};
+use crate::judge::{Expected, ExpectedHit};
 use crate::ladder::Primitive;
 use crate::probe::Ray;
 use crate::shape::{Gap, Heightfield, Leaving, Pattern, Shape, Sum, parts};
@@ -93,7 +93,7 @@ impl<'a> Truth<'a> {
             Shape::Box { low, high } => {
                 let (low, high) = (low.as_dvec3(), high.as_dvec3());
                 let hit = Aabb { low, high }.intersect_exact(&exact);
-                hit.map(|hit| reference::exact::to_f64(&hit.t))
+                hit.map(|hit| reference::rational::to_f64(&hit.t))
             }
             Shape::Plane { normal, distance } => {
                 let (normal, distance) = (normal.as_dvec3(), (*distance).into());
@@ -125,7 +125,7 @@ impl<'a> Truth<'a> {
             }
             Shape::Sum(sum) => Some(mean(sum)),
         };
-        let hit = if t.is_some() { Hit::Yes } else { Hit::No };
+        let hit = if t.is_some() { ExpectedHit::Yes } else { ExpectedHit::No };
         Expected { hit, t, normal: None, faces: Vec::new(), surface: None }
     }
 }

@@ -68,7 +68,7 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Form>> {
             timer.start(cmd);
             let level = Descriptor::AccelerationStructure(&body.tlas);
             body.pipeline.bind(cmd, &[level], &view)?;
-            body.sbt.trace(cmd, vk::Extent2D { width: SIDE, height: SIDE });
+            body.sbt.trace(cmd, vk::Extent2D { width: SIDE, height: SIDE }.into());
             timer.stop(cmd);
             barrier::trace_to_trace(gpu, cmd);
             Ok(())

@@ -10,7 +10,7 @@ use crate::shape::{Leaving, Shape};
 /// Whether there is a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Hit {
+pub enum ExpectedHit {
     Yes,
     No,
     /// Denormal numbers decide, which a device may flush.
@@ -20,7 +20,7 @@ pub enum Hit {
 /// What is known exactly, here rounded to f64.
 #[derive(Clone, Debug)]
 pub struct Expected {
-    pub hit: Hit,
+    pub hit: ExpectedHit,
     /// Of the hit; the mean of a sum.
     pub t: Option<f64>,
     pub normal: Option<DVec3>,
@@ -95,12 +95,12 @@ pub fn judge(
         return judged(Verdict::NotFinite, format!("t {}, normal {}", answer.t, answer.normal));
     }
     match (expected.hit, hit) {
-        (Hit::Either, _) => return judged(Verdict::Right, String::new()),
-        (Hit::Yes, false) if way == Way::Traced && answer.offered == 0 => {
+        (ExpectedHit::Either, _) => return judged(Verdict::Right, String::new()),
+        (ExpectedHit::Yes, false) if way == Way::Traced && answer.offered == 0 => {
             return judged(Verdict::NeverOffered, String::new());
         }
-        (Hit::Yes, false) => return judged(Verdict::FalseMiss, String::new()),
-        (Hit::No, true) => return judged(Verdict::FalseHit, String::new()),
+        (ExpectedHit::Yes, false) => return judged(Verdict::FalseMiss, String::new()),
+        (ExpectedHit::No, true) => return judged(Verdict::FalseHit, String::new()),
         _ => {}
     }
     let mut why = Vec::new();

@@ -11,6 +11,7 @@ mod families;
 mod geometry;
 mod hard;
 mod judge;
+mod lab;
 mod ladder;
 mod live;
 mod measure;
@@ -20,25 +21,19 @@ mod shape;
 mod specimen;
 mod table;
 
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use common::app::{self, Args, check_validation, output};
-use common::files::{self, write_whole};
+use common::app::{self, Args};
 use common::gpu::{
-    Address, Binding, Buffer, Descriptor, Gpu, GpuOptions, RayTracingPipeline, Requirements,
-    ShaderBindingTable,
+    Address, Binding, Buffer, Descriptor, Gpu, RayTracingPipeline, Requirements, ShaderBindingTable,
 };
 use common::scene::{CameraBasis, input_usage};
-use common::usage::Usage;
 use common::{Controls, Frame, Sample, Setup};
-use disagreement::Disagreement;
-use drawing::Drawing;
 use glam::Vec3;
+use lab::Lab;
 use ladder::{Code, Primitive, Rung};
 use live::Live;
-use plot::Plot;
 use probe::Probe;
 use specimen::Specimen;
 
@@ -87,13 +82,13 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        c.choice("show", &mut self.show, &["split", "picture", "error"]);
+        c.one_of("show", &mut self.show, &["split", "picture", "error"]);
         let names = specimen::PRIMITIVES.map(Primitive::name);
-        if c.choice("primitive", &mut self.specimen.primitive, &names) {
+        if c.one_of("primitive", &mut self.specimen.primitive, &names) {
             self.rung = 0;
         }
         let rungs: Vec<&str> = rungs(self.specimen.primitive()).map(|rung| rung.name).collect();
-        c.choice("rung", &mut self.rung, &rungs);
+        c.one_of("rung", &mut self.rung, &rungs);
         c.slider("distance", &mut self.specimen.distance, 1.5..=1e6);
         if let (Some(live), Ok(rung)) = (&self.live, self.rung()) {
             c.chart(&live.chart(rung.label));
@@ -122,8 +117,11 @@ impl Sample for Demo {
             show: self.show,
         };
         pipeline.bind(frame.cmd, &[Descriptor::StorageImage(frame.image)], &view)?;
-        sbt.trace(frame.cmd, frame.image.extent);
-        self.ask_live(frame.gpu)
+        sbt.trace(frame.cmd, frame.area);
+        if frame.is_first_band() {
+            self.ask_live(frame.gpu)?
+        }
+        Ok(())
     }
 
     fn report(&self) -> Result<serde_json::Value> {
@@ -175,7 +173,7 @@ impl Demo {
             .raygen(raygen)
             .define("PRIMITIVE", primitive as u32)
             .constant(0, rung.constant)
-            .constant(1, self.probe.fused.into())
+            .constant(1, self.probe.fused)
             .constant(2, top.constant)
             .binding(Binding::StorageImage)
             .push_constants::<View>()
@@ -183,127 +181,6 @@ impl Demo {
         // ANCHOR_END: pipeline
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
         self.pipeline = Some((wanted.0, wanted.1, pipeline, sbt));
-        Ok(())
-    }
-}
-
-/// What the laboratory takes beside every sample's arguments.
-#[derive(clap::Args)]
-struct Lab {
-    /// Run every case of a file of hard cases through every rung; exit 1 if a top rung is wrong
-    #[arg(long, value_name = "FILE.json", conflicts_with = "measure")]
-    cases: Option<PathBuf>,
-
-    /// Measure errors and time of every rung on seeded random rays, and ask a GPU's compiler about each;
-    /// write accuracy.md, .json, plots as .svg and .png to a folder
-    #[arg(long, value_name = "FOLDER")]
-    measure: Option<PathBuf>,
-
-    /// With --measure: only this primitive; repeatable
-    #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
-    only: Vec<Primitive>,
-
-    /// With --measure: rays of each family
-    #[arg(long, value_name = "N", default_value = "10000", requires = "measure", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    rays: u32,
-
-    /// With --measure: rounds of timing; 0 measures errors alone
-    #[arg(long, value_name = "N", default_value = "30", requires = "measure", value_parser = clap::value_parser!(u32).range(..=1000))]
-    rounds: u32,
-}
-
-fn primitive(name: &str) -> Result<Primitive, String> {
-    let found = Primitive::ALL.into_iter().find(|primitive| primitive.name() == name);
-    let names = Primitive::ALL.map(Primitive::name).join(", ");
-    found.ok_or_else(|| format!("there is {names}"))
-}
-
-/// What --measure writes.
-const FILES: [&str; 6] = [
-    "accuracy.json",
-    "accuracy.md",
-    "accuracy.svg",
-    "accuracy.png",
-    "accuracy_compiled.svg",
-    "accuracy_compiled.png",
-];
-
-/// Makes the folder, and finds out whether all files can be written, before a minute's work.
-fn prepare(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
-    FILES.iter().try_for_each(|file| files::check_writable(&folder.join(file)))
-}
-
-impl Lab {
-    fn start(&self, args: &Args) -> Result<()> {
-        let is_asked = self.cases.is_some() || self.measure.is_some();
-        if !is_asked || args.list_controls {
-            return app::start::<Demo>(env!("CARGO_BIN_NAME"), args);
-        }
-        if args.compare.is_some() || args.list_devices || !args.sets.is_empty() {
-            let line = "--cases and --measure take no controls, and list no devices";
-            return Err(Usage(line.to_owned()).into());
-        }
-        if args.out.is_some() || args.frames_given {
-            let line = "--cases and --measure make no picture for --out or --frames";
-            return Err(Usage(line.to_owned()).into());
-        }
-        if args.scene.is_some() {
-            let line = "--cases and --measure bring their own shapes and take no --scene";
-            return Err(Usage(line.to_owned()).into());
-        }
-        if args.compile_for.is_some() {
-            let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
-            return Err(Usage(line.to_owned()).into());
-        }
-        if self.measure.is_some() && args.report.is_some() {
-            let line = "--measure writes its report to the folder and takes no --report";
-            return Err(Usage(line.to_owned()).into());
-        }
-        if let (Some(cases), Some(report)) = (&self.cases, &args.report)
-            && files::same(cases, report)
-        {
-            let line = format!("--cases and --report both name '{}'", report.display());
-            return Err(Usage(line).into());
-        }
-        app::check_files(args)?;
-        if let Some(folder) = &self.measure {
-            prepare(folder)?;
-        }
-        let gpu = Gpu::new(&GpuOptions {
-            requirements: Demo::requirements(),
-            device: args.device.as_deref(),
-            validate: args.validate,
-            window: None,
-        })?;
-        let validation = gpu.validation();
-        if let Some(cases) = &self.cases {
-            hard::run(&gpu, cases, args.report.as_deref())?;
-        }
-        if let Some(folder) = &self.measure {
-            self.measure(&gpu, folder)?;
-        }
-        drop(gpu);
-        check_validation(&validation)
-    }
-
-    fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
-        let measured = measure::measure(gpu, &self.only, self.rays as usize, self.rounds)?;
-        let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
-        save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
-        save("accuracy.md", measured.markdown().as_bytes())?;
-        if let Some(plot) = Plot::new(&measured) {
-            save("accuracy.svg", plot.svg()?.as_bytes())?;
-            save("accuracy.png", &plot.png()?)?;
-        }
-        if let Some(plot) = Disagreement::new(&measured) {
-            save("accuracy_compiled.svg", plot.svg()?.as_bytes())?;
-            save("accuracy_compiled.png", &plot.png()?)?;
-        }
-        if let Some(why) = &measured.no_compiler {
-            output::print(&format!("no estimates: {why}\n"))?;
-        }
         Ok(())
     }
 }

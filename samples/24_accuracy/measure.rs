@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::compiled::{self, Compiled};
 use crate::families::Family;
 use crate::geometry::{self, Form};
-use crate::judge::Hit;
+use crate::judge::ExpectedHit;
 use crate::ladder::{Code, Primitive, Rung};
 use crate::probe::{Answer, Batch, Instrument, Probe, Way};
 
@@ -225,7 +225,7 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
         errors.not_finite += usize::from(!finite);
         // A sum has no hits, but always an answer.
         let hit = answer.hit != 0 || family.shapes[0].primitive() == Primitive::Accumulation;
-        match (expected.hit == Hit::Yes, hit) {
+        match (expected.hit == ExpectedHit::Yes, hit) {
             (true, true) => {
                 let t = expected.t.expect("a hit has its t");
                 ulps.push(ulp_error(answer.t, t));

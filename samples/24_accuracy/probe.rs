@@ -39,8 +39,8 @@ common::shader_struct! {
 
 common::shader_struct! {
     struct Push {
-        queries: Address,
-        answers: Address,
+        queries: Address<Query>,
+        answers: Address<Answer>,
         numbers: Address,
         count: u32,
         repeat: u32,
@@ -230,11 +230,11 @@ fn level(
     shapes: &[Shape],
     levels: Vec<(AccelerationStructure, Buffer)>,
 ) -> Result<Level> {
-    let placed = |(index, (shape, (blas, _))): (usize, (&Shape, &(AccelerationStructure, _)))| {
+    let instance = |(index, (shape, (blas, _))): (usize, (&Shape, &(AccelerationStructure, _)))| {
         let rows = if let Shape::Instance(rows) = shape { rows } else { &IDENTITY };
         instance(rows, index as u32, blas.address)
     };
-    let instances: Vec<_> = shapes.iter().zip(&levels).enumerate().map(placed).collect();
+    let instances: Vec<_> = shapes.iter().zip(&levels).enumerate().map(instance).collect();
     let tlas = build_top(gpu, &instances)?;
     let (levels, inputs) = levels.into_iter().unzip();
     Ok(Level { tlas, _levels: levels, _inputs: inputs })
@@ -337,7 +337,7 @@ impl Probe {
             .raygen(raygen)
             .define("PRIMITIVE", primitive as u32)
             .constant(0, rung)
-            .constant(FUSED, self.fused.into())
+            .constant(FUSED, self.fused)
             .push_constants::<Push>()
     }
 
@@ -418,7 +418,7 @@ impl Probe {
             self.gpu.submit(|cmd| {
                 self.timer.start(cmd);
                 instrument.pipeline.bind(cmd, &descriptors, &push)?;
-                instrument.sbt.trace(cmd, extent);
+                instrument.sbt.trace(cmd, extent.into());
                 self.timer.stop(cmd);
                 barrier::trace_to_trace(&self.gpu, cmd);
                 Ok(())

@@ -1,10 +1,13 @@
 //! What each effect costs: the picture's time with it, less the time without.
 
 use anyhow::Result;
+use common::Frame;
 use common::gpu::{Gpu, Timer, barrier};
-use common::scene::{Effect, Effects};
+use effects::Effect;
 
-/// Rounds of a measurement, after one that warms up.
+use crate::recipe::Recipe;
+
+/// Rounds of a measurement, between one that warms up and one that nobody reads. A frame is a round.
 const ROUNDS: usize = 5;
 
 /// What an effect costs.
@@ -18,47 +21,99 @@ pub struct Cost {
     pub ratio: f64,
 }
 
-// ANCHOR: measure
-/// Times the picture with all of `effects` and without each of them, in turns. `trace` records it.
-///
-/// # Errors
-/// If a pipeline cannot be made, or the device fails.
-pub fn measure(
-    gpu: &Gpu,
-    effects: Effects,
-    mut trace: impl FnMut(ash::vk::CommandBuffer, Effects) -> Result<()>,
-) -> Result<Vec<Cost>> {
-    let timer = Timer::new(gpu)?;
-    let mut time = |effects| -> Result<f64> {
-        gpu.submit(|cmd| {
-            timer.start(cmd);
-            trace(cmd, effects)?;
-            timer.stop(cmd);
-            barrier::trace_to_trace(gpu, cmd);
-            Ok(())
-        })?;
-        timer.milliseconds()
-    };
-    let left_out: Vec<Effect> = Effect::ALL.into_iter().filter(|&e| effects.has(e)).collect();
-    let mut rounds = vec![Vec::new(); left_out.len()];
-    for round in 0..=ROUNDS {
-        let all = time(effects)?;
-        for (effect, times) in left_out.iter().zip(&mut rounds) {
-            let without = time(effects.without(*effect))?;
-            if round > 0 {
-                times.push((all - without, without / all));
+/// A measurement of one recipe.
+pub struct Costs {
+    recipe: Recipe,
+    /// A timer for each effect that is left out in its turn, and for none.
+    timers: Vec<(Option<Effect>, Timer)>,
+    /// Milliseconds by round and timer.
+    rounds: Vec<Vec<f64>>,
+    /// Whether the timers hold a band that is not in the last round yet.
+    is_due: bool,
+}
+
+impl Costs {
+    /// Goes on with the measurement of a recipe, or begins it.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn for_recipe(gpu: &Gpu, last: Option<Self>, recipe: Recipe) -> Result<Self> {
+        if let Some(last) = last.filter(|last| last.recipe == recipe) {
+            return Ok(last);
+        }
+        let effects = Effect::ALL.into_iter().filter(|&effect| recipe.effects.has(effect));
+        // Last with all of them: that is the picture which stays.
+        let timers =
+            effects.map(Some).chain([None]).map(|left_out| Ok((left_out, Timer::new(gpu)?)));
+        let timers = timers.collect::<Result<_>>()?;
+        Ok(Self { recipe, timers, rounds: Vec::new(), is_due: false })
+    }
+
+    // ANCHOR: measure
+    /// Records the picture without each effect and with all of them. `trace` records it by a recipe, and
+    /// says whether that recipe's pipeline was there.
+    ///
+    /// # Errors
+    /// If a pipeline cannot be made, or the device fails.
+    pub fn record(
+        &mut self,
+        frame: &Frame,
+        mut trace: impl FnMut(Recipe) -> Result<bool>,
+    ) -> Result<()> {
+        self.read()?;
+        if frame.is_first_band() {
+            self.rounds.push(vec![0.0; self.timers.len()]);
+        }
+        let mut all_there = true;
+        for (left_out, timer) in &self.timers {
+            let effects = left_out.map_or(self.recipe.effects, |e| self.recipe.effects.without(e));
+            timer.start(frame.cmd);
+            all_there &= trace(Recipe { effects, ..self.recipe })?;
+            timer.stop(frame.cmd);
+            barrier::trace_to_trace(frame.gpu, frame.cmd);
+        }
+        self.is_due = all_there;
+        if !all_there {
+            self.rounds.clear();
+        }
+        Ok(())
+    }
+    // ANCHOR_END: measure
+
+    /// Adds the last band to its round.
+    fn read(&mut self) -> Result<()> {
+        if let (true, Some(round)) = (self.is_due, self.rounds.last_mut()) {
+            for (sum, (_, timer)) in round.iter_mut().zip(&self.timers) {
+                *sum += timer.milliseconds()?;
             }
         }
+        self.is_due = false;
+        Ok(())
     }
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
-    };
-    let costs = left_out.into_iter().zip(rounds).map(|(effect, times)| Cost {
-        effect,
-        milliseconds: median(times.iter().map(|time| time.0).collect()),
-        ratio: median(times.iter().map(|time| time.1).collect()),
-    });
-    Ok(costs.collect())
+
+    /// Whether there are rounds to come.
+    pub fn wants_more(&self) -> bool {
+        self.rounds.len() < ROUNDS + 2
+    }
+
+    /// The costs by all rounds but the first and that which may go on.
+    pub fn all(&self) -> Vec<Cost> {
+        let rounds = &self.rounds[..self.rounds.len().saturating_sub(1)];
+        let rounds = rounds.iter().skip(1);
+        let median = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied()
+        };
+        let costs = self.timers.iter().enumerate().filter_map(|(number, (effect, _))| {
+            let pairs = rounds.clone().filter_map(|times| Some((times[number], *times.last()?)));
+            let (differences, ratios) =
+                pairs.map(|(without, all)| (all - without, without / all)).unzip();
+            Some(Cost {
+                effect: (*effect)?,
+                milliseconds: median(differences)?,
+                ratio: median(ratios)?,
+            })
+        });
+        costs.collect()
+    }
 }
-// ANCHOR_END: measure

@@ -3,9 +3,8 @@
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
-use common::scene::{
-    Composition, SceneOnGpu, SceneOptions, Sphere, build_top, input_usage, transform,
-};
+use common::scene::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
+use effects::{Composition, Sphere};
 use glam::{Affine3A, Vec3};
 
 use crate::recipe::{Kind, Recipe};
@@ -20,6 +19,8 @@ pub struct SceneGeometry {
     /// How far from a shape a ray may begin, which its box allows for.
     reach: f32,
     instances: Vec<Placed>,
+    /// A top level for each set of hit records that a pipeline asked for, by its cull mask.
+    tops: Vec<(u32, AccelerationStructure)>,
     _levels: Vec<AccelerationStructure>,
     _buffers: Vec<Buffer>,
 }
@@ -44,6 +45,7 @@ impl SceneGeometry {
             shapes: Shapes::default(),
             reach: reach(from, eye),
             instances: Vec::new(),
+            tops: Vec::new(),
             _levels: Vec::new(),
             _buffers: Vec::new(),
         };
@@ -127,33 +129,42 @@ impl SceneGeometry {
     }
 
     // ANCHOR: top
-    /// A top level whose instances name the hit records of a pipeline, and the bits of its cull mask.
+    /// The top level whose instances name the hit records of a pipeline, and the bits of its cull mask.
     ///
     /// # Errors
     /// If memory is short.
-    pub fn top_level(&self, gpu: &Gpu, recipe: &Recipe) -> Result<AccelerationStructure> {
-        let bounds: Vec<_> = self.instances.iter().map(|placed| placed.bounds).collect();
-        let instances = order_of(&bounds, self.scene.options).into_iter().map(|i| {
-            let Placed { kind, transform: at, custom_index, address, .. } =
-                &self.instances[i as usize];
-            vk::AccelerationStructureInstanceKHR {
-                transform: transform(at),
-                instance_custom_index_and_mask: vk::Packed24_8::new(
-                    *custom_index,
-                    kind.mask() as u8,
-                ),
-                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
-                    recipe.record(*kind),
-                    0,
-                ),
-                acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
-                    device_handle: *address,
-                },
-            }
-        });
-        build_top(gpu, &instances.collect::<Vec<_>>())
+    pub fn top_level(&mut self, gpu: &Gpu, recipe: Recipe) -> Result<&AccelerationStructure> {
+        let known = self.tops.iter().position(|(mask, _)| *mask == recipe.mask());
+        let place = known.unwrap_or(self.tops.len());
+        if known.is_none() {
+            let bounds: Vec<_> = self.instances.iter().map(|placed| placed.bounds).collect();
+            let order = order_of(&bounds, self.scene.options).into_iter();
+            let instances = order.map(|i| self.instances[i as usize].for_device(recipe));
+            let top = build_top(gpu, &instances.collect::<Vec<_>>())?;
+            self.tops.push((recipe.mask(), top));
+        }
+        Ok(&self.tops[place].1)
     }
     // ANCHOR_END: top
+}
+
+impl Placed {
+    // ANCHOR: instance
+    fn for_device(&self, recipe: Recipe) -> vk::AccelerationStructureInstanceKHR {
+        let mask = self.kind.mask() as u8;
+        vk::AccelerationStructureInstanceKHR {
+            transform: transform(&self.transform),
+            instance_custom_index_and_mask: vk::Packed24_8::new(self.custom_index, mask),
+            instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
+                recipe.record(self.kind),
+                0,
+            ),
+            acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+                device_handle: self.address,
+            },
+        }
+    }
+    // ANCHOR_END: instance
 }
 
 fn order_of(bounds: &[order::Bounds], options: SceneOptions) -> Vec<u32> {

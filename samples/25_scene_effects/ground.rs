@@ -1,7 +1,7 @@
 //! The heightfield, prepared for the shaders; chapter 21 derives it.
 
 use common::gpu::order::Bounds;
-use common::scene::Heightfield;
+use effects::Heightfield;
 use glam::{DVec3, Vec3, Vec3Swizzles};
 
 /// What one rounding costs at most, relative.

@@ -1,11 +1,12 @@
 //! What the panel lets the reader change of a material, and what it tells of the effects.
 
 use common::Controls;
-use common::scene::Finding;
+use common::gpu::Variant;
+use effects::Finding;
 use glam::Vec3;
 
 use crate::Demo;
-use crate::tracer::Tracer;
+use crate::costs::Costs;
 
 impl Demo {
     /// Makes a material a mirror, or no longer.
@@ -16,7 +17,7 @@ impl Demo {
             return;
         }
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        c.choice("material", &mut self.material, &names);
+        c.one_of("material", &mut self.material, &names);
         let chosen = names[self.material as usize];
         let materials = &mut self.scene.scene.model.materials;
         let Some(material) = materials.iter_mut().find(|m| m.name == chosen) else { return };
@@ -32,22 +33,17 @@ impl Demo {
 
     /// The effects, why they are in or out, and what they cost.
     pub fn tell(&self, c: &mut Controls) {
-        if let Some(error) = &self.trouble {
-            c.note("not opened", &format!("{error:#}"));
-        }
         for warning in &self.scene.scene.model.warnings {
             c.note("warning", warning);
         }
-        if let Some((_, why)) = &self.failed {
-            c.note("not compiled", why);
-        }
+        let costs = self.costs.as_ref().map(Costs::all).unwrap_or_default();
         for Finding { effect, needed, why } in self.findings() {
-            let cost = self.costs.iter().find(|cost| cost.effect == effect);
+            let cost = costs.iter().find(|cost| cost.effect == effect);
             let cost = cost.map_or(String::new(), |cost| format!(" · {:.1} ms", cost.milliseconds));
             let sign = if needed { "✔" } else { "–" };
             c.note(effect.name(), &format!("{sign} {why}{cost}"));
         }
-        if let Some(Tracer { pipeline, sbt, .. }) = self.tracers.get(self.current) {
+        if let Some(Variant { pipeline, sbt, .. }) = self.pipelines.current() {
             let groups: usize = pipeline.groups.iter().sum();
             let milliseconds = pipeline.build_time.as_secs_f64() * 1e3;
             c.note("stages", &format!("{} in {groups} groups", pipeline.blueprint.stages.len()));

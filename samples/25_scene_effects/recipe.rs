@@ -3,8 +3,8 @@
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{Binding, Gpu, HitGroup, RayTracingPipeline, TextureTable};
-use common::scene::Effect::*;
-use common::scene::{Composition, Effect, Effects, MAX_LIGHTS};
+use effects::Effect::*;
+use effects::{Composition, Effect, Effects, MAX_LIGHTS};
 
 use crate::Push;
 
@@ -54,7 +54,8 @@ impl Recipe {
     // ANCHOR: constants
     /// For a scene, and no other.
     pub fn specialised(scene: &Composition, effects: Effects) -> Self {
-        let kinds = scene.lights.iter().fold(0, |kinds, light| kinds | 1 << light.light.kind);
+        let kinds =
+            scene.lights.iter().fold(0, |kinds, light| kinds | 1 << u32::from(light.light.kind));
         Self { effects, light_kinds: kinds, lights: scene.lights.len() as u32 }
     }
 
@@ -80,15 +81,6 @@ impl Recipe {
         self.kinds().into_iter().fold(0, |mask, kind| mask | kind.mask())
     }
 
-    fn has_shadows(&self) -> bool {
-        self.effects.has_any(&[PointShadows, DirectionalShadows])
-    }
-
-    /// How deep its rays nest: mirrors are a loop in the raygen shader, a shadow ray comes from a hit.
-    pub fn recursion(&self) -> u32 {
-        if self.has_shadows() { 2 } else { 1 }
-    }
-
     // ANCHOR: groups
     fn hit_group(&self, kind: Kind) -> HitGroup<'static> {
         match kind {
@@ -105,47 +97,6 @@ impl Recipe {
     }
     // ANCHOR_END: groups
 
-    // ANCHOR: build
-    /// The pipeline. Miss shaders and hit groups stand without gaps, so each has the number of its place.
-    ///
-    /// # Errors
-    /// If a shader does not compile.
-    pub fn build(&self, gpu: &Gpu, textures: &TextureTable) -> Result<RayTracingPipeline> {
-        let has = |effect| self.effects.has(effect);
-        let defines: Vec<String> =
-            Effect::ALL.into_iter().filter(|&e| has(e)).map(|e| e.define()).collect();
-        let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-            .define("SPECIALISED", 1)
-            .exact()
-            .constant(0, self.light_kinds)
-            .constant(1, self.lights)
-            .constant(2, self.mask())
-            .recursion(self.recursion())
-            .binding(Binding::AccelerationStructure)
-            .binding(Binding::StorageImage)
-            .push_constants::<Push>()
-            .raygen("camera.rgen")
-            .miss("sky.rmiss");
-        for define in &defines {
-            builder = builder.define(define, 1);
-        }
-        let mut misses = 1;
-        if self.has_shadows() {
-            builder = builder.miss("shadow.rmiss").define("MISS_SHADOW", misses);
-            misses += 1;
-        }
-        if has(Plane) {
-            builder = builder.miss("plane.rmiss").define("MISS_PLANE", misses);
-        }
-        for kind in self.kinds() {
-            builder = builder.hit(self.hit_group(kind));
-        }
-        if self.effects.has_any(&[Textures, CutOut]) {
-            builder = builder.textures(textures);
-        }
-        builder.skip(self.skipped(gpu)).build(gpu)
-    }
-
     /// What the device need not look for, where it can be told.
     fn skipped(&self, gpu: &Gpu) -> vk::PipelineCreateFlags {
         let kinds = self.kinds();
@@ -157,5 +108,34 @@ impl Recipe {
             _ => vk::PipelineCreateFlags::empty(),
         }
     }
-    // ANCHOR_END: build
 }
+
+// ANCHOR: build
+/// Hit groups stand without gaps, so each has the number of its place.
+pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<RayTracingPipeline> {
+    let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .define("SPECIALISED", 1)
+        .as_written()
+        .constant(0, recipe.light_kinds)
+        .constant(1, recipe.lights)
+        .constant(2, recipe.mask())
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .push_constants::<Push>()
+        .skip(recipe.skipped(gpu))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss");
+    if recipe.effects.has_any(&[PointShadows, DirectionalShadows]) {
+        builder = builder.miss("shadow.rmiss");
+    }
+    for kind in recipe.kinds() {
+        builder = builder.hit(recipe.hit_group(kind));
+    }
+    if recipe.effects.has_any(&[Textures, CutOut]) {
+        builder = builder.textures(textures);
+    }
+    let defines: Vec<String> = recipe.effects.all().map(Effect::define).collect();
+    defines.iter().fold(builder, |builder, define| builder.define(define, 1)).build(gpu)
+}
+// ANCHOR_END: build

@@ -3,7 +3,8 @@
 use ash::vk;
 use common::gpu::Address;
 use common::scene::plane::Plane;
-use common::scene::{BoardPlane, Composition, Light, MAX_LIGHTS};
+use common::scene::{Light, LightKind};
+use effects::{BoardPlane, Composition, MAX_LIGHTS};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::ground::Ground;
@@ -11,13 +12,13 @@ use crate::ground::Ground;
 /// Where shaders find the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shapes {
-    /// Of [`common::scene::Sphere`].
+    /// Of [`effects::Sphere`].
     pub spheres: vk::DeviceAddress,
-    /// Of [`common::scene::Box`].
+    /// Of [`effects::Box`].
     pub boxes: vk::DeviceAddress,
-    /// Of [`common::scene::Solid`].
+    /// Of [`effects::Solid`].
     pub solids: vk::DeviceAddress,
-    /// Of [`common::scene::Face`].
+    /// Of [`effects::Face`].
     pub faces: vk::DeviceAddress,
 }
 
@@ -75,7 +76,13 @@ impl World {
         let board = scene.plane.unwrap_or(nowhere);
         let normal = board.normal.as_dvec3();
         let plane = Plane::new((normal, f64::from(board.distance) * normal.length()), eye);
-        let mut lights = [Light { place: Vec3::Y, kind: 0, strength: Vec3::ZERO, size: 0.0 }; 4];
+        let mut lights = [Light {
+            place: Vec3::Y,
+            kind: LightKind::Directional.into(),
+            strength: Vec3::ZERO,
+            size: 0.0,
+            samples: 1,
+        }; 4];
         let mut shadows = 0;
         for (number, light) in scene.lights.iter().enumerate() {
             lights[number] = light.light;

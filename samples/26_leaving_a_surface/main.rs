@@ -11,10 +11,11 @@ use common::gpu::{
     Variants,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Placement, PointLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, Light, Moved, Placement, Scene, SceneAddresses, SceneOnGpu, ShadowRays,
+    Size, Sun,
 };
-use common::{Controls, Frame, Sample, Setup};
-use glam::{DVec3, Vec3};
+use common::{Controls, Frame, Lighting, Sample, Setup};
+use glam::Vec3;
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -22,35 +23,38 @@ fn main() -> ExitCode {
 
 const MAX_DEPTH: u32 = 8;
 
-/// A place 10000 units from the origin, and no axis spared.
-const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
-
 struct Demo {
-    model: Scene,
+    source: Scene,
     scene: SceneOnGpu,
     placement: Placement,
     pipelines: Variants<Constants>,
     camera: Camera,
-    sun: Sun,
-    lamp: PointLight,
-    light: u32,
-    light_size: f32,
-    light_samples: u32,
+    lighting: Lighting,
     depth: u32,
     minimum_contribution: f32,
-    size: u32,
-    moved: u32,
+    size: Size,
+    moved: Moved,
     bounce: u32,
     constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+        RayOrigin,
+    }
+    /// The rule for a ray's start.
+    enum Origin: ORIGIN { Nothing, Tmin, Normal, Integers, Reprojected, Bound, Height }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
-    show: u32,
-    shadow_rays: u32,
+    show: Show,
+    shadow_rays: ShadowRays,
     smooth_terminator: bool,
-    origin: u32,
+    origin: Origin,
 }
 
 common::shader_struct! {
@@ -59,7 +63,6 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: Light,
-        light_samples: u32,
         depth: u32,
         minimum_contribution: f32,
         bounce: u32,
@@ -72,86 +75,64 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let model = setup.scene_or(Scene::chess_of_metal)?;
-        let camera = model.camera;
-        let scene = SceneOnGpu::new(gpu, &model, setup.options)?;
+        let source = setup.scene_or(Scene::chess_of_metal)?;
+        let camera = source.camera;
+        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
+        let sun = Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
-            model,
+            source,
             scene,
             placement: Placement::default(),
             pipelines: Variants::default(),
             camera,
-            sun: Sun { azimuth: 340.0, elevation: 20.0, radiance: Vec3::new(4.4, 3.5, 2.4) },
-            lamp: PointLight::default(),
-            light: 0,
-            light_size: 0.0,
-            light_samples: 16,
+            lighting: Lighting::new(sun),
             depth: 4,
             minimum_contribution: 1.0 / 512.0,
-            size: 1,
-            moved: 0,
+            size: Size::Usual,
+            moved: Moved::Not,
             bounce: 0,
-            constants: Constants { show: 0, shadow_rays: 0, smooth_terminator: true, origin: 5 },
+            constants: Constants {
+                show: Show::Picture,
+                shadow_rays: ShadowRays::FirstHit,
+                smooth_terminator: true,
+                origin: Origin::Bound,
+            },
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        let views = [
-            "picture",
-            "normal",
-            "triangle",
-            "hit",
-            "ray direction",
-            "shadow",
-            "shadow origin",
-            "ray origin",
-        ];
-        c.choice("show", &mut self.constants.show, &views);
-        c.choice("light", &mut self.light, &["directional", "point"]);
-        c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
-        c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
-        c.vector("lamp position", &mut self.lamp.position, -10.0..=10.0);
-        c.slider("light size", &mut self.light_size, 0.0..=1.0);
-        c.integer("light samples", &mut self.light_samples, 1..=64);
-        let rays = ["first hit", "nearest hit", "off"];
-        c.choice("shadow rays", &mut self.constants.shadow_rays, &rays);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
-        let rules = ["nothing", "tmin", "normal", "integers", "reprojected", "bound", "height"];
-        c.choice("origin", &mut self.constants.origin, &rules);
-        c.choice("size", &mut self.size, &["0.001", "1", "1000"]);
-        c.choice("moved", &mut self.moved, &["0", "10000"]);
+        c.choice("origin", &mut self.constants.origin);
+        c.choice("size", &mut self.size);
+        c.choice("moved", &mut self.moved);
         c.integer("bounce", &mut self.bounce, 0..=MAX_DEPTH);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
-    fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: place
-        let placement = Placement {
-            size: [1e-3, 1.0, 1e3][self.size as usize],
-            moved: [DVec3::ZERO, FAR][self.moved as usize],
-        };
+    // ANCHOR: place
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        let placement = Placement::new(self.size, self.moved);
         if placement != self.placement {
-            let placed = placement.scene(&self.model);
-            self.scene.rebuild(frame.gpu, &placed, self.scene.options)?;
+            self.scene.rebuild(gpu, &placement.scene(&self.source), self.scene.options)?;
             self.placement = placement;
         }
-        // ANCHOR_END: place
+        Ok(())
+    }
+    // ANCHOR_END: place
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
         let push = Push {
-            camera: placement.camera(&self.camera).basis(frame.aspect()),
+            camera: self.placement.camera(&self.camera).basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: match self.light {
-                0 => Light::directional(&self.sun, self.light_size),
-                _ => {
-                    let size = self.light_size * placement.size as f32;
-                    Light::point(&placement.lamp(&self.lamp), size)
-                }
-            },
-            light_samples: self.light_samples,
+            light: self.lighting.placed(&self.placement),
             depth: self.depth,
             minimum_contribution: self.minimum_contribution,
             bounce: self.bounce,
@@ -163,7 +144,7 @@ impl Sample for Demo {
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
-        sbt.trace(frame.cmd, frame.image.extent);
+        sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
     }
@@ -183,7 +164,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator.into())
+        .constant(2, constants.smooth_terminator)
         .constant(3, constants.origin)
         .recursion(1)
         .binding(Binding::AccelerationStructure)

@@ -1,7 +1,7 @@
 // The list of a pixel's hits, once the trace has filled it.
 
 // ANCHOR: sort
-bool before(Hit a, Hit b) {
+bool before(ListedHit a, ListedHit b) {
     if (a.t != b.t) {
         return a.t < b.t;
     }
@@ -11,7 +11,7 @@ bool before(Hit a, Hit b) {
 // The device offers hits in any order; by distance they mean something. Insertion sort, in place.
 void sort_list(uint first, uint count) {
     for (uint i = 1; i < count; i++) {
-        Hit hit = push.hits.at[first + i];
+        ListedHit hit = push.hits.at[first + i];
         uint j = i;
         for (; j > 0 && before(hit, push.hits.at[first + j - 1]); j--) {
             push.hits.at[first + j] = push.hits.at[first + j - 1];
@@ -39,7 +39,7 @@ vec4 show_list(uint pixel, uint count) {
     if (push.layer >= listed) {
         return SHOW == SHOW_HIT ? vec4(-1.0, -1.0, -1.0, count) : vec4(0.0, 0.0, 0.0, 1.0);
     }
-    Hit hit = push.hits.at[first + push.layer];
+    ListedHit hit = push.hits.at[first + push.layer];
     if (SHOW == SHOW_HIT) {
         return vec4(hit.instance, hit.triangle, hit.t, count);
     }

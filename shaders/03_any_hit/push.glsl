@@ -6,13 +6,13 @@
 #include "random.glsl"
 
 // A surface that a ray crossed, in the list of all.
-struct Hit {
+struct ListedHit {
     uint instance;
     uint triangle;
     float t;
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Hits { Hit at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Hits { ListedHit at[]; };
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
@@ -36,6 +36,8 @@ const uint MAX_HITS = 32;
 
 struct Payload {
     vec4 color;
+    uint pixel;          // column and row, 16 bits each
+    uint number;         // of the pixel, row by row
     uint sample_index;
     uint state;          // of the naive random numbers
     uint count;          // of the hits that were listed

@@ -8,6 +8,7 @@ struct Light {
     uint kind;
     vec3 strength;   // directional: radiance; point: intensity, which is what arrives at distance 1
     float size;      // radius of the disk that shines, around `place`; 0 for a mere point
+    uint samples;    // shadow rays a hit, where it has a size
 };
 
 // ANCHOR: disk

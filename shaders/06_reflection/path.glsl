@@ -2,6 +2,7 @@
 
 // ANCHOR: path
 struct Path {
+    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -57,8 +58,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         // What is reflected does not reach the colour below.
         hit.color *= 1.0 - mirror;
         if (SHADOW_RAYS != SHADOW_OFF) {
-            vec2 first = random(gl_LaunchIDEXT.xy, 0, path.bounce, DIMENSION_LIGHT).xy;
-            visible = visibility(push.light, start, push.light_samples, first);
+            vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
+            visible = visibility(push.light, start, first);
         }
         color = material.emission + hit.color * ambient(hit.normal)
             + lit_by(push.light, hit, material, start, -ray.direction, visible);

@@ -28,7 +28,7 @@ vec3 object_position() {
 // The width of a pixel on the surface, in the mesh's own space: the geometric mean of its two sides,
 // one of which would grow without end towards the silhouette.
 float pixel_width(vec3 normal) {
-    float angle = 2.0 * length(push.camera.up) / float(gl_LaunchSizeEXT.y);
+    float angle = 2.0 * length(push.camera.up) / float(push.rows);
     float across = gl_HitTEXT * length(gl_ObjectRayDirectionEXT) * angle;
     return across * inversesqrt(max(dot(normal, -gl_WorldRayDirectionEXT), 0.05));
 }

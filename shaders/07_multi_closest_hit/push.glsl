@@ -9,6 +9,7 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     DirectionalLight light;
     uint show;
+    uint rows;            // of the picture
 } push;
 
 const uint SHOW_PICTURE = 0;
@@ -29,6 +30,7 @@ const uint GROUP_PLAIN = 0;
 const uint GROUP_MARBLE = 1;
 const uint GROUP_WOOD = 2;
 const uint GROUP_LACQUER = 3;
+const uint GROUP_INSPECT = 4;
 const vec3 GROUP_COLOR[4] = vec3[](
     vec3(0.80, 0.58, 0.12), vec3(0.75, 0.78, 0.82), vec3(0.42, 0.13, 0.05), vec3(0.03, 0.08, 0.22)
 );

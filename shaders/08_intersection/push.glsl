@@ -23,7 +23,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sph
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Boxes { Box at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer HostC { float at[]; };
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Shapes {
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapeAddresses {
     Spheres spheres;
     Boxes boxes;
     Original sphere_ids;   // primitive i of the build is sphere sphere_ids.at[i]
@@ -34,10 +34,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sha
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    Shapes shapes;
+    ShapeAddresses shapes;
     HostC host_c;         // of each sphere: |camera - center|^2 - radius^2
     Light light;
-    uint light_samples;   // shadow rays a hit, where the light has a size
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.

@@ -24,10 +24,8 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     Pieces pieces;
     Light light;
-    uint light_samples;   // shadow rays a hit, where the light has a size
     uint camera_mask;     // which instances primary rays see
     uint shadow_mask;     // which instances throw shadows
-    uint first_column;    // of the part of the picture that is traced
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.
@@ -51,6 +49,7 @@ const uint SHADOW_OFF = 2;
 layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
 
 layout(constant_id = 3) const uint CULLING = 0;
+const uint CULL_OFF = 0;
 const uint CULL_BACK = 1;
 const uint CULL_FRONT = 2;
 

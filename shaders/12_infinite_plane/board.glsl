@@ -57,8 +57,8 @@ MaterialRecord board_material(Board board) {
 }
 
 // The sides of the plane, which its hits have in place of a material.
-const uint PLANE_OUTSIDE = 0;
-const uint PLANE_INSIDE = 1;
+const uint SIDE_OUTSIDE = 0;
+const uint SIDE_INSIDE = 1;
 
 // ANCHOR: report
 // The plane at the distance t of a ray, reported as a hit shader reports a triangle. If it `shines`, its
@@ -83,7 +83,7 @@ Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     hit.face = inside ? -outward : outward;
     hit.t = t;
     hit.normal = hit.face;
-    hit.material = inside ? PLANE_INSIDE : PLANE_OUTSIDE;
+    hit.material = inside ? SIDE_INSIDE : SIDE_OUTSIDE;
     hit.color = shines && inside ? board.inner * light : mix(board.dark, board.light, light);
     hit.triangle = 0;
     hit.lift = vec3(0.0);

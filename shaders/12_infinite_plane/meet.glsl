@@ -12,7 +12,7 @@ bool on_plane = false;
 float meet_plane(vec3 origin, vec3 direction, float end) {
     Plane plane = push.world.plane;
     float t;
-    if (INSIDE == INSIDE_NONE || on_plane || !plane_by(PLANE_RUNG, plane, origin, direction, t)) {
+    if (!HAS_PLANE || on_plane || !plane_by(PLANE_RUNG, plane, origin, direction, t)) {
         return FAR;
     }
     bool passes = INSIDE == INSIDE_THROUGH && dot(direction, plane.normal) > 0.0;

@@ -4,6 +4,7 @@
 
 // ANCHOR: path
 struct Path {
+    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -43,7 +44,7 @@ vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
 
 // Whether that is the plane from inside, in a colour of its own that asks for no light.
 bool shines(Hit hit) {
-    return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == PLANE_INSIDE;
+    return INSIDE == INSIDE_COLOR && hit.instance == PLANE && hit.material == SIDE_INSIDE;
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
@@ -74,8 +75,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
             Light light = push.world.lights[i];
             float part = 1.0;
             if (SHADOW_RAYS != SHADOW_OFF) {
-                vec2 first = random(gl_LaunchIDEXT.xy, 0, path.bounce, DIMENSION_LIGHT).xy;
-                part = visibility(light, start, push.light_samples, first);
+                vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
+                part = visibility(light, start, first);
             }
             color += lit_by(light, hit, material, start, -ray.direction, part);
             visible += part / float(push.world.light_count);

@@ -26,7 +26,6 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     World world;
-    uint light_samples;   // shadow rays a hit, where the light has a size
     uint depth;           // how often a path may be reflected
     float minimum_contribution;
 } push;
@@ -53,11 +52,12 @@ layout(constant_id = 3) const uint PLANE_RUNG = PLANE_COMPENSATED;
 
 // When the plane is tested.
 layout(constant_id = 4) const uint PLANE_TEST = 0;
-const uint PLANE_BEFORE = 0;
-const uint PLANE_AFTER = 1;
+const uint TEST_BEFORE = 0;
+const uint TEST_AFTER = 1;
 
-layout(constant_id = 5) const uint INSIDE = 1;
-const uint INSIDE_NONE = 0;      // there is no plane
-const uint INSIDE_SURFACE = 1;   // seen from both sides
-const uint INSIDE_COLOR = 2;     // shines from inside in a colour of its own
-const uint INSIDE_THROUGH = 3;   // seen from outside only
+layout(constant_id = 5) const bool HAS_PLANE = true;
+
+layout(constant_id = 6) const uint INSIDE = 0;
+const uint INSIDE_SURFACE = 0;   // seen from both sides
+const uint INSIDE_COLOR = 1;     // shines from inside in a colour of its own
+const uint INSIDE_THROUGH = 2;   // seen from outside only

@@ -8,7 +8,7 @@ layout(location = 1) rayPayloadEXT bool lit;
 // ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     float plane = meet_plane(origin, to_light, end);
-    if (PLANE_TEST == PLANE_BEFORE && plane < FAR) {
+    if (PLANE_TEST == TEST_BEFORE && plane < FAR) {
         return false;
     }
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.

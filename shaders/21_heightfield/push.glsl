@@ -23,7 +23,6 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     Ground ground;
     Light light;
-    uint light_samples;   // shadow rays a hit, where the light has a size
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.

@@ -79,7 +79,6 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     Solids solids;
     Light light;
-    uint light_samples;   // shadow rays a hit, where the light has a size
     Fog fog;
     float section_distance;
 } push;

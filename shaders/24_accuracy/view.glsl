@@ -1,4 +1,5 @@
 // A picture by one rung, and beside it how far that rung is off from the top one.
+#include "common/band.glsl"
 #include "common/camera.glsl"
 #include "common/shade.glsl"
 #include "query.glsl"
@@ -59,12 +60,13 @@ vec3 shade(Query query, Answer answer) {
 }
 
 void main() {
-    vec2 point = vec2(gl_LaunchIDEXT.xy) + 0.5;
-    uvec2 size = gl_LaunchSizeEXT.xy;
+    uvec2 id = pixel_id();
+    vec2 point = vec2(id) + 0.5;
+    uvec2 size = imageSize(picture);
     bool right = view.show == SHOW_ERROR;
     if (view.show == SHOW_SPLIT) {
         size.x = (size.x + 1) / 2;
-        right = gl_LaunchIDEXT.x >= size.x;
+        right = id.x >= size.x;
         point.x -= right ? float(size.x) : 0.0;
     }
     Query query = Query(view.camera.origin, 0.0, ray_direction(view.camera, point, size), 1e30, 0, view.count, 0);
@@ -80,5 +82,5 @@ void main() {
 #else
     vec3 color = right ? heat(answer, ASK(TOP, query, view.numbers)) : shade(query, answer);
 #endif
-    imageStore(picture, ivec2(gl_LaunchIDEXT.xy), vec4(color, 1.0));
+    imageStore(picture, ivec2(id), vec4(color, 1.0));
 }

@@ -17,8 +17,6 @@
 #define EFFECT_AREA_LIGHT
 #define EFFECT_MIRROR
 #define EFFECT_ANTI_ALIASING
-#define MISS_SHADOW 1
-#define MISS_PLANE 2
 #endif
 // ANCHOR_END: everything
 
@@ -31,12 +29,16 @@
 #if defined(SHADOWS) || defined(EFFECT_MIRROR)
 #define DEPARTURES
 #endif
-// Squares, averaged over what a pixel sees of them: a path carries how wide it is.
+// Triangles that stand for a round surface: a shadow ray leaves that.
+#if defined(SHADOWS) && defined(EFFECT_TRIANGLES)
+#define LIFTS
+#endif
+// Squares, averaged over what a pixel sees of them: a ray has a cone.
 #if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD)
 #define SQUARES
 #endif
-// A number that differs from sample to sample of a pixel is asked for by soft shadows alone.
-#if defined(EFFECT_ANTI_ALIASING) && defined(EFFECT_AREA_LIGHT)
-#define SAMPLE_NUMBERS
+// A curved mirror changes the cone.
+#if defined(SQUARES) && defined(EFFECT_MIRROR)
+#define CURVES
 #endif
 // ANCHOR_END: derived

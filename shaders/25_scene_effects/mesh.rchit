@@ -5,26 +5,26 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "offset.glsl"
-#include "origin.glsl"
-#include "lighting.glsl"
+#include "hit.glsl"
+
+// Where no ray leaves a surface, no height is told: place() of chapter 05 fills what it knows.
+struct Placed {
+    vec3 position;
+    float height;
+    vec3 face;
+};
+#define Hit Placed
+#include "common/place.glsl"
+#undef Hit
 
 #ifdef EFFECT_TEXTURES
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
-#ifdef DEPARTURES
-// The point of the triangle that was hit.
-Departure from;
-
-Start start_from(Met met, vec3 direction) {
-    return start_bound(from, direction);
-}
-#endif
-
-#if defined(EFFECT_MIRROR) && defined(SQUARES)
+#ifdef CURVES
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
 float curvature(InstanceRecord instance, uint triangle) {
     uvec3 corner = instance.triangles.at[triangle];
@@ -45,40 +45,28 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    HitPoint hit = hit_point(instance, triangle, weights);
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
+    Placed placed;
+    place(placed, instance, triangle, weights);
+    hit.position = placed.position;
+    hit.t = gl_HitTEXT;
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    normal = faceforward(normal, -hit.normal, normal);
-
-    Met met;
-    met.t = gl_HitTEXT;
-    met.position = hit.position;
-    met.normal = normal;
-    met.flat_normal = hit.normal;
-    met.lift = vec3(0.0);
-    met.up = hit.normal;
-#ifdef DEPARTURES
-    from = departure(hit, instance, triangle, weights);
-#endif
-#ifdef SHADOWS
-    met.lift = lift_to_smooth(hit, instance, triangle, weights);
-    met.up = met.lift == vec3(0.0) ? met.up : normal;
-#endif
-    met.on_plane = false;
-    met.curvature = 0.0;
-#if defined(EFFECT_MIRROR) && defined(SQUARES)
-    met.curvature = curvature(instance, triangle);
-#endif
-    met.base_color = material.base_color;
+    hit.normal = faceforward(normal, -placed.face, normal);
+    hit.material = instance.material;
+    hit.color = material.base_color;
 #ifdef EFFECT_TEXTURES
     if (material.base_texture >= 0) {
-        met.base_color *=
-            textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
     }
 #endif
-    met.specular = material.specular;
-    met.shininess = material.shininess;
-    met.emission = material.emission;
-    met.reflection = mirrors(material);
-    shade(met);
+#ifdef DEPARTURES
+    hit.height = placed.height;
+    hit.face = placed.face;
+#endif
+#ifdef LIFTS
+    hit.lift = lift_to_smooth(placed.face, instance, triangle, weights);
+#endif
+#ifdef CURVES
+    hit.curvature = curvature(instance, triangle);
+#endif
 }

@@ -1,4 +1,5 @@
-// What the shaders of this chapter share: the push constants, the world behind them, and the path.
+// What the shaders of this chapter share: the push constants, the world behind them, and what the
+// pipeline is made for.
 #include "effects.glsl"
 #include "common/camera.glsl"
 #include "common/scene.glsl"
@@ -98,39 +99,6 @@ layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
 // ANCHOR_END: constants
 
-// As far as rays go.
-const float FAR = 1e30;
-// What a path must still be able to add to a pixel.
-const float MINIMUM_CONTRIBUTION = 1.0 / 512.0;
-
-// ANCHOR: path
-// What travels along a path: no more than the effects in use have to say to each other.
-struct Path {
-    vec3 color;
-#ifdef EFFECT_MIRROR
-    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
-    vec3 origin;       // of the next ray
-    vec3 direction;
-    uint bounce;       // its number: 0 comes from the camera
-#endif
-#ifdef EFFECT_PLANE
-    float plane;       // where the ray meets the plane; FAR if it does not
-#ifdef EFFECT_MIRROR
-    bool on_plane;     // the ray leaves the plane
-#endif
-#endif
-#ifdef SQUARES
-    float spread;      // by how much what the pixel sees widens in a unit of length
-#ifdef EFFECT_MIRROR
-    float width;       // how wide it is where the ray begins
-#endif
-#endif
-#ifdef SAMPLE_NUMBERS
-    uint number;       // which of the pixel's samples this is
-#endif
-};
-// ANCHOR_END: path
-
 // ANCHOR: flags
 // What every ray is told: without cut-outs, no any-hit shader is to be looked for.
 #ifdef EFFECT_CUT_OUT
@@ -140,32 +108,5 @@ const uint RAY_FLAGS = gl_RayFlagsOpaqueEXT;
 #endif
 // ANCHOR_END: flags
 
-#ifdef EFFECT_PLANE
-// Where a ray meets the plane, FAR if it does not. A line meets a plane once: a ray that leaves it has
-// nothing to ask.
-float meet_plane(vec3 origin, vec3 direction, float tmax, bool on_plane) {
-    float t;
-    if (push.world.plane_on == 0 || on_plane
-        || !plane_compensated(push.world.plane, origin, direction, t)) {
-        return FAR;
-    }
-    return t > 0.0 && t < tmax ? t : FAR;
-}
-#endif
-
-#ifdef EFFECT_MIRROR
-// Whether the next ray is worth tracing.
-bool goes_on(Path path) {
-    float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
-    return path.bounce <= push.world.depth && contribution >= MINIMUM_CONTRIBUTION;
-}
-#endif
-
-// Adds what the ray has met.
-void gather(inout Path path, vec3 seen) {
-#ifdef EFFECT_MIRROR
-    path.color += path.throughput * seen;
-#else
-    path.color = seen;
-#endif
-}
+// As far as rays go.
+const float FAR = 1e30;

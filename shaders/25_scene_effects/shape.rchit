@@ -5,9 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 #include "shape.glsl"
-#include "lighting.glsl"
-#include "shape_start.glsl"
+#include "hit.glsl"
+#include "report.glsl"
 
+layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
 // ANCHOR: main
@@ -37,26 +38,6 @@ void main() {
         number = box.material;
     }
 #endif
-    MaterialRecord material = push.scene.materials.at[number];
-    vec3 normal = faceforward(outward, gl_WorldRayDirectionEXT, outward);
-#ifdef DEPARTURES
-    note_height(point, normal, own);
-#endif
-
-    Met met;
-    met.t = gl_HitTEXT;
-    met.position = point;
-    met.normal = normal;
-    met.flat_normal = normal;
-    met.lift = vec3(0.0);
-    met.up = normal;
-    met.on_plane = false;
-    met.curvature = curvature;
-    met.base_color = material.base_color;
-    met.specular = material.specular;
-    met.shininess = material.shininess;
-    met.emission = material.emission;
-    met.reflection = mirrors(material);
-    shade(met);
+    hit = report(point, outward, own, curvature, number);
 }
 // ANCHOR_END: main

@@ -4,14 +4,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
+#include "hit.glsl"
 
-layout(location = 0) rayPayloadInEXT Path payload;
+layout(location = 0) rayPayloadInEXT Hit hit;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    gather(payload, sky(gl_WorldRayDirectionEXT));
-#ifdef EFFECT_MIRROR
-    // Nothing lies beyond.
-    payload.throughput = vec3(0.0);
-#endif
+    hit.t = -1.0;
+    hit.color = sky(gl_WorldRayDirectionEXT);
 }

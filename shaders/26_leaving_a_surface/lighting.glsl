@@ -5,14 +5,14 @@
 bool is_lit(Start start, vec3 to_light, float end);
 
 // ANCHOR: visibility
-// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else `count`
+// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else several
 // rays go to points of it, which begin at the random numbers `first`. Each starts where its direction
 // asks for.
-float visibility(Light light, Hit hit, Departure from, uint count, vec2 first) {
+float visibility(Light light, Hit hit, Departure from, vec2 first) {
     // On a round surface that is made of triangles, up is where the smooth normal points.
     vec3 up = hit.lift != vec3(0.0) ? hit.normal : hit.face;
     bool soft = light.size > 0.0;
-    count = soft ? count : 1;
+    uint count = soft ? light.samples : 1;
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);

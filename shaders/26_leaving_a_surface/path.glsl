@@ -2,6 +2,7 @@
 
 // ANCHOR: path
 struct Path {
+    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -49,8 +50,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         // ANCHOR: light
         Departure from = departure(hit, push.scene.instances.at[hit.instance], ray);
         if (SHADOW_RAYS != SHADOW_OFF) {
-            vec2 first = random(gl_LaunchIDEXT.xy, 0, path.bounce, DIMENSION_LIGHT).xy;
-            visible = visibility(push.light, hit, from, push.light_samples, first);
+            vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
+            visible = visibility(push.light, hit, from, first);
         }
         // Fetched after the shadow rays: a material would wait in registers for them.
         MaterialRecord material = push.scene.materials.at[hit.material];

@@ -10,7 +10,6 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Light light;
-    uint light_samples;   // shadow rays a hit, where the light has a size
     uint depth;           // how often a path may be reflected
     float minimum_contribution;
     uint bounce;          // which ray of a path `show` looks at, 0 for the camera's

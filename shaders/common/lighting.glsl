@@ -21,11 +21,11 @@ Start shadow_start(Hit hit) {
 // ANCHOR_END: start
 
 // ANCHOR: visibility
-// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else `count`
+// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else several
 // rays go to points of it, which begin at the random numbers `first`.
-float visibility(Light light, Start start, uint count, vec2 first) {
+float visibility(Light light, Start start, vec2 first) {
     bool soft = light.size > 0.0;
-    count = soft ? count : 1;
+    uint count = soft ? light.samples : 1;
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);

@@ -46,6 +46,7 @@ fn controls() {
         ("show=nothing", &["'show'", "'nothing'", "picture, normal, triangle"]),
         ("camera eye=1,2", &["'camera eye'", "x,y,z"]),
         ("camera eye=1,2,inf", &["'camera eye'", "x,y,z"]),
+        ("camera eye=0.35,0.3,-0.2", &["'camera eye'", "'camera target'", "two different points"]),
         ("camera eye=1,2,1e300", &["'camera eye'", "x,y,z"]),
         ("sun azimuth", &["a setting is a name and a value"]),
         ("=1", &["a setting is a name and a value"]),
@@ -121,6 +122,15 @@ fn what_only_tells_ends_with_0() {
         let told = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && output.stderr.is_empty(), "{argument}");
         assert!(told.contains(words), "{argument}: {told}");
+    }
+}
+
+#[test]
+fn help_begins_with_what_a_sample_does() {
+    for name in [crate::SAMPLE, "24_accuracy"] {
+        let output = run::command(name).arg("--help").output().unwrap();
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(told.starts_with("Renders one chapter\n\nUsage: "), "{name}: {told}");
     }
 }
 

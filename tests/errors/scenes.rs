@@ -56,6 +56,16 @@ fn files_that_are_no_scene() {
 }
 
 #[test]
+fn another_chapter_says_who_reads_scene_files() {
+    for name in ["02_basic", "12_infinite_plane"] {
+        let mut command = run::command(name);
+        command.args(["--headless", "--scene", "samples/assets/scenes/lake.toml"]);
+        let words = ["lake.toml: a scene file, which 25_scene_effects alone reads", "an OBJ file"];
+        refused_by(command, 2, &words);
+    }
+}
+
+#[test]
 fn keys_and_values_that_are_wrong() {
     table_refused("[fog]\n", "s.toml:6: unknown field `fog`, expected one of `version`");
     table_refused(

@@ -89,7 +89,9 @@ fn shaders_that_are_missing() {
     let folder = folder("02_basic/sky.rmiss", appended(""));
     fs::remove_file(folder.path().join("02_basic/sky.rmiss")).unwrap();
     shaders_refused(folder.path(), &["cannot read the shader '", "sky.rmiss'"]);
-    shaders_refused(Path::new("no such folder"), &["cannot read the shader 'no such folder/"]);
+    let words =
+        ["cannot read the shader 'no such folder/", "SHADERS names; a copy of the project's"];
+    shaders_refused(Path::new("no such folder"), &words);
 }
 
 #[test]
@@ -130,4 +132,37 @@ fn structures_that_differ_name_the_field() {
         let folder = folder(file, |text| text.replacen(from, to, 1));
         shaders_refused(folder.path(), &["02_basic/camera.rgen: ", words]);
     }
+}
+
+#[test]
+fn what_lies_at_an_address_is_declared_in_rust() {
+    // The structure goes by another name, as one that only the shader has.
+    let (from, to) =
+        ("struct MaterialRecord", "#define MaterialRecord Substance\nstruct MaterialRecord");
+    let folder = folder("02_basic/scene.glsl", |text| text.replacen(from, to, 1));
+    let words = [
+        "02_basic/camera.rgen: the shader reads a Substance through an address",
+        "declare it with shader_struct! { struct Substance { ... } }",
+        "and the address as Address<Substance>",
+    ];
+    shaders_refused(folder.path(), &words);
+}
+
+#[test]
+fn constants_that_differ_name_both_sides() {
+    let line = "const uint SHOW_NORMAL = 1;";
+    for (to, words) in [
+        ("const uint SHOW_NORMAL = 2;", "SHOW_NORMAL is 2 in the shader, and Show::Normal is 1"),
+        (
+            "const uint SHOW_NORMAL = 1; // as\nconst uint SHOW_FOG = 5;",
+            "SHOW_FOG is in the shader, but Rust's Show has no such variant",
+        ),
+    ] {
+        let folder = folder("02_basic/push.glsl", |text| text.replacen(line, to, 1));
+        shaders_refused(folder.path(), &["02_basic/push.glsl:", words]);
+    }
+    let gone = |text: String| text.replacen("const uint SHOW_HIT = 3;", "#define SHOW_HIT 3", 1);
+    let folder = folder("02_basic/push.glsl", gone);
+    let words = "02_basic: Rust has Show::Hit, but no shader says `const uint SHOW_HIT = 3;`";
+    shaders_refused(folder.path(), &[words]);
 }

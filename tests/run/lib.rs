@@ -1,8 +1,8 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
-pub mod exact;
 pub mod leaving;
 pub mod plot;
+pub mod primary_hits;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

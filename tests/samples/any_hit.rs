@@ -4,7 +4,7 @@ use common::app::Picture;
 use common::scene::{Model, Scene, Texture};
 use reference::Ray;
 
-use run::exact::{answer, rays, reference};
+use run::primary_hits::{answer, rays, reference};
 use run::{bits, golden, render};
 
 const NAME: &str = "03_any_hit";

@@ -2,7 +2,7 @@
 
 use common::scene::Scene;
 
-use run::exact::{answer, judge, rays, reference};
+use run::primary_hits::{answer, judge, rays, reference};
 use run::{bits, golden, render};
 
 const SIZE: &str = "240x150";

@@ -1,5 +1,6 @@
 //! 04_jitter_camera: where the rays go, what the filters weigh, and that the mean is and stays right.
 
+mod converging;
 mod mean;
 mod plots;
 mod points;
@@ -9,7 +10,7 @@ use common::scene::Scene;
 use glam::DVec3;
 
 use self::points::{Scrambling, Sequence, sample_point};
-use run::exact::{answer, judge, rays, reference};
+use run::primary_hits::{answer, judge, rays, reference};
 use run::{bits, golden, render};
 
 const NAME: &str = "04_jitter_camera";
@@ -273,59 +274,6 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
         println!("{sequence}: neighbours correlate by {most:.3} at most");
         assert!(most < 4.0 / (points.len() as f64).sqrt(), "{sequence}: {most}");
     }
-}
-
-#[test]
-fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
-    let reference = run(SMALL, 1024, &["seed=1"]);
-    let errors = |sequence: &str, scrambling: &str| {
-        let settings = [&format!("sequence={sequence}"), &format!("scrambling={scrambling}")];
-        [16, 64, 256]
-            .map(|frames| error(&run(SMALL, frames, &settings.map(|s| s as &str)), &reference))
-    };
-    let random = errors("random", "Owen");
-    println!("random: {random:.5?}");
-    // Independent samples: four times as many halve the error.
-    for pair in random.windows(2) {
-        assert!((1.7..2.4).contains(&(pair[0] / pair[1])), "random: {random:?}");
-    }
-    for (sequence, scrambling) in [("Halton", "rotation"), ("R2", "rotation"), ("Sobol", "Owen")] {
-        let even = errors(sequence, scrambling);
-        println!("{sequence}: {even:.5?}");
-        // At an edge the error of points in a pattern falls as N^-3/4 (Mitchell 1996): sixteen times as
-        // many divide it by eight, where random ones divide it by four.
-        assert!(even[0] / even[2] > 5.5, "{sequence}: {even:?}");
-        assert!(even[1] < random[1] / 2.0, "{sequence} {even:?}, random {random:?}");
-    }
-}
-
-#[test]
-fn errors_of_scrambled_pixels_cancel_and_shared_ones_do_not() {
-    let reference = run(SIZE, 256, &["seed=1", "filter=box"]);
-    let blocks = |scrambling: &str| {
-        let picture = run(SIZE, 4, &["filter=box", &format!("scrambling={scrambling}")]);
-        [1, 8].map(|side| error(&shrunk(&picture, side), &shrunk(&reference, side)))
-    };
-    let (shared, scrambled) = (blocks("none"), blocks("Owen"));
-    println!("shared {shared:.5?}, scrambled {scrambled:.5?}");
-    // The mean of 64 independent errors is an eighth of one.
-    assert!((6.0..10.0).contains(&(scrambled[0] / scrambled[1])), "{scrambled:?}");
-    assert!(shared[0] / shared[1] < 5.5, "{shared:?}");
-}
-
-/// Each square of pixels replaced by its mean; what does not fill a square is left out.
-fn shrunk(picture: &Picture, side: u32) -> Picture {
-    let (width, height) = (picture.width / side, picture.height / side);
-    let mean = |i: u32| {
-        let mut sum = [0.0; 4];
-        for j in 0..side * side {
-            let (x, y) = (i % width * side + j % side, i / width * side + j / side);
-            let pixel = picture.pixels[(y * picture.width + x) as usize];
-            sum = [0, 1, 2, 3].map(|c| sum[c] + pixel[c] / (side * side) as f32);
-        }
-        sum
-    };
-    Picture { width, height, pixels: (0..width * height).map(mean).collect() }
 }
 
 #[test]

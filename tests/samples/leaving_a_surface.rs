@@ -8,8 +8,8 @@ use glam::DVec3;
 use reference::Ray;
 use reference::scene::Scene as Exact;
 
-use run::exact::{answer, rays, reference};
 use run::leaving::{Leaving, Tally};
+use run::primary_hits::{answer, rays, reference};
 use run::{bits, golden, render};
 
 const NAME: &str = "26_leaving_a_surface";

@@ -1,6 +1,7 @@
 //! Every chapter, rendered headless and small, under validation: one module a chapter.
 
 mod any_hit;
+mod bands;
 mod basic;
 mod foundation;
 mod heightfield;
@@ -11,7 +12,6 @@ mod jitter_camera;
 mod leaving_a_surface;
 mod multi_closest_hit;
 mod reflection;
-mod scene_effects;
 mod settings;
 mod shadow_miss;
 mod solids;

@@ -8,8 +8,8 @@ use common::scene::{Light, Scene, Sun};
 use glam::{DVec3, Vec3};
 use reference::Ray;
 
-use run::exact::{answer, rays, reference};
 use run::leaving::{Leaving, Tally};
+use run::primary_hits::{answer, rays, reference};
 use run::{bits, golden, refused, render};
 
 const NAME: &str = "06_reflection";

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::scene::Scene as Exact;
 
-use run::exact::{answer, rays, reference};
+use run::primary_hits::{answer, rays, reference};
 use run::{bits, golden, render};
 
 const NAME: &str = "05_shadow_miss";

@@ -1,7 +1,7 @@
 //! 22_solids: every hit held to the exact solid, ties of planes and cutters, clips, and fog kept outside.
 
 mod clips;
-mod exact;
+mod counterpart;
 mod fog;
 mod hits;
 mod shadows;

@@ -4,8 +4,13 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use common::gpu::shader::{Shader, compile};
-use common::gpu::{Reflection, StructLayout};
-use common::scene::SHARED_STRUCTS;
+use common::gpu::{Known, Reflection, StructLayout};
+use common::scene::{CameraBasis, DirectionalLight, SceneAddresses};
+
+common::shader_struct! {
+    /// What every chapter from 02 on shares with its shaders.
+    struct Shared { scene: SceneAddresses, camera: CameraBasis, sun: DirectionalLight }
+}
 
 /// What files that are only included are called; everything else is a stage.
 const INCLUDED: &str = "glsl";
@@ -56,12 +61,13 @@ fn every_stage_compiles() {
 #[test]
 fn structures_are_the_same_in_rust_and_in_every_shader() {
     let mut seen = BTreeSet::new();
+    let known = Known::of::<Shared>();
     for stage in stages() {
         let reflection = Reflection::of(&stage.spirv).unwrap();
-        reflection.check(&stage.path, &SHARED_STRUCTS).unwrap();
+        reflection.check(&stage.path, known.structs()).unwrap();
         seen.extend(reflection.structs().into_iter().map(|(name, _)| name));
     }
-    for layout in SHARED_STRUCTS {
+    for layout in known.structs().iter().filter(|layout| layout.name != "Shared") {
         assert!(
             seen.contains(layout.name),
             "no shader has {}, so nothing was checked",
@@ -92,6 +98,24 @@ fn a_structure_that_differs_is_refused_by_name() {
     ] {
         let error = reflection.check("a.rchit", &[wrong]).unwrap_err().to_string();
         assert!(error.starts_with("a.rchit: ") && error.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn a_structure_at_an_address_that_rust_does_not_know_is_refused_by_name() {
+    let stage = compile("02_basic/shade.rchit").unwrap();
+    let reflection = Reflection::of(&stage.spirv).unwrap();
+    let known = Known::of::<SceneAddresses>();
+    reflection.check_addresses("a.rchit", known.structs()).unwrap();
+    let names: Vec<_> = known.structs().iter().map(|layout| layout.name).collect();
+    assert_eq!(names, ["SceneAddresses", "InstanceRecord", "Vertex", "MaterialRecord"]);
+    for missing in ["InstanceRecord", "Vertex", "MaterialRecord"] {
+        let rest: Vec<_> =
+            known.structs().iter().filter(|layout| layout.name != missing).copied().collect();
+        let error = reflection.check_addresses("a.rchit", &rest).unwrap_err().to_string();
+        let words = format!("a.rchit: the shader reads a {missing} through an address");
+        assert!(error.starts_with(&words), "{error}");
+        assert!(error.ends_with(&format!("Address<{missing}>")), "{error}");
     }
 }
 

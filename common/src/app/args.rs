@@ -105,7 +105,10 @@ impl Args {
     /// As [`Args::parse_for`].
     pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), Usage> {
         use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
-        let command = More::augment_args(Self::command().name(name));
+        let command = Self::command().name(name);
+        // Arguments of a sample's own would bring their own first line of the help.
+        let about = command.get_about().cloned().unwrap_or_default();
+        let command = More::augment_args(command).about(about);
         let matches = command.try_get_matches().and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);

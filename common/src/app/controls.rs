@@ -7,7 +7,8 @@ use anyhow::Result;
 use glam::{DVec3, Vec3};
 
 use super::chart::Chart;
-use crate::scene::Camera;
+use crate::gpu::ShaderEnum;
+use crate::scene::{Camera, Sun};
 use crate::usage::Usage;
 
 /// A control's value, borrowed from the sample, and what it may be.
@@ -38,18 +39,23 @@ pub trait Visit {
 
     /// Sees the camera; by default as the controls that a script can set.
     fn camera(&mut self, camera: &mut Camera) -> bool {
-        let mut degrees = camera.fov_y as f32;
-        let moved = self.visit("camera eye", Value::Point(&mut camera.eye))
-            | self.visit("camera target", Value::Point(&mut camera.target));
-        let zoomed = self.visit("field of view", Value::Slider(&mut degrees, 1.0..=150.0));
-        if zoomed {
-            camera.fov_y = f64::from(degrees);
-        }
-        moved | zoomed
+        visit_camera(self, camera)
     }
 
     /// Sees what the sample has found out; only the panel has room for it.
     fn chart(&mut self, _: &Chart) {}
+}
+
+/// Shows a camera as the controls that a script can set.
+fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool {
+    let mut degrees = camera.fov_y as f32;
+    let moved = visitor.visit("camera eye", Value::Point(&mut camera.eye))
+        | visitor.visit("camera target", Value::Point(&mut camera.target));
+    let zoomed = visitor.visit("field of view", Value::Slider(&mut degrees, 1.0..=150.0));
+    if zoomed {
+        camera.fov_y = f64::from(degrees);
+    }
+    moved | zoomed
 }
 
 /// What [`Sample::controls`](super::Sample::controls) declares its controls on.
@@ -85,8 +91,16 @@ impl<'a> Controls<'a> {
         self.visitor.visit(name, Value::Color(value))
     }
 
-    /// One of `options`; `value` is its position.
-    pub fn choice(&mut self, name: &str, value: &mut u32, options: &[&str]) -> bool {
+    /// One of the words of an enumeration.
+    pub fn choice<T: ShaderEnum>(&mut self, name: &str, value: &mut T) -> bool {
+        let mut number = (*value).into();
+        let changed = self.visitor.visit(name, Value::Choice(&mut number, T::LAYOUT.words));
+        *value = T::ALL[number as usize];
+        changed
+    }
+
+    /// One of words that only the program knows, held as its position among them.
+    pub fn one_of(&mut self, name: &str, value: &mut u32, options: &[&str]) -> bool {
         self.visitor.visit(name, Value::Choice(value, options))
     }
 
@@ -103,6 +117,12 @@ impl<'a> Controls<'a> {
     /// A camera: moved with the mouse in a window, by three controls elsewhere.
     pub fn camera(&mut self, camera: &mut Camera) -> bool {
         self.visitor.camera(camera)
+    }
+
+    /// A sun: two angles place it.
+    pub fn sun(&mut self, sun: &mut Sun) -> bool {
+        self.slider("sun azimuth", &mut sun.azimuth, 0.0..=360.0)
+            | self.slider("sun elevation", &mut sun.elevation, 0.0..=90.0)
     }
 
     /// A plot below the controls before it; nothing to set.
@@ -243,6 +263,20 @@ impl Visit for Settings<'_> {
         }
         set.is_some()
     }
+
+    /// Either point alone would do, but an eye that is its own target looks nowhere.
+    fn camera(&mut self, camera: &mut Camera) -> bool {
+        let moved = visit_camera(self, camera);
+        if moved && !camera.looks_somewhere() {
+            let eye = Value::Point(&mut camera.eye).text();
+            let line = format!(
+                "control 'camera eye' cannot be where 'camera target' is, at '{eye}': they take two \
+                 different points"
+            );
+            self.refused.get_or_insert(line);
+        }
+        moved
+    }
 }
 
 /// Sets one control of those that `declare` declares.
@@ -273,6 +307,22 @@ pub fn set_all(
     round(waiting, &mut declare)
 }
 
+/// As [`set_all`], but with one control at a value of its own: what that brings, as a preset does, undoes
+/// none of the others.
+///
+/// # Errors
+/// As [`set`].
+pub fn set_beside(
+    sets: &[(String, String)],
+    name: &str,
+    text: &str,
+    declare: impl FnMut(&mut Controls),
+) -> Result<(), Usage> {
+    let others = sets.iter().filter(|(other, _)| other != name).cloned();
+    let all: Vec<_> = others.chain([(name.to_owned(), text.to_owned())]).collect();
+    set_all(&all, declare)
+}
+
 /// Sets controls of different names.
 fn round(waiting: Vec<(&str, &str)>, declare: &mut impl FnMut(&mut Controls)) -> Result<(), Usage> {
     let mut settings = Settings { waiting, seen: Vec::new(), refused: None };
@@ -293,125 +343,4 @@ fn round(waiting: Vec<(&str, &str)>, declare: &mut impl FnMut(&mut Controls)) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[derive(Default)]
-    struct Sample {
-        height: f32,
-        depth: u32,
-        on: bool,
-        show: u32,
-        tint: Vec3,
-        camera: Camera,
-    }
-
-    impl Sample {
-        fn controls(&mut self, c: &mut Controls) {
-            c.slider("height", &mut self.height, 0.0..=10.0);
-            c.integer("depth", &mut self.depth, 0..=8);
-            c.checkbox("shadows", &mut self.on);
-            c.choice("show", &mut self.show, &["picture", "ray direction"]);
-            c.color("tint", &mut self.tint);
-            c.camera(&mut self.camera);
-        }
-    }
-
-    fn set_on(sample: &mut Sample, name: &str, text: &str) -> Result<(), String> {
-        set(name, text, |c| sample.controls(c)).map_err(|usage| usage.0)
-    }
-
-    #[test]
-    fn every_control_can_be_set_to_what_the_list_says_it_is() {
-        let mut sample = Sample::default();
-        for control in list(|c| sample.controls(c)) {
-            set_on(&mut sample, &control.name, &control.value).unwrap();
-        }
-        set_on(&mut sample, "show", "ray direction").unwrap();
-        set_on(&mut sample, "tint", "0.5, 0.25,1").unwrap();
-        set_on(&mut sample, "camera eye", "1e6,2,-3.5").unwrap();
-        set_on(&mut sample, "field of view", "30").unwrap();
-        assert_eq!((sample.show, sample.tint), (1, Vec3::new(0.5, 0.25, 1.0)));
-        assert_eq!((sample.camera.eye, sample.camera.fov_y), (DVec3::new(1e6, 2.0, -3.5), 30.0));
-    }
-
-    /// A preset, what it brings, and a control that is there for one preset alone, declared before it.
-    #[derive(Clone, Copy, Debug, Default, PartialEq)]
-    struct Presets {
-        preset: u32,
-        height: f32,
-        extra: f32,
-    }
-
-    impl Presets {
-        fn controls(&mut self, c: &mut Controls) {
-            if self.preset == 1 {
-                c.slider("extra", &mut self.extra, 0.0..=10.0);
-            }
-            if c.choice("preset", &mut self.preset, &["low", "high"]) {
-                self.height = [1.0, 9.0][self.preset as usize];
-            }
-            c.slider("height", &mut self.height, 0.0..=10.0);
-        }
-
-        fn with(sets: &[&str]) -> Result<Self, String> {
-            let pair = |set: &&str| {
-                let (name, text) = set.split_once('=').unwrap();
-                (name.to_owned(), text.to_owned())
-            };
-            let sets: Vec<_> = sets.iter().map(pair).collect();
-            let mut presets = Self::default();
-            set_all(&sets, |c| presets.controls(c)).map_err(|usage| usage.0)?;
-            Ok(presets)
-        }
-    }
-
-    #[test]
-    fn the_order_of_settings_does_not_matter() {
-        let expected = Ok(Presets { preset: 1, height: 5.0, extra: 3.0 });
-        let [a, b, c] = ["preset=high", "height=5", "extra=3"];
-        for sets in [[a, b, c], [a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
-            assert_eq!(Presets::with(&sets), expected, "{sets:?}");
-        }
-        assert_eq!(Presets::with(&["height=5", "preset=high"]).unwrap().height, 5.0);
-        assert_eq!(Presets::with(&["preset=high"]).unwrap().height, 9.0);
-        assert_eq!(Presets::with(&[]), Ok(Presets::default()));
-    }
-
-    #[test]
-    fn a_name_given_again_begins_another_round() {
-        let again = Presets::with(&["height=5", "preset=high", "preset=low"]).unwrap();
-        assert_eq!((again.preset, again.height), (0, 1.0));
-        let last = Presets::with(&["height=5", "height=6"]).unwrap();
-        assert_eq!(last.height, 6.0);
-        // Whatever stands in the way of the rest is told.
-        let wrong = Presets::with(&["height=11", "height=6"]).unwrap_err();
-        assert!(wrong.contains("'height' cannot be '11'"), "{wrong}");
-        let absent = Presets::with(&["height=5", "extra=3"]).unwrap_err();
-        assert_eq!(absent, "no control 'extra'; there is preset, height");
-    }
-
-    #[test]
-    fn wrong_names_and_values_say_what_there_is() {
-        let mut sample = Sample::default();
-        let error = set_on(&mut sample, "bogus", "1").unwrap_err();
-        assert!(error.contains("no control 'bogus'; there is height, depth, shadows"), "{error}");
-        let wrong = [
-            ("height", "10.5", "0 to 10"),
-            ("height", "NaN", "0 to 10"),
-            ("depth", "9", "0 to 8"),
-            ("depth", "-1", "0 to 8"),
-            ("shadows", "maybe", "on, off"),
-            ("show", "pictures", "picture, ray direction"),
-            ("tint", "1,1", "r,g,b"),
-            ("tint", "1,1,2", "0 to 1"),
-            ("camera eye", "1,2,inf", "x,y,z"),
-            ("camera eye", "1,2,1e39", "x,y,z"),
-        ];
-        for (name, text, possible) in wrong {
-            let error = set_on(&mut sample, name, text).unwrap_err();
-            assert!(error.contains(&format!("'{name}'")) && error.contains(possible), "{error}");
-        }
-        assert_eq!(sample.height, 0.0);
-    }
-}
+mod tests;

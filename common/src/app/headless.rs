@@ -1,5 +1,6 @@
 //! A run without a window: set controls, render frames, write picture and report.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -7,12 +8,13 @@ use anyhow::{Result, bail};
 use ash::vk;
 
 use super::args::Args;
+use super::bands::Bands;
 use super::{
-    Format, Frame, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, compile_for,
-    controls, output,
+    Format, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, compile_for, controls,
+    output,
 };
 use crate::files;
-use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer, barrier};
+use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer};
 use crate::usage::Usage;
 
 /// Renders `args.frames` frames of a sample and writes what `args` asks for.
@@ -44,25 +46,28 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
 
     let image = Image::storage(&gpu, "picture", args.size)?;
     let timer = Timer::new(&gpu)?;
-    let render = |sample: &mut S, index| {
-        gpu.submit(|cmd| {
-            timer.start(cmd);
-            sample.render(&Frame { gpu: &gpu, cmd, image: &image, index })?;
-            timer.stop(cmd);
-            barrier::trace_to_trace(&gpu, cmd);
-            Ok(())
-        })?;
-        timer.milliseconds()
+    let render = |sample: &mut S, bands: &mut Bands, like_the_last, index| -> Result<f64> {
+        if index == 0 {
+            sample.changed(&gpu)?;
+        }
+        bands.begin(args.size, like_the_last);
+        let mut sum = 0.0;
+        while let Some(milliseconds) = bands.trace(sample, (&gpu, &timer), (&image, index))? {
+            sum += milliseconds;
+        }
+        Ok(sum)
     };
     let comparison = match comparison {
         None => None,
         Some((control, values)) => {
             let turns = u64::from(args.frames) * (values.len() as u64 + 1) + values.len() as u64;
             let progress = Progress::new(turns, "frames");
+            // What a picture costs is known of each value.
+            let mut bands = HashMap::<_, Bands>::new();
             Some(compare::compare(&control, &values, args.frames, |value| {
-                controls::set(&control, value, |c| sample.controls(c))?;
+                controls::set_beside(&args.sets, &control, value, |c| sample.controls(c))?;
                 progress.step();
-                render(&mut sample, 0)
+                render(&mut sample, bands.entry(value.to_owned()).or_default(), true, 0)
             })?)
         }
     };
@@ -70,8 +75,11 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let mut first_frame = Duration::ZERO;
     let frames = if comparison.is_some() { 1 } else { args.frames };
     let progress = Progress::new(frames.into(), "frames");
+    let mut bands = Bands::default();
+    let mut band_times = Vec::new();
     for index in 0..frames {
-        times.push(render(&mut sample, index)?);
+        times.push(render(&mut sample, &mut bands, true, index)?);
+        band_times.extend(&bands.times);
         if index == 0 {
             first_frame = start.elapsed();
         }
@@ -106,6 +114,8 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             height: args.size.height,
             frames: args.frames,
             gpu_milliseconds: Milliseconds::of(&times),
+            bands: bands.times.len(),
+            band_milliseconds: Milliseconds::of(&band_times),
             primary_rays_per_second: if median > 0.0 { pixels / median * 1e3 } else { 0.0 },
             first_frame_milliseconds: first_frame.as_secs_f64() * 1e3,
             acceleration_structure_milliseconds: statistics.build_time.as_secs_f64() * 1e3,
@@ -175,4 +185,71 @@ pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
         "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",
         gpu.name
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use clap::Parser;
+
+    use super::*;
+    use crate::app::{Controls, Frame};
+    use crate::gpu::Requirements;
+
+    /// A sample that notes what it was asked to build, and of which frames it was asked for.
+    #[derive(Default)]
+    struct Noting {
+        preset: u32,
+        height: u32,
+    }
+
+    static NOTES: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+    impl Sample for Noting {
+        fn requirements() -> Requirements {
+            Requirements::ray_tracing()
+        }
+
+        fn new(_: &Gpu, _: &Setup) -> Result<Self> {
+            Ok(Self::default())
+        }
+
+        fn controls(&mut self, c: &mut Controls) {
+            if c.integer("preset", &mut self.preset, 0..=9) {
+                self.height = 10 * self.preset;
+            }
+            c.integer("height", &mut self.height, 0..=99);
+        }
+
+        fn changed(&mut self, _: &Gpu) -> Result<()> {
+            NOTES.lock().unwrap().push(format!("build {}, {}", self.preset, self.height));
+            Ok(())
+        }
+
+        fn render(&mut self, frame: &Frame) -> Result<()> {
+            NOTES.lock().unwrap().push(format!("frame {}", frame.index));
+            Ok(())
+        }
+    }
+
+    fn notes(args: &[&str]) -> Vec<String> {
+        let args = ["test", "--headless", "--size", "8x8"].iter().chain(args);
+        headless::<Noting>("test", &Args::try_parse_from(args).unwrap()).unwrap();
+        let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
+        // A frame is asked for once for each of its bands.
+        notes.dedup();
+        notes
+    }
+
+    #[test]
+    fn what_settings_ask_for_is_built_once_before_the_first_frame() {
+        assert_eq!(notes(&[]), ["build 0, 0", "frame 0"]);
+        for sets in [["height=3", "preset=2"], ["preset=2", "height=3"]] {
+            let built = notes(&["--set", sets[0], "--set", sets[1], "--frames", "2"]);
+            assert_eq!(built, ["build 2, 3", "frame 0", "frame 1"], "{sets:?}");
+        }
+        let compared = notes(&["--compare", "preset=1|2"]);
+        assert_eq!(compared[..4], ["build 1, 10", "frame 0", "build 2, 20", "frame 0"]);
+    }
 }

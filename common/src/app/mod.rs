@@ -1,11 +1,13 @@
 //! A program around a sample: arguments, controls, a headless run or a window, picture and report.
 
 mod args;
+mod bands;
 pub mod chart;
 pub mod compare;
 pub mod compile_for;
 pub mod controls;
 mod headless;
+mod lighting;
 pub mod output;
 mod picture;
 mod progress;
@@ -22,6 +24,7 @@ use ash::vk;
 pub use args::Args;
 pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};
+pub use lighting::Lighting;
 pub use picture::{Format, Picture};
 pub use progress::Progress;
 pub use report::{Milliseconds, Report};
@@ -30,6 +33,7 @@ pub use report::{Milliseconds, Report};
 pub use crate::gpu::shader::compile as compile_shader;
 
 use crate::gpu::{self, Gpu, Image, Requirements};
+use crate::scene::text::shown;
 use crate::scene::{Scene, SceneOptions};
 use crate::usage::Usage;
 
@@ -46,25 +50,32 @@ pub trait Sample: Sized {
     /// If the device or a file is not up to it.
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self>;
 
-    /// Declares the controls.
+    /// Declares the controls. One that brings values of others, as a preset does, sets those; all else that
+    /// a change causes belongs in [`Sample::changed`].
     fn controls(&mut self, controls: &mut Controls);
 
-    /// Records one frame into `frame.cmd`, writing `frame.image`.
+    /// Builds what the controls ask for: called once before the first frame, when all settings are made,
+    /// and once before each frame that shows other values.
     ///
     /// # Errors
-    /// If something has to be rebuilt and cannot be.
+    /// If it cannot be built.
+    fn changed(&mut self, _: &Gpu) -> Result<()> {
+        Ok(())
+    }
+
+    /// Records one band of a frame into `frame.cmd`, writing `frame.area` of `frame.image`.
+    ///
+    /// A frame is as many bands as the device needs to answer in time: what all of them share is to be
+    /// made once.
+    ///
+    /// # Errors
+    /// If something is missing and cannot be made.
     fn render(&mut self, frame: &Frame) -> Result<()>;
 
     /// Whether further frames of an unchanged view improve the picture, as with accumulation.
     ///
     /// Without it, a window at rest renders nothing.
     fn accumulates(&self) -> bool {
-        false
-    }
-
-    /// Whether something is being made in the background that will change the picture: a window goes on
-    /// asking for frames until it is there.
-    fn is_busy(&self) -> bool {
         false
     }
 
@@ -81,8 +92,6 @@ pub trait Sample: Sized {
 pub struct Setup {
     /// How acceleration structures are built: in spatial order, unless `--unordered` says otherwise.
     pub options: SceneOptions,
-    /// Whether someone is watching, who would rather see the last picture than wait for the next.
-    pub interactive: bool,
     scene: Option<PathBuf>,
     scene_taken: Cell<bool>,
 }
@@ -91,8 +100,7 @@ impl Setup {
     /// The setup that arguments ask for.
     pub fn new(args: &Args) -> Self {
         let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
-        let interactive = !args.is_headless();
-        Self { options, interactive, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+        Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
     }
 
     /// The file that `--scene` names, for a sample that takes more than models.
@@ -105,10 +113,15 @@ impl Setup {
     /// that it cannot be shown, goes to standard error.
     ///
     /// # Errors
-    /// If a file is missing or wrong.
+    /// If a file is missing or wrong; on a scene file of chapter 25, [`Usage`].
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
         self.scene_taken.set(true);
         let Some(path) = &self.scene else { return own() };
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+            let what =
+                "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";
+            return Err(Usage(format!("{}: {what}", shown(path))).into());
+        }
         let scene = Scene::open(path)?;
         output::warn(&scene.model.warnings);
         Ok(scene)
@@ -131,6 +144,8 @@ pub struct Frame<'a> {
     pub cmd: vk::CommandBuffer,
     /// Where the picture goes: linear RGBA, four 32-bit floats, layout `GENERAL`.
     pub image: &'a Image,
+    /// The band of it that is to be traced: whole rows.
+    pub area: vk::Rect2D,
     /// Frames since anything changed: 0 is the first after a start, a resize or a moved control.
     pub index: u32,
 }
@@ -139,6 +154,11 @@ impl Frame<'_> {
     /// Width over height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.image.extent.width) / f64::from(self.image.extent.height)
+    }
+
+    /// Whether no band of this frame was traced yet.
+    pub fn is_first_band(&self) -> bool {
+        self.area.offset.y == 0
     }
 }
 

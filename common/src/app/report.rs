@@ -27,6 +27,10 @@ pub struct Report {
     pub frames: u32,
     /// The device's time for a frame.
     pub gpu_milliseconds: Milliseconds,
+    /// Bands of rows that the last frame was traced in.
+    pub bands: usize,
+    /// The device's time for a band, of all frames.
+    pub band_milliseconds: Milliseconds,
     /// Primary rays a second: pixels over the median time.
     pub primary_rays_per_second: f64,
     /// From the start of the process to the end of the first frame.

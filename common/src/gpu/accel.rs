@@ -4,43 +4,15 @@
 //! the structure and one for the scratch. Compaction copies a structure into a buffer of the size that
 //! it turned out to need; an update moves primitives without changing which there are.
 
+mod compaction;
+
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
+use super::geometry::{self, Geometry};
 use super::{Buffer, Gpu, barrier};
-
-/// What a bottom level is built from.
-#[derive(Clone, Copy)]
-pub enum Geometry {
-    /// Indexed triangles: three `u32` each, over positions of three `f32`.
-    Triangles {
-        /// Address of the first position.
-        vertices: vk::DeviceAddress,
-        /// Bytes from one position to the next.
-        vertex_stride: u64,
-        /// How many positions there are.
-        vertex_count: u32,
-        /// Address of the first index.
-        indices: vk::DeviceAddress,
-        /// How many triangles there are.
-        count: u32,
-        /// Never call an any-hit shader for it.
-        opaque: bool,
-        /// Call it at most once a triangle and ray, even where the device holds a triangle twice.
-        no_duplicate_any_hit: bool,
-    },
-    /// Axis-aligned boxes for an intersection shader: six `f32` each, the low corner first.
-    Aabbs {
-        /// Address of the first box.
-        boxes: vk::DeviceAddress,
-        /// How many boxes there are.
-        count: u32,
-        /// Never call an any-hit shader for it.
-        opaque: bool,
-    },
-}
 
 /// What a build may cost and allow later.
 #[derive(Clone, Copy, Default)]
@@ -77,11 +49,8 @@ impl AccelerationStructure {
         input: &[Geometry],
         options: BuildOptions,
     ) -> Result<Self> {
-        let geometries: Vec<_> = input.iter().map(geometry).collect();
-        let counts: Vec<u32> = input
-            .iter()
-            .map(|&(Geometry::Triangles { count, .. } | Geometry::Aabbs { count, .. })| count)
-            .collect();
+        let geometries: Vec<_> = input.iter().map(Geometry::described).collect();
+        let counts: Vec<u32> = input.iter().map(Geometry::count).collect();
         let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         let limit = gpu.limits.max_primitive_count;
         ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
@@ -110,7 +79,14 @@ impl AccelerationStructure {
             gpu.name
         );
         let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
-        Self::build(gpu, name, level, &[instance_geometry(instances.address)], &[count], options)
+        Self::build(
+            gpu,
+            name,
+            level,
+            &[geometry::of_instances(instances.address)],
+            &[count],
+            options,
+        )
     }
 
     /// Moves the primitives of a bottom level that was built `updatable`, recording into `cmd`.
@@ -126,11 +102,8 @@ impl AccelerationStructure {
         input: &[Geometry],
         scratch: &Buffer,
     ) -> Result<()> {
-        let geometries: Vec<_> = input.iter().map(geometry).collect();
-        let counts: Vec<u32> = input
-            .iter()
-            .map(|&(Geometry::Triangles { count, .. } | Geometry::Aabbs { count, .. })| count)
-            .collect();
+        let geometries: Vec<_> = input.iter().map(Geometry::described).collect();
+        let counts: Vec<u32> = input.iter().map(Geometry::count).collect();
         let level = vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL;
         self.update(cmd, level, &geometries, &counts, scratch)
     }
@@ -147,7 +120,7 @@ impl AccelerationStructure {
         scratch: &Buffer,
     ) -> Result<()> {
         let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
-        self.update(cmd, level, &[instance_geometry(instances.address)], &[count], scratch)
+        self.update(cmd, level, &[geometry::of_instances(instances.address)], &[count], scratch)
     }
 
     /// A scratch buffer for updates.
@@ -256,57 +229,6 @@ impl AccelerationStructure {
             gpu: gpu.clone(),
         })
     }
-
-    fn compacted(self, level: vk::AccelerationStructureTypeKHR) -> Result<Self> {
-        let gpu = &self.gpu;
-        let size = self.compacted_size()?;
-        let mut small = Self::empty(gpu, &self.name, level, size)?;
-        small.updatable = self.updatable;
-        small.update_scratch = self.update_scratch;
-        let info = vk::CopyAccelerationStructureInfoKHR::default()
-            .src(self.handle)
-            .dst(small.handle)
-            .mode(vk::CopyAccelerationStructureModeKHR::COMPACT);
-        gpu.submit(|cmd| {
-            // SAFETY: both structures outlive the submission; the source allows compaction.
-            unsafe { gpu.acceleration_structure.cmd_copy_acceleration_structure(cmd, &info) };
-            barrier::between_builds(gpu, cmd);
-            barrier::build_to_trace(gpu, cmd);
-            Ok(())
-        })?;
-        Ok(small)
-    }
-
-    fn compacted_size(&self) -> Result<u64> {
-        let gpu = &self.gpu;
-        let info = vk::QueryPoolCreateInfo::default()
-            .query_type(vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR)
-            .query_count(1);
-        // SAFETY: the pool is destroyed below, after the submission is done.
-        unsafe {
-            let pool = gpu.device.create_query_pool(&info, None)?;
-            let mut size = [0u64];
-            let result = gpu
-                .submit(|cmd| {
-                    gpu.device.cmd_reset_query_pool(cmd, pool, 0, 1);
-                    gpu.acceleration_structure.cmd_write_acceleration_structures_properties(
-                        cmd,
-                        &[self.handle],
-                        vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR,
-                        pool,
-                        0,
-                    );
-                    Ok(())
-                })
-                .and_then(|()| {
-                    let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-                    Ok(gpu.device.get_query_pool_results(pool, 0, &mut size, flags)?)
-                });
-            gpu.device.destroy_query_pool(pool, None);
-            result?;
-            Ok(size[0])
-        }
-    }
 }
 
 impl Drop for AccelerationStructure {
@@ -352,61 +274,4 @@ fn record_build(
     }
     barrier::between_builds(gpu, cmd);
     barrier::build_to_trace(gpu, cmd);
-}
-
-fn geometry(input: &Geometry) -> vk::AccelerationStructureGeometryKHR<'static> {
-    let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
-    let (kind, data, opaque, once) = match *input {
-        Geometry::Triangles {
-            vertices,
-            vertex_stride,
-            vertex_count,
-            indices,
-            opaque,
-            no_duplicate_any_hit,
-            ..
-        } => (
-            vk::GeometryTypeKHR::TRIANGLES,
-            vk::AccelerationStructureGeometryDataKHR {
-                triangles: vk::AccelerationStructureGeometryTrianglesDataKHR::default()
-                    .vertex_format(vk::Format::R32G32B32_SFLOAT)
-                    .vertex_data(address(vertices))
-                    .vertex_stride(vertex_stride)
-                    .max_vertex(vertex_count.saturating_sub(1))
-                    .index_type(vk::IndexType::UINT32)
-                    .index_data(address(indices)),
-            },
-            opaque,
-            no_duplicate_any_hit,
-        ),
-        Geometry::Aabbs { boxes, opaque, .. } => (
-            vk::GeometryTypeKHR::AABBS,
-            vk::AccelerationStructureGeometryDataKHR {
-                aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
-                    .data(address(boxes))
-                    .stride(size_of::<vk::AabbPositionsKHR>() as u64),
-            },
-            opaque,
-            false,
-        ),
-    };
-    let mut flags = vk::GeometryFlagsKHR::empty();
-    if opaque {
-        flags |= vk::GeometryFlagsKHR::OPAQUE;
-    }
-    if once {
-        flags |= vk::GeometryFlagsKHR::NO_DUPLICATE_ANY_HIT_INVOCATION;
-    }
-    vk::AccelerationStructureGeometryKHR::default().geometry_type(kind).geometry(data).flags(flags)
-}
-
-fn instance_geometry(
-    instances: vk::DeviceAddress,
-) -> vk::AccelerationStructureGeometryKHR<'static> {
-    let data = vk::DeviceOrHostAddressConstKHR { device_address: instances };
-    vk::AccelerationStructureGeometryKHR::default()
-        .geometry_type(vk::GeometryTypeKHR::INSTANCES)
-        .geometry(vk::AccelerationStructureGeometryDataKHR {
-            instances: vk::AccelerationStructureGeometryInstancesDataKHR::default().data(data),
-        })
 }

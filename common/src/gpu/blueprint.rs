@@ -4,7 +4,15 @@ use anyhow::Result;
 use ash::{Device, khr, vk};
 use serde::{Deserialize, Serialize};
 
-use super::pipeline::STAGES;
+/// The stages that a push constant or descriptor is visible in.
+pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
+        | vk::ShaderStageFlags::MISS_KHR.as_raw()
+        | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
+        | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
+        | vk::ShaderStageFlags::INTERSECTION_KHR.as_raw()
+        | vk::ShaderStageFlags::CALLABLE_KHR.as_raw(),
+);
 
 /// A ray tracing pipeline before any driver has seen it. Vulkan's enumerations and flags are their numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Op, StorageClass};
 use serde::Serialize;
 
-use super::layout::Reflection;
+use super::reflection::Reflection;
 
 /// A module in figures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

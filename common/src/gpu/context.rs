@@ -4,25 +4,23 @@
 //! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
 
-use anyhow::{Context as _, Result, anyhow};
+use anyhow::{Context as _, Result};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
-use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
-use super::blueprint::Blueprint;
 use super::device::{self, Candidate};
-use super::executable::Executable;
+use super::instance::{self, WindowHandles};
 use super::layout::StructLayout;
 use super::limits::Limits;
 use super::requirements::Requirements;
-use super::validation::{self, Messages};
+use super::statistics::Statistics;
+use super::validation::Messages;
 
 /// How a [`Gpu`] shall be made.
 #[derive(Clone, Default)]
@@ -35,15 +33,6 @@ pub struct GpuOptions<'a> {
     pub validate: bool,
     /// The window to draw to, if any: the device must have a queue that can.
     pub window: Option<WindowHandles>,
-}
-
-/// A window as its system knows it. It must outlive whatever is made from it.
-#[derive(Clone, Copy)]
-pub struct WindowHandles {
-    /// The connection to the window system.
-    pub display: RawDisplayHandle,
-    /// The window.
-    pub window: RawWindowHandle,
 }
 
 /// A shared handle to the device and all that belongs to it.
@@ -86,30 +75,13 @@ pub struct GpuContext {
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     /// How many pipelines are being made by other threads.
     pub(super) building: AtomicUsize,
+    /// How many they have made.
+    pub(super) built: AtomicUsize,
     complaints: Mutex<Vec<String>>,
     statistics: Mutex<Statistics>,
     shared_structs: Mutex<Vec<StructLayout>>,
-    command_pool: Mutex<vk::CommandPool>,
+    pub(super) command_pool: Mutex<vk::CommandPool>,
     debug: Option<Debug>,
-}
-
-/// What has been built on the device so far, for the report.
-#[derive(Clone, Debug, Default)]
-pub struct Statistics {
-    /// Host time of acceleration structure builds.
-    pub build_time: Duration,
-    /// Bytes of all acceleration structures built.
-    pub acceleration_structure_bytes: u64,
-    /// Host time of compiling shaders and making pipelines.
-    pub pipeline_time: Duration,
-    /// Shader stages compiled, by path below `shaders/`.
-    pub stages: Vec<String>,
-    /// Shader groups in all pipelines.
-    pub groups: usize,
-    /// What every pipeline was made from, in the order in which they were made.
-    pub blueprints: Vec<Arc<Blueprint>>,
-    /// What the driver's compiler says of the last pipeline, where it was wished for and does.
-    pub executables: Vec<Executable>,
 }
 
 struct Debug {
@@ -125,49 +97,16 @@ impl Deref for Gpu {
     }
 }
 
-/// Loads the Vulkan loader: the system's, or the library that `VULKAN_LOADER` names.
-///
-/// # Errors
-/// If there is none, with what to install.
-pub fn load() -> Result<Entry> {
-    let path = std::env::var_os("VULKAN_LOADER");
-    // SAFETY: the Vulkan loader's initialisation has no preconditions.
-    let entry = unsafe {
-        match &path {
-            Some(path) => Entry::load_from(path),
-            None => Entry::load(),
-        }
-    };
-    entry.map_err(|error| {
-        anyhow!("no Vulkan loader ({error}): run ./setup, or install your system's libvulkan")
-    })
-}
-
-/// One line a device: what it is, and what it lacks for `wanted`.
-///
-/// # Errors
-/// If there is no Vulkan.
-pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
-    let entry = load()?;
-    let (instance, _) = create_instance(&entry, None, None)?;
-    let candidates = device::candidates(&instance, wanted);
-    // SAFETY: nothing has been made from this instance.
-    unsafe { instance.destroy_instance(None) };
-    let candidates = candidates?;
-    device::ensure_some(&candidates)?;
-    Ok(candidates.iter().map(Candidate::line).collect())
-}
-
 impl Gpu {
     /// Creates an instance, chooses a device and opens it with just what is asked for.
     ///
     /// # Errors
     /// If there is no loader, no suitable device, or no validation layer where one is asked for.
     pub fn new(options: &GpuOptions) -> Result<Self> {
-        let entry = load()?;
+        let entry = instance::load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
-            create_instance(&entry, messages.as_deref(), options.window.as_ref())?;
+            instance::create(&entry, messages.as_deref(), options.window.as_ref())?;
         let chosen = device::candidates(&instance, &options.requirements).and_then(|mut found| {
             if let Some(window) = &options.window {
                 device::require_presentation(&entry, &instance, window, &mut found)?;
@@ -245,6 +184,7 @@ impl Gpu {
             is_watched,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             building: AtomicUsize::new(0),
+            built: AtomicUsize::new(0),
             complaints: Mutex::default(),
             statistics: Mutex::default(),
             shared_structs: Mutex::default(),
@@ -276,75 +216,6 @@ impl Gpu {
         messenger.map_or_else(Arc::default, |(_, _, messages)| messages.clone())
     }
 
-    /// Records commands with `record`, submits them, and waits until the device has done them.
-    ///
-    /// # Errors
-    /// If recording or the device fails.
-    pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
-        self.submit_between(vk::Semaphore::null(), vk::Semaphore::null(), record)
-    }
-
-    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end;
-    /// either may be null.
-    ///
-    /// # Errors
-    /// As [`Gpu::submit`].
-    pub fn submit_between<R>(
-        &self,
-        before: vk::Semaphore,
-        after: vk::Semaphore,
-        record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
-    ) -> Result<R> {
-        let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
-        let info =
-            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: the pool is ours, and every handle below is alive until the wait has ended.
-        unsafe {
-            let cmd = self.device.allocate_command_buffers(&info)?[0];
-            let begin = vk::CommandBufferBeginInfo::default()
-                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-            self.device.begin_command_buffer(cmd, &begin)?;
-            let result = record(cmd);
-            self.device.end_command_buffer(cmd)?;
-            let done = if result.is_ok() { self.run(cmd, before, after) } else { Ok(()) };
-            self.device.free_command_buffers(pool, &[cmd]);
-            done?;
-            result
-        }
-    }
-
-    fn run(
-        &self,
-        cmd: vk::CommandBuffer,
-        before: vk::Semaphore,
-        after: vk::Semaphore,
-    ) -> Result<()> {
-        let semaphores = [before, after].map(|semaphore| {
-            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)
-        });
-        let [before, after] =
-            semaphores.each_ref().map(|info| match info.semaphore == vk::Semaphore::null() {
-                true => &[][..],
-                false => std::slice::from_ref(info),
-            });
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default()
-            .wait_semaphore_infos(before)
-            .command_buffer_infos(&buffers)
-            .signal_semaphore_infos(after)];
-        // SAFETY: cmd is recorded; the fence is destroyed after the wait.
-        unsafe {
-            let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
-            let done = self
-                .device
-                .queue_submit2(self.queue, &submit, fence)
-                .and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
-            self.device.destroy_fence(fence, None);
-            done.context("the device failed while it worked")
-        }
-    }
-
     /// Declares structures that shaders find by address: every pipeline made from now on is held to
     /// them, as a wrong offset there makes a driver follow a wrong address.
     pub fn share_structs(&self, layouts: &[StructLayout]) {
@@ -361,6 +232,11 @@ impl Gpu {
     /// Whether a pipeline is being made by another thread: the picture will change once it is there.
     pub fn is_building(&self) -> bool {
         self.building.load(Ordering::Relaxed) > 0
+    }
+
+    /// How many pipelines other threads have made and handed over.
+    pub fn built(&self) -> usize {
+        self.built.load(Ordering::Relaxed)
     }
 
     /// Keeps what went wrong without stopping anything, for whoever watches.
@@ -386,61 +262,6 @@ impl Gpu {
     /// Bytes of device memory in use, buffers and images together.
     pub fn allocated_bytes(&self) -> u64 {
         self.allocator.lock().map_or(0, |a| a.generate_report().total_allocated_bytes)
-    }
-}
-
-pub(super) fn create_instance(
-    entry: &Entry,
-    messages: Option<&Messages>,
-    window: Option<&WindowHandles>,
-) -> Result<(Instance, bool)> {
-    // SAFETY: the loader is alive.
-    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
-        "the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's \
-             driver",
-    )?;
-    let has_debug_utils =
-        offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
-    let mut extensions = Vec::new();
-    if let Some(window) = window {
-        let needed = ash_window::enumerate_required_extensions(window.display)
-            .context("Vulkan does not know this window system")?;
-        extensions.extend_from_slice(needed);
-    }
-    if has_debug_utils || messages.is_some() {
-        extensions.push(ext::debug_utils::NAME.as_ptr());
-    }
-    let mut layers: Vec<*const std::ffi::c_char> = Vec::new();
-    let application = vk::ApplicationInfo::default()
-        .application_name(c"ray tracing")
-        .api_version(vk::API_VERSION_1_3);
-    let mut features =
-        vk::ValidationFeaturesEXT::default().enabled_validation_features(&validation::ENABLED);
-    let mut messenger;
-    if messages.is_some() {
-        layers.push(validation::LAYER.as_ptr());
-        extensions.extend(validation::EXTENSIONS.map(CStr::as_ptr));
-    }
-    let mut info = vk::InstanceCreateInfo::default()
-        .application_info(&application)
-        .enabled_layer_names(&layers)
-        .enabled_extension_names(&extensions);
-    if let Some(messages) = messages {
-        messenger = messages.messenger_info();
-        info = info.push_next(&mut features).push_next(&mut messenger);
-    }
-    // SAFETY: every name and structure of the chain lives until the call returns.
-    let instance = unsafe { entry.create_instance(&info, None) };
-    match instance {
-        Ok(instance) => Ok((instance, has_debug_utils || messages.is_some())),
-        Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => Err(anyhow!(
-            "no Vulkan driver: run ./setup to install a software driver with ray tracing, or install \
-             your GPU's driver"
-        )),
-        Err(vk::Result::ERROR_EXTENSION_NOT_PRESENT) if window.is_some() => Err(anyhow!(
-            "Vulkan cannot draw to this window system: add --headless to render without a window"
-        )),
-        Err(error) => Err(error).context("cannot create a Vulkan instance"),
     }
 }
 

@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use anyhow::{Context, Result, bail, ensure};
 use ash::{Device, Entry, Instance, khr, vk};
 
-use super::context::WindowHandles;
+use super::instance::{self, WindowHandles};
 use super::requirements::{Features, Requirements};
 use crate::usage::Usage;
 
@@ -209,6 +209,21 @@ pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candida
     }
 }
 
+/// One line a device: what it is, and what it lacks for `wanted`.
+///
+/// # Errors
+/// If there is no Vulkan.
+pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
+    let entry = instance::load()?;
+    let (instance, _) = instance::create(&entry, None, None)?;
+    let found = candidates(&instance, wanted);
+    // SAFETY: nothing has been made from this instance.
+    unsafe { instance.destroy_instance(None) };
+    let found = found?;
+    ensure_some(&found)?;
+    Ok(found.iter().map(Candidate::line).collect())
+}
+
 /// Opens a device with one queue, and with just the features and extensions that are asked for.
 ///
 /// # Errors
@@ -239,64 +254,4 @@ pub fn create(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn candidate(
-        index: usize,
-        name: &str,
-        kind: vk::PhysicalDeviceType,
-        missing: &[&str],
-    ) -> Candidate {
-        Candidate {
-            handle: vk::PhysicalDevice::null(),
-            index,
-            name: name.to_owned(),
-            driver: "driver 1.0".to_owned(),
-            kind,
-            queue_family: Some(0),
-            graphics: true,
-            offered: Features::default(),
-            missing: missing.iter().map(|&m| m.to_owned()).collect(),
-        }
-    }
-
-    fn three() -> Vec<Candidate> {
-        vec![
-            candidate(0, "llvmpipe", vk::PhysicalDeviceType::CPU, &[]),
-            candidate(
-                1,
-                "Old Card",
-                vk::PhysicalDeviceType::DISCRETE_GPU,
-                &["VK_KHR_ray_tracing_pipeline"],
-            ),
-            candidate(2, "Radeon", vk::PhysicalDeviceType::INTEGRATED_GPU, &[]),
-        ]
-    }
-
-    #[test]
-    fn a_real_gpu_goes_before_the_software_driver() {
-        assert_eq!(choose(three(), None).unwrap().name, "Radeon");
-    }
-
-    #[test]
-    fn a_device_can_be_asked_for_by_number_and_by_name() {
-        assert_eq!(choose(three(), Some("0")).unwrap().name, "llvmpipe");
-        assert_eq!(choose(three(), Some("radeon")).unwrap().index, 2);
-    }
-
-    #[test]
-    fn a_refusal_names_each_device_and_what_it_lacks() {
-        let error = choose(three(), Some("1")).err().unwrap().to_string();
-        assert!(
-            error.contains("Old Card") && error.contains("VK_KHR_ray_tracing_pipeline"),
-            "{error}"
-        );
-        let error = choose(three(), Some("GeForce")).err().unwrap().to_string();
-        assert!(error.contains("llvmpipe") && error.contains("Radeon"), "{error}");
-        let only_old = three().into_iter().filter(|c| c.index == 1).collect();
-        let error = choose(only_old, None).err().unwrap().to_string();
-        assert!(error.contains("Old Card") && error.contains("./setup"), "{error}");
-        assert!(choose(Vec::new(), None).err().unwrap().to_string().contains("no Vulkan device"));
-    }
-}
+mod tests;

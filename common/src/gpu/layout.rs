@@ -1,24 +1,112 @@
-//! The layout of structures that Rust writes and shaders read, compared before anything runs.
+//! The layout of structures that Rust writes and shaders read.
 //!
-//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields.
-//! When a pipeline is made, each is held against the structure of the same name in the SPIR-V: a field
-//! that was moved, or is missing on one side, is an error that names it, not a strange picture.
+//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields, and
+//! with them what they are made of and lead to by address. When a pipeline is made, each is held against
+//! the structure of the same name in the SPIR-V: a field that was moved, or is missing on one side, is an
+//! error that names it, not a strange picture.
 
-use anyhow::{Context, Result, bail};
-use rspirv::dr::{Module, Operand};
-use rspirv::spirv::{Decoration, Op};
+use std::marker::PhantomData;
 
-/// A device address inside a structure for shaders, who see a `buffer_reference` there.
+/// A device address inside a structure for shaders, who see a `buffer_reference` there: of one `T`, or of
+/// many in a row.
+///
+/// What lies there is held against the shaders as is the structure that the address is in. Of plain numbers,
+/// a `T` need not be said.
 ///
 /// Its alignment is that of `u32`, so that a structure needs no padding at its end; the shader wants a
 /// multiple of 8, which the comparison of offsets enforces.
 #[repr(transparent)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Address([u32; 2]);
+pub struct Address<T = ()>([u32; 2], PhantomData<fn() -> T>);
 
-impl From<ash::vk::DeviceAddress> for Address {
+impl<T> From<ash::vk::DeviceAddress> for Address<T> {
     fn from(address: ash::vk::DeviceAddress) -> Self {
-        Self([address as u32, (address >> 32) as u32])
+        Self([address as u32, (address >> 32) as u32], PhantomData)
+    }
+}
+
+impl<T> Default for Address<T> {
+    /// Nowhere.
+    fn default() -> Self {
+        0.into()
+    }
+}
+
+impl<T> Clone for Address<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Address<T> {}
+
+impl<T> std::fmt::Debug for Address<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+// SAFETY: it is two u32 and nothing else.
+unsafe impl<T: 'static> bytemuck::Zeroable for Address<T> {}
+// SAFETY: it is two u32 and nothing else.
+unsafe impl<T: 'static> bytemuck::Pod for Address<T> {}
+
+/// What a field of a structure for shaders may be.
+pub trait ShaderType {
+    /// Adds what shaders know of it under the same name: by default nothing.
+    fn reach(_: &mut Known) {}
+}
+
+/// Structures and enumerations that Rust has declared, and shaders have too.
+#[derive(Clone, Default)]
+pub struct Known {
+    pub(super) structs: Vec<StructLayout>,
+    pub(super) enums: Vec<EnumLayout>,
+}
+
+impl Known {
+    /// What a structure is made of and leads to, itself included.
+    pub fn of<T: ShaderType>() -> Self {
+        let mut known = Self::default();
+        T::reach(&mut known);
+        known
+    }
+
+    /// The structures.
+    pub fn structs(&self) -> &[StructLayout] {
+        &self.structs
+    }
+
+    /// Adds a structure, and says whether it is new.
+    pub fn add_struct(&mut self, layout: StructLayout) -> bool {
+        let is_new = self.structs.iter().all(|known| known.name != layout.name);
+        if is_new {
+            self.structs.push(layout);
+        }
+        is_new
+    }
+
+    /// Adds an enumeration.
+    pub fn add_enum(&mut self, layout: EnumLayout) {
+        if !self.enums.contains(&layout) {
+            self.enums.push(layout);
+        }
+    }
+}
+
+macro_rules! plain {
+    ($($type:ty),+) => { $(impl ShaderType for $type {})+ };
+}
+plain!((), f32, i32, u32, glam::Mat3, glam::Vec2, glam::Vec3, glam::Vec4);
+
+impl<T: ShaderType> ShaderType for Address<T> {
+    fn reach(known: &mut Known) {
+        T::reach(known);
+    }
+}
+
+impl<T: ShaderType, const N: usize> ShaderType for [T; N] {
+    fn reach(known: &mut Known) {
+        T::reach(known);
     }
 }
 
@@ -26,7 +114,7 @@ impl From<ash::vk::DeviceAddress> for Address {
 pub type Field = (&'static str, usize);
 
 /// A structure shared with shaders. Implemented by [`shader_struct!`](crate::shader_struct).
-pub trait ShaderStruct: bytemuck::Pod {
+pub trait ShaderStruct: bytemuck::Pod + ShaderType {
     /// Its name and fields.
     const LAYOUT: StructLayout;
 }
@@ -40,6 +128,19 @@ pub struct StructLayout {
     pub fields: &'static [Field],
     /// Bytes of the whole structure.
     pub size: usize,
+}
+
+/// The names of a Rust enumeration, in the order of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EnumLayout {
+    /// The name in Rust.
+    pub name: &'static str,
+    /// What the names of the shaders' constants begin with; empty where shaders know none.
+    pub prefix: &'static str,
+    /// The variants in Rust.
+    pub variants: &'static [&'static str],
+    /// The words in the panel, for `--set` and in `--list-controls`.
+    pub words: &'static [&'static str],
 }
 
 /// Declares a `#[repr(C)]`, `Pod` structure that a shader has too, under the same names.
@@ -68,159 +169,13 @@ macro_rules! shader_struct {
                 size: ::std::mem::size_of::<$name>(),
             };
         }
-    };
-}
 
-/// A descriptor as a shader declares it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Bound {
-    /// The set.
-    pub set: u32,
-    /// The binding.
-    pub binding: u32,
-    /// What is there, in words.
-    pub kind: &'static str,
-}
-
-/// What a shader module says of its structures.
-pub struct Reflection {
-    pub(super) module: Module,
-}
-
-impl Reflection {
-    /// Reads a module.
-    ///
-    /// # Errors
-    /// If the words are no SPIR-V.
-    pub fn of(spirv: &[u32]) -> Result<Self> {
-        let module = rspirv::dr::load_words(spirv).ok().context("not a SPIR-V module")?;
-        Ok(Self { module })
-    }
-
-    /// Every structure that has offsets: its name and, by member, name and offset in bytes.
-    pub fn structs(&self) -> Vec<(String, Vec<(String, usize)>)> {
-        let structs =
-            self.module.types_global_values.iter().filter(|i| i.class.opcode == Op::TypeStruct);
-        let mut found = Vec::new();
-        for (id, count) in structs.filter_map(|i| Some((i.result_id?, i.operands.len()))) {
-            let name = self.debug_name(id, None);
-            let members: Option<Vec<_>> = (0..count as u32)
-                .map(|member| Some((self.debug_name(id, Some(member)), self.offset(id, member)?)))
-                .collect();
-            found.extend(members.map(|members| (name, members)));
-        }
-        found
-    }
-
-    /// Holds every structure that bears the name of one in `known` against it.
-    ///
-    /// # Errors
-    /// On the first field that differs, naming structure, field and both offsets.
-    pub fn check(&self, path: &str, known: &[StructLayout]) -> Result<()> {
-        for (name, members) in self.structs() {
-            let Some(layout) = known.iter().find(|layout| layout.name == name) else { continue };
-            for (member, offset) in &members {
-                match layout.fields.iter().find(|(field, _)| field == member) {
-                    Some((_, expected)) if expected == offset => {}
-                    Some((_, expected)) => bail!(
-                        "{path}: {name}.{member} is {offset} bytes from the start in the shader, \
-                         {expected} in Rust; the fields and their order must be the same"
-                    ),
-                    None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
+        impl $crate::gpu::ShaderType for $name {
+            fn reach(known: &mut $crate::gpu::Known) {
+                if known.add_struct(<Self as $crate::gpu::ShaderStruct>::LAYOUT) {
+                    $(<$type as $crate::gpu::ShaderType>::reach(known);)+
                 }
             }
-            // Of an array, the second element is elsewhere if the sizes differ.
-            if let Some(stride) = self.stride(&name).filter(|stride| *stride != layout.size) {
-                bail!("{path}: {name} takes {stride} bytes in the shader, {} in Rust", layout.size);
-            }
-            if members.len() < layout.fields.len() {
-                let missing = layout
-                    .fields
-                    .iter()
-                    .map(|(field, _)| *field)
-                    .filter(|field| !members.iter().any(|(member, _)| member == field));
-                let missing: Vec<_> = missing.collect();
-                bail!("{path}: {name} lacks {}, which Rust has", missing.join(", "));
-            }
         }
-        Ok(())
-    }
-
-    /// Every descriptor that the module declares, by set and binding.
-    pub fn descriptors(&self) -> Vec<Bound> {
-        let globals = &self.module.types_global_values;
-        let by_id = |id: u32| globals.iter().find(|i| i.result_id == Some(id));
-        let variables = globals.iter().filter(|i| i.class.opcode == Op::Variable);
-        let mut found: Vec<_> = variables
-            .filter_map(|variable| {
-                let id = variable.result_id?;
-                let pointer = by_id(variable.result_type?)?;
-                let Some(Operand::IdRef(pointee)) = pointer.operands.get(1) else { return None };
-                Some(Bound {
-                    set: self.decoration(id, Decoration::DescriptorSet)?,
-                    binding: self.decoration(id, Decoration::Binding)?,
-                    kind: match by_id(*pointee)?.class.opcode {
-                        Op::TypeAccelerationStructureKHR => "an acceleration structure",
-                        Op::TypeImage => "an image",
-                        Op::TypeSampledImage => "a texture",
-                        Op::TypeArray | Op::TypeRuntimeArray => "an array",
-                        _ => "a buffer",
-                    },
-                })
-            })
-            .collect();
-        found.sort();
-        found
-    }
-
-    fn debug_name(&self, id: u32, member: Option<u32>) -> String {
-        let names = self.module.debug_names.iter();
-        let found = names.filter_map(|i| match (member, i.class.opcode, i.operands.as_slice()) {
-            (None, Op::Name, [Operand::IdRef(of), Operand::LiteralString(name)]) => {
-                (*of == id).then_some(name)
-            }
-            (
-                Some(member),
-                Op::MemberName,
-                [Operand::IdRef(of), Operand::LiteralBit32(n), Operand::LiteralString(name)],
-            ) => (*of == id && *n == member).then_some(name),
-            _ => None,
-        });
-        found.map(String::as_str).next().unwrap_or_default().to_owned()
-    }
-
-    fn offset(&self, id: u32, member: u32) -> Option<usize> {
-        self.module.annotations.iter().find_map(|i| match i.operands.as_slice() {
-            [
-                Operand::IdRef(of),
-                Operand::LiteralBit32(n),
-                Operand::Decoration(Decoration::Offset),
-                Operand::LiteralBit32(offset),
-            ] if *of == id && *n == member => Some(*offset as usize),
-            _ => None,
-        })
-    }
-
-    /// The bytes from one element to the next in an array of the structure `name`, if there is one.
-    fn stride(&self, name: &str) -> Option<usize> {
-        let arrays = self.module.types_global_values.iter();
-        let mut arrays = arrays.filter(|i| {
-            let is_array = matches!(i.class.opcode, Op::TypeArray | Op::TypeRuntimeArray);
-            is_array
-                && matches!(i.operands[..], [Operand::IdRef(of), ..] if self.debug_name(of, None) == name)
-        });
-        let array = arrays.next()?.result_id?;
-        self.decoration(array, Decoration::ArrayStride).map(|stride| stride as usize)
-    }
-
-    fn decoration(&self, id: u32, wanted: Decoration) -> Option<u32> {
-        self.module.annotations.iter().find_map(|i| match i.operands.as_slice() {
-            [Operand::IdRef(of), Operand::Decoration(decoration), Operand::LiteralBit32(value)]
-                if *of == id && *decoration == wanted =>
-            {
-                Some(*value)
-            }
-            _ => None,
-        })
-    }
+    };
 }

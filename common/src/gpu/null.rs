@@ -8,7 +8,7 @@ use ash::{Device, khr, vk};
 use serde::{Deserialize, Serialize};
 
 use super::blueprint::Blueprint;
-use super::context::create_instance;
+use super::instance;
 use super::requirements::Requirements;
 use super::{Executable, TextureTable, device, load};
 
@@ -31,7 +31,7 @@ pub struct Answer {
 pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<Answer> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let entry = load()?;
-    let (instance, _) = create_instance(&entry, None, None)?;
+    let (instance, _) = instance::create(&entry, None, None)?;
     let result = (|| {
         let found = device::candidates(&instance, &requirements)?;
         let null = found.into_iter().find(|candidate| candidate.name.starts_with("Null hardware"));

@@ -12,7 +12,7 @@ use ash::vk;
 pub use builder::PipelineBuilder;
 pub use stages::HitGroup;
 
-use super::blueprint::Blueprint;
+use super::blueprint::{Blueprint, STAGES};
 use super::layout::ShaderStruct;
 use super::{AccelerationStructure, Buffer, Gpu, Image};
 
@@ -157,16 +157,6 @@ impl Descriptor<'_> {
         }
     }
 }
-
-/// The stages that a push constant or descriptor is visible in.
-pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
-        | vk::ShaderStageFlags::MISS_KHR.as_raw()
-        | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
-        | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
-        | vk::ShaderStageFlags::INTERSECTION_KHR.as_raw()
-        | vk::ShaderStageFlags::CALLABLE_KHR.as_raw(),
-);
 
 impl Drop for RayTracingPipeline {
     fn drop(&mut self) {

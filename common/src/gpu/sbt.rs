@@ -112,7 +112,11 @@ impl ShaderBindingTable {
     ) -> Result<Self> {
         let [raygen, miss, _, callable] = pipeline.groups;
         let plain = |count| (0..count).map(|group| Record { group, data: Vec::new() }).collect();
-        let records: [Vec<Record>; 4] = [plain(raygen), plain(miss), hit.to_vec(), plain(callable)];
+        let mut records: [Vec<Record>; 4] =
+            [plain(raygen), plain(miss), hit.to_vec(), plain(callable)];
+        for record in &mut records[0] {
+            record.data = vec![0; size_of::<[u32; 2]>()];
+        }
         let longest = |r: &Vec<Record>| r.iter().map(|record| record.data.len()).max().unwrap_or(0);
         let layout =
             layout(&gpu.limits, records.each_ref().map(Vec::len), records.each_ref().map(longest))?;
@@ -185,21 +189,27 @@ impl ShaderBindingTable {
             stride - handle
         );
         ensure!(data.len().is_multiple_of(4), "{} bytes are no whole number of u32", data.len());
-        barrier::trace_to_table_update(&self.gpu, cmd);
-        // SAFETY: cmd is being recorded; the table outlives the submission and has room for the data,
-        // whose length and place are multiples of 4 and which a record's largest stride keeps short.
-        unsafe {
-            let at = offset + start + handle;
-            self.gpu.device.cmd_update_buffer(cmd, self.buffer.handle, at, data);
-        }
-        barrier::table_update_to_trace(&self.gpu, cmd);
+        self.update(cmd, offset + start + handle, data);
         Ok(())
     }
 
-    /// Records one ray per pixel of `extent`, from the raygen group.
-    pub fn trace(&self, cmd: vk::CommandBuffer, extent: vk::Extent2D) {
+    fn update(&self, cmd: vk::CommandBuffer, at: u64, data: &[u8]) {
+        barrier::trace_to_table_update(&self.gpu, cmd);
+        // SAFETY: cmd is being recorded; the table outlives the submission and has room for the data,
+        // whose length and place are multiples of 4 and which a record's largest stride keeps short.
+        unsafe { self.gpu.device.cmd_update_buffer(cmd, self.buffer.handle, at, data) };
+        barrier::table_update_to_trace(&self.gpu, cmd);
+    }
+
+    /// Records one ray per pixel of `area`, from the raygen group.
+    ///
+    /// A launch counts from 0: the raygen shader's record holds the area's first pixel, two `u32`, for it
+    /// to add.
+    pub fn trace(&self, cmd: vk::CommandBuffer, area: vk::Rect2D) {
         let [raygen, miss, hit, callable] = &self.regions;
-        let (width, height) = (extent.width, extent.height);
+        let vk::Rect2D { offset, extent: vk::Extent2D { width, height } } = area;
+        let at = self.layout.regions[0].offset + self.gpu.limits.shader_group_handle_size;
+        self.update(cmd, at, bytemuck::cast_slice(&[offset.x, offset.y]));
         // SAFETY: the pipeline and its descriptors are bound, and the table outlives the submission.
         unsafe {
             self.gpu

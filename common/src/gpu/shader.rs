@@ -29,6 +29,19 @@ pub struct Shader {
     pub spirv: Vec<u32>,
     /// Every file that it is made of: itself, then its includes, below `shaders/`.
     pub files: Vec<String>,
+    /// The lines `const uint NAME = 1;` of those files.
+    pub constants: Vec<UintConstant>,
+}
+
+/// A number that a shader has a name for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UintConstant {
+    /// The name.
+    pub name: String,
+    /// The number.
+    pub value: u32,
+    /// Where it is: file and line.
+    pub place: String,
 }
 
 /// The folder that holds every shader: `SHADERS` in the environment, else the project's own.
@@ -66,7 +79,8 @@ pub fn compile_with(path: &str, defines: &[(&str, String)]) -> Result<Shader> {
             words
         }
     };
-    Ok(Shader { path: path.to_owned(), stage, spirv, files: source.files })
+    let Source { files, constants, .. } = source;
+    Ok(Shader { path: path.to_owned(), stage, spirv, files, constants })
 }
 
 fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
@@ -96,6 +110,7 @@ fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
 struct Source {
     text: String,
     files: Vec<String>,
+    constants: Vec<UintConstant>,
     /// The file at hand and those that include it.
     open: Vec<String>,
 }
@@ -109,7 +124,13 @@ impl Source {
         let inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
         ensure!(inside, "shader '{path}' is not below {}", folder().display());
         let file = folder().join(path);
-        let failed = || format!("cannot read the shader '{}'", file.display());
+        let hint = match std::env::var_os("SHADERS") {
+            Some(_) => {
+                " in the folder that SHADERS names; a copy of the project's shaders is right"
+            }
+            None => "",
+        };
+        let failed = || format!("cannot read the shader '{}'{hint}", file.display());
         // A pipe by that name would keep the reader waiting.
         let metadata = fs::metadata(&file).with_context(failed)?;
         ensure!(metadata.is_file(), "{}: it is not a file", failed());
@@ -131,6 +152,10 @@ impl Source {
             } else {
                 self.text.push_str(line);
                 self.text.push('\n');
+                if let Some((name, value)) = uint_constant(line) {
+                    let (name, place) = (name.to_owned(), format!("{path}:{number}"));
+                    self.constants.push(UintConstant { name, value, place });
+                }
                 // The first `#line` must follow `#version` and the extension that allows file names.
                 if depth == 0 && line.contains("GL_GOOGLE_include_directive") {
                     self.text.push_str(&format!("#line {} \"{path}\"\n", number + 1));
@@ -140,6 +165,13 @@ impl Source {
         self.open.pop();
         Ok(())
     }
+}
+
+/// Name and value of a line `const uint NAME = 1;`.
+fn uint_constant(line: &str) -> Option<(&str, u32)> {
+    let (name, rest) = line.trim_start().strip_prefix("const uint ")?.split_once('=')?;
+    let (value, _) = rest.split_once(';')?;
+    Some((name.trim(), value.trim().trim_end_matches('u').parse().ok()?))
 }
 
 /// A macro's name for a path.

@@ -80,6 +80,11 @@ impl<V: Copy + PartialEq + Send + 'static> Variants<V> {
         self.made.get(self.current).context("no pipeline")
     }
 
+    /// What was chosen last.
+    pub fn current(&self) -> Option<&Variant<V>> {
+        self.made.get(self.current)
+    }
+
     fn keep(&mut self, gpu: &Gpu, key: V, pipeline: RayTracingPipeline) -> Result<()> {
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
         self.current = self.made.len();
@@ -113,5 +118,6 @@ impl<V> Drop for Order<V> {
             let _ = thread.join();
         }
         self.gpu.building.fetch_sub(1, Ordering::Relaxed);
+        self.gpu.built.fetch_add(1, Ordering::Relaxed);
     }
 }

@@ -4,6 +4,19 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::Placement;
 use super::plane::{HalfSpace, Plane};
+use crate::gpu::Number;
+
+crate::shader_enum! {
+    /// How the squares are drawn.
+    pub enum Checker: CHECKER {
+        /// Averaged over the pixel.
+        Filtered,
+        /// As they are at its middle.
+        Point,
+        /// There are none.
+        Off,
+    }
+}
 
 crate::shader_struct! {
     /// The board as shaders get it.
@@ -20,8 +33,8 @@ crate::shader_struct! {
         pub roughness: f32,
         /// What part of the light is mirrored, looked at straight.
         pub reflection: f32,
-        /// 0 averaged over the pixel, 1 at its middle, 2 no squares.
-        pub checker: u32,
+        /// How the squares are drawn.
+        pub checker: Number<Checker>,
         /// Length of a square's side.
         pub square: f32,
         /// Unit vector along one side.
@@ -43,7 +56,7 @@ impl Default for Board {
             specular: 0.0,
             roughness: 1.0,
             reflection: 0.0,
-            checker: 0,
+            checker: Checker::Filtered.into(),
             square: 1.0,
             u: Vec3::X,
             v: Vec3::Z,

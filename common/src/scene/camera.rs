@@ -42,6 +42,11 @@ impl Camera {
         Self { eye, target, up: DVec3::Y, fov_y }
     }
 
+    /// Whether eye and target are so far apart that there is a direction from one to the other.
+    pub fn looks_somewhere(&self) -> bool {
+        (self.target - self.eye).try_normalize().is_some()
+    }
+
     /// The unit vectors right, up and forward.
     ///
     /// Where the view is along `up` or has no length, any perpendicular basis is taken, so that no

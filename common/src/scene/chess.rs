@@ -78,11 +78,7 @@ impl Scene {
 ///
 /// # Errors
 /// If it is none: eight ranks of eight squares.
-pub(super) fn place_position(
-    model: &Model,
-    position: &str,
-    instances: &mut Vec<Instance>,
-) -> Result<()> {
+pub fn place_position(model: &Model, position: &str, instances: &mut Vec<Instance>) -> Result<()> {
     let files = |rank: &str| -> u32 { rank.chars().map(|c| c.to_digit(10).unwrap_or(1)).sum() };
     let ranks: Vec<&str> = position.split('/').take(9).collect();
     if ranks.len() != 8 || ranks.iter().any(|rank| rank.len() > 8 || files(rank) != 8) {

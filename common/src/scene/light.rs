@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::gpu::Number;
+
 /// A light so far away that its rays are parallel, placed by two angles as one places the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sun {
@@ -48,17 +50,38 @@ pub struct PointLight {
     pub intensity: Vec3,
 }
 
+common::shader_enum! {
+    /// What kind of light it is (`shaders/common/light.glsl`).
+    pub enum LightKind: LIGHT {
+        /// So far away that its rays are parallel.
+        Directional,
+        /// At a place.
+        Point,
+    }
+    /// How a shadow ray is traced (`push.glsl` of 05_shadow_miss and of those that follow it).
+    pub enum ShadowRays: SHADOW {
+        /// It ends at the first hit that it finds.
+        FirstHit,
+        /// It finds the nearest hit.
+        NearestHit,
+        /// There are none.
+        Off,
+    }
+}
+
 common::shader_struct! {
     /// A light of either kind, with a size, as shaders get it (`shaders/common/light.glsl`).
     pub struct Light {
         /// Directional: unit vector towards the light. Point: its position.
         pub place: Vec3,
-        /// 0 directional, 1 point.
-        pub kind: u32,
+        /// Directional or point.
+        pub kind: Number<LightKind>,
         /// Linear RGB. Directional: radiance. Point: intensity.
         pub strength: Vec3,
         /// Radius of the disk that shines, around `place`; 0 casts hard shadows.
         pub size: f32,
+        /// Shadow rays a hit, where it has a size.
+        pub samples: u32,
     }
 }
 
@@ -66,12 +89,24 @@ impl Light {
     /// The sun as a disk: `size` is its radius as seen from distance 1, the true sun's 0.0047.
     pub fn directional(sun: &Sun, size: f32) -> Self {
         let DirectionalLight { direction, radiance } = sun.light();
-        Self { place: direction, kind: 0, strength: radiance, size }
+        Self {
+            place: direction,
+            kind: LightKind::Directional.into(),
+            strength: radiance,
+            size,
+            samples: 1,
+        }
     }
 
     /// A lamp as a disk that faces whoever looks at it; `size` is its radius in the world.
     pub fn point(lamp: &PointLight, size: f32) -> Self {
-        Self { place: lamp.position, kind: 1, strength: lamp.intensity, size }
+        Self {
+            place: lamp.position,
+            kind: LightKind::Point.into(),
+            strength: lamp.intensity,
+            size,
+            samples: 1,
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 pub mod board;
 mod camera;
 mod chess;
-mod effects;
-mod file;
+mod index;
 mod light;
+mod limits;
 mod material;
 mod mesh;
 mod mtl;
@@ -14,24 +14,20 @@ mod obj_check;
 mod placement;
 pub mod plane;
 mod records;
-mod text;
+pub mod text;
 mod texture;
 mod upload;
 mod warnings;
 mod world;
 
 pub use camera::{Camera, CameraBasis};
-pub use chess::assets;
-pub use effects::{Effect, Effects, Finding, findings, needed};
-pub use file::{
-    BoardPlane, Box, Composition, Face, Heightfield, MAX_LIGHTS, SceneLight, Solid, Sphere,
-};
-pub use light::{DirectionalLight, Light, PointLight, Sun};
+pub use chess::{assets, place_position};
+pub use light::{DirectionalLight, Light, LightKind, PointLight, ShadowRays, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};
 pub use obj::Model;
-pub use placement::Placement;
-pub use records::{InstanceRecord, MaterialRecord, SHARED_STRUCTS, SceneAddresses};
+pub use placement::{Moved, Placement, Size};
+pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
 pub use texture::Texture;
-pub use upload::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
+pub use upload::{SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu, transform};
 pub use world::{Instance, Scene};

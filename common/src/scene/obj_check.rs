@@ -7,9 +7,11 @@ use std::fmt::Write;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::Vec3;
 
+use super::index::{index, out_of_range, position};
+use super::limits::Limits;
 use super::mtl::{MaterialLibrary, material_name};
 use super::text::{
-    Folder, Limits, Missing, Named, Statement, Text, name, numbers, quoted, uncommented,
+    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, uncommented,
 };
 use super::warnings::{Kind, Warnings};
 
@@ -107,12 +109,12 @@ impl<'a> Check<'a> {
             files.extend(found.into_iter().flatten());
             let parts: Vec<_> = parts.into_iter().filter_map(Result::err).collect();
             // If none of several is there, it was perhaps one with spaces in its name.
-            if !files.is_empty() || parts.iter().any(|error| !error.is::<Missing>()) {
+            if !files.is_empty() || parts.iter().any(|error| !is_missing(error)) {
                 missing = parts;
             }
         }
         for error in missing {
-            if !error.is::<Missing>() {
+            if !is_missing(&error) {
                 return Err(statement.at(error));
             }
             self.warnings.add(Kind::Library, statement, || &error);
@@ -279,204 +281,10 @@ impl<'a> Check<'a> {
     }
 }
 
-/// An index of a face; it may be out of range.
-fn index(word: &str, of: &str) -> Result<i64> {
-    let index = word.parse().ok();
-    index.with_context(|| format!("{of} index {} is not a whole number", quoted(word)))
-}
-
-/// An index as a position from 1, if it is in range. Negative ones count back from the last of `count`.
-fn position(index: i64, count: usize) -> Option<usize> {
-    let position = if index > 0 { index } else { index.saturating_add(count as i64 + 1) };
-    usize::try_from(position).ok().filter(|position| (1..=count).contains(position))
-}
-
-fn out_of_range(index: i64, of: &str, count: usize, what: &str) -> String {
-    match index {
-        0 => format!("{of} index 0 is out of range: indices start at 1, or at -1 backwards"),
-        _ => format!(
-            "{of} index {index} is out of range: the file has {count} {what} up to this line"
-        ),
-    }
+/// Whether a file is not there: a model may do without, but not name materials outside its folder.
+fn is_missing(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::obj::load;
-    use super::super::obj::tests::{load_files, load_text};
-    use super::*;
-    use std::path::Path;
-
-    #[track_caller]
-    fn refused(obj: &str, message: &str) {
-        assert_eq!(load_text(obj).unwrap_err(), message);
-    }
-
-    /// After four positions, one normal and one texture coordinate, line 7 is wrong.
-    #[track_caller]
-    fn line_refused(line: &str, message: &str) {
-        let good = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\n";
-        refused(&format!("{good}{line}\nf 1 2 3\n"), &format!("model.obj:7: {message}"));
-    }
-
-    #[test]
-    fn what_is_no_obj_file() {
-        refused(
-            "Once upon a time\n",
-            "model.obj:1: \"Once\" is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl \
-             and mtllib are",
-        );
-        refused("", "model.obj: has no faces");
-        refused("# nothing\nv 0 0 0\no empty\nl 1 1\n", "model.obj: has no faces");
-        refused("o a\n\0", "model.obj:2: holds a zero byte: this is a binary file, not text");
-        let bytes = load_files(&[("model.obj", b"\xff\xfe\x80\n")], &Limits::DEFAULT);
-        assert!(
-            bytes.unwrap_err().starts_with("model.obj:1: \"\u{fffd}\u{fffd}\u{fffd}\" is not a")
-        );
-        let missing = load_files(&[], &Limits::DEFAULT);
-        assert_eq!(missing.unwrap_err(), "model.obj: there is no such file");
-        let folder = load_files(&[("model.obj/a", b"")], &Limits::DEFAULT);
-        let message = "model.obj: is not a file that can be read, but a folder or a device";
-        assert_eq!(folder.unwrap_err(), message);
-        let nowhere = load(Path::new("no/such/folder/model.obj")).unwrap_err();
-        assert_eq!(nowhere.to_string(), "no/such/folder/model.obj: there is no such file");
-    }
-
-    #[test]
-    fn a_file_that_is_cut_off() {
-        let hint = "; the file ends in this line, perhaps cut off";
-        let face = "model.obj:4: a face has 2 corners; it needs at least 3";
-        refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2", &format!("{face}{hint}"));
-        let vertex = "model.obj:2: v has 2 numbers; x y z, x y z w or x y z r g b is right";
-        refused("v 0 0 0\nv 1 0.", &format!("{vertex}{hint}"));
-        refused("v 0 0 0\nv 1 -", &format!("model.obj:2: \"-\" is not a number{hint}"));
-    }
-
-    #[test]
-    fn numbers_that_are_wrong() {
-        line_refused("v 1,0 2 3", "\"1,0\" is not a number");
-        line_refused("v 1 nan 3", "\"nan\" is not a finite 32-bit number");
-        line_refused("vn inf 0 0", "\"inf\" is not a finite 32-bit number");
-        line_refused("vt 0 1e39", "\"1e39\" is not a finite 32-bit number");
-        line_refused("vn 0 1", "vn has 2 numbers; x y z is right");
-        line_refused("vn 0 1 0 0", "more than 3 numbers");
-        line_refused("vt # 0 0", "vt has no numbers; u, u v or u v w is right");
-        line_refused("v 1 2 3 0", "a position divided by its w is not finite");
-        line_refused("v 1 2 3e38 0.1", "a position divided by its w is not finite");
-    }
-
-    #[test]
-    fn faces_that_are_wrong() {
-        let whole = " is out of range: the file has";
-        line_refused("f 1 2 99", &format!("face index 99{whole} 4 positions up to this line"));
-        line_refused("f 1 2 -5", &format!("face index -5{whole} 4 positions up to this line"));
-        line_refused(
-            "f 1 2 0",
-            "face index 0 is out of range: indices start at 1, or at -1 backwards",
-        );
-        line_refused("f 1 2 3.5", "face index \"3.5\" is not a whole number");
-        line_refused("f 1 2 /1", "face index \"\" is not a whole number");
-        line_refused(
-            "f 1/1/1/1 2 3",
-            "the corner \"1/1/1/1\" has too many parts; v, v/vt, v//vn or v/vt/vn is right",
-        );
-        line_refused("f 1 2 # 3", "a face has 2 corners; it needs at least 3");
-        line_refused("f", "a face has 0 corners; it needs at least 3");
-        let huge = format!("f 1 2 {}", i64::MIN);
-        line_refused(&huge, &format!("face index {}{whole} 4 positions up to this line", i64::MIN));
-        line_refused(
-            &format!("f{}", " 1".repeat(1025)),
-            "a face has more than 1024 corners, the most that are read",
-        );
-    }
-
-    /// After four positions, one normal and one texture coordinate, lines from 7 on are warned of.
-    #[track_caller]
-    fn lines_warned(lines: &str, warnings: &[&str]) {
-        let good = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\n";
-        let model = load_text(&format!("{good}{lines}\nf 1 2 3\n")).unwrap();
-        assert_eq!(model.warnings, warnings);
-    }
-
-    #[test]
-    fn indices_that_a_model_can_do_without() {
-        let whole = "is out of range: the file has 1";
-        let none = "the corner has none";
-        let flat = "the triangle's own stands for it";
-        lines_warned(
-            "f 1/1 2/2 3/1",
-            &[&format!(
-                "model.obj:7: texture coordinate index 2 {whole} texture coordinates up to this \
-                 line; {none} (1 in all)"
-            )],
-        );
-        lines_warned(
-            "f 1//1 2//-2 3//1\nf 1//9 2//1 3//0",
-            &[&format!(
-                "model.obj:7: normal index -2 {whole} normals up to this line; {flat} (3 in all)"
-            )],
-        );
-        lines_warned(
-            "f 1//0 2/0 3/1/0",
-            &[
-                &format!(
-                    "model.obj:7: normal index 0 is out of range: indices start at 1, or at -1 \
-                     backwards; {flat} (2 in all)"
-                ),
-                &format!(
-                    "model.obj:7: texture coordinate index 0 is out of range: indices start at 1, \
-                     or at -1 backwards; {none} (1 in all)"
-                ),
-            ],
-        );
-        let model = load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//2 3/8\n").unwrap();
-        let vertices = &model.meshes[0].vertices;
-        let normals: Vec<_> = vertices.iter().map(|vertex| vertex.normal).collect();
-        assert_eq!(normals, [Vec3::X, Vec3::Z, Vec3::Z]);
-        assert!(vertices.iter().all(|vertex| vertex.uv == glam::Vec2::ZERO));
-        line_refused("f 1//x 2 3", "normal index \"x\" is not a whole number");
-    }
-
-    #[test]
-    fn statements_of_other_formats_are_passed_over() {
-        let hint =
-            "is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are";
-        let warning = format!("model.obj:7: \"group\" {hint}; the line is passed over (2 in all)");
-        lines_warned("group a b\ncurve 1 2\nF 1 2", &[&warning.replace("2 in", "3 in")]);
-        lines_warned("group\nxyz", &[&warning]);
-        let known = "l 1 2\np 1\ns off\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\nlod 2\n\
-                     bevel on\nshadow_obj a.obj\nmg 1 0.5";
-        lines_warned(known, &[]);
-    }
-
-    #[test]
-    fn more_than_the_limits() {
-        let few = Limits { elements: 3, meshes: 1, obj_bytes: 100, ..Limits::DEFAULT };
-        let most = ", the most that are read";
-        for (obj, message) in [
-            ("v 0 0 0\n".repeat(4), format!(":4: more than 3 positions{most}")),
-            ("vn 0 0 0\n".repeat(4), format!(":4: more than 3 normals{most}")),
-            ("vt 0\n".repeat(4), format!(":4: more than 3 texture coordinates{most}")),
-            ("v 0 0 0\nf 1 1 1 1 1\nf 1 1 1\n".into(), format!(":3: more than 3 triangles{most}")),
-            ("o a\no b\n".into(), format!(":2: more than 1 objects and materials{most}")),
-            (" ".repeat(101), ": is too large: 101 bytes, at most 100 are read".into()),
-        ] {
-            let error = load_files(&[("model.obj", obj.as_bytes())], &few).unwrap_err();
-            assert_eq!(error, format!("model.obj{message}"));
-        }
-        let long = format!("o a\nv {}\n", "0 ".repeat(40_000));
-        refused(&long, "model.obj:2: the line is too long: 80001 bytes, at most 65536 are read");
-        let name = format!("o {}\n", "a".repeat(1025));
-        refused(&name, "model.obj:1: the name is too long: 1025 bytes, at most 1024 are read");
-        // A real file of too many bytes, without writing them.
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("model.obj");
-        std::fs::File::create(&path).unwrap().set_len((512 << 20) + 1).unwrap();
-        let message = load(&path).unwrap_err().to_string();
-        assert!(
-            message
-                .ends_with("model.obj: is too large: 536870913 bytes, at most 536870912 are read"),
-            "{message}"
-        );
-    }
-}
+mod tests;

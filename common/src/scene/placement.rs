@@ -4,6 +4,27 @@ use glam::{Affine3A, DVec3};
 
 use super::{Camera, Instance, PointLight, Scene};
 
+crate::shader_enum! {
+    /// How many times as large a scene is, to find out what rounding makes of it.
+    pub enum Size {
+        /// A thousandth.
+        Small = "0.001",
+        /// As it is.
+        Usual = "1",
+        /// A thousand times.
+        Large = "1000",
+    }
+    /// How far a scene is from the origin.
+    pub enum Moved {
+        /// As it is.
+        Not = "0",
+        /// 10000 units, and no axis is spared.
+        Far = "10000",
+    }
+}
+
+const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
+
 /// A change of scale about the origin, then a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
@@ -21,6 +42,16 @@ impl Default for Placement {
 }
 
 impl Placement {
+    /// A scene so large, and so far away.
+    pub fn new(size: Size, moved: Moved) -> Self {
+        let size = match size {
+            Size::Small => 1e-3,
+            Size::Usual => 1.0,
+            Size::Large => 1e3,
+        };
+        Self { size, moved: if moved == Moved::Far { FAR } else { DVec3::ZERO } }
+    }
+
     /// The scene with its instances and its camera there; the meshes stay as they are.
     pub fn scene(&self, scene: &Scene) -> Scene {
         let instances = scene.instances.iter().map(|instance| self.instance(instance)).collect();

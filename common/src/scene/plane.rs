@@ -7,8 +7,8 @@ use super::Placement;
 /// A half-space: its surface is the plane, and its normal points out of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
-    /// How it is given: [`NORMAL_AND_DISTANCE`] or [`POINT_AND_NORMAL`].
-    pub form: u32,
+    /// How it is given.
+    pub form: PlaneForm,
     /// `<A,B,C>`, of any length but 0.
     pub normal: Vec3,
     /// `D`: how far the plane is from the world's origin, along the normal.
@@ -19,10 +19,15 @@ pub struct HalfSpace {
     pub inverse: bool,
 }
 
-/// POV-Ray's `plane { <A,B,C>, D }`.
-pub const NORMAL_AND_DISTANCE: u32 = 0;
-/// A point of the plane, and its normal.
-pub const POINT_AND_NORMAL: u32 = 1;
+crate::shader_enum! {
+    /// How a plane is given.
+    pub enum PlaneForm {
+        /// POV-Ray's `plane { <A,B,C>, D }`.
+        NormalAndDistance,
+        /// A point of the plane, and its normal.
+        PointAndNormal,
+    }
+}
 
 crate::shader_struct! {
     /// The plane as shaders get it (`shaders/common/plane.glsl`).
@@ -41,7 +46,7 @@ crate::shader_struct! {
 impl HalfSpace {
     /// The one whose surface is the plane `{normal, distance}`.
     pub fn new(normal: Vec3, distance: f32) -> Self {
-        let form = NORMAL_AND_DISTANCE;
+        let form = PlaneForm::NormalAndDistance;
         Self { form, normal, distance, point: Vec3::ZERO, inverse: false }
     }
 
@@ -52,8 +57,8 @@ impl HalfSpace {
         let sign = if self.inverse { -1.0 } else { 1.0 };
         let normal = self.normal.as_dvec3() * sign;
         let distance = match self.form {
-            POINT_AND_NORMAL => normal.dot(self.point.as_dvec3()),
-            _ => f64::from(self.distance) * sign * normal.length(),
+            PlaneForm::PointAndNormal => normal.dot(self.point.as_dvec3()),
+            PlaneForm::NormalAndDistance => f64::from(self.distance) * sign * normal.length(),
         };
         let placed = distance * placement.size + normal.dot(placement.moved);
         (normal != DVec3::ZERO).then_some((normal, placed))

@@ -2,14 +2,14 @@
 
 use glam::Vec3;
 
-use super::{CameraBasis, DirectionalLight, Material, Vertex};
-use crate::gpu::{Address, ShaderStruct, StructLayout};
+use super::{Material, Vertex};
+use crate::gpu::Address;
 
 common::shader_struct! {
     /// Where a shader finds the mesh and the material of an instance.
     pub struct InstanceRecord {
         /// Address of the mesh's [`Vertex`] array.
-        pub vertices: Address,
+        pub vertices: Address<Vertex>,
         /// Address of its triangles, three `u32` each, in the model's order.
         pub triangles: Address,
         /// Address of the permutation: primitive `i` of the build is triangle `original[i]`.
@@ -47,21 +47,11 @@ common::shader_struct! {
     /// Addresses of a scene's arrays, for push constants.
     pub struct SceneAddresses {
         /// Of the [`InstanceRecord`] array, indexed by `gl_InstanceCustomIndexEXT`.
-        pub instances: Address,
+        pub instances: Address<InstanceRecord>,
         /// Of the [`MaterialRecord`] array.
-        pub materials: Address,
+        pub materials: Address<MaterialRecord>,
     }
 }
-
-/// Every structure of a scene that shaders know under the same name.
-pub const SHARED_STRUCTS: [StructLayout; 6] = [
-    CameraBasis::LAYOUT,
-    DirectionalLight::LAYOUT,
-    SceneAddresses::LAYOUT,
-    InstanceRecord::LAYOUT,
-    MaterialRecord::LAYOUT,
-    Vertex::LAYOUT,
-];
 
 impl From<&Material> for MaterialRecord {
     fn from(material: &Material) -> Self {

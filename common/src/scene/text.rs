@@ -11,35 +11,6 @@ use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
-/// What a model may take. Without bounds a small file can ask for all the memory there is.
-#[derive(Clone, Copy)]
-pub(super) struct Limits {
-    /// Bytes of the OBJ file.
-    pub obj_bytes: u64,
-    /// Bytes of an MTL file.
-    pub mtl_bytes: u64,
-    /// Positions, normals, texture coordinates and triangles, each.
-    pub elements: usize,
-    /// Statements that start a new mesh: objects, groups, changes of material.
-    pub meshes: usize,
-    /// Width and height of a texture.
-    pub texture_side: u32,
-    /// Bytes of all textures, decoded.
-    pub texture_bytes: u64,
-}
-
-impl Limits {
-    /// For a machine that people work at.
-    pub const DEFAULT: Self = Self {
-        obj_bytes: 512 << 20,
-        mtl_bytes: 16 << 20,
-        elements: 50_000_000,
-        meshes: 1_000_000,
-        texture_side: 16384,
-        texture_bytes: 1 << 30,
-    };
-}
-
 /// Bytes of one statement; a polygon of 1024 corners needs about half.
 const STATEMENT_BYTES: usize = 64 << 10;
 
@@ -82,7 +53,7 @@ impl Text {
 ///
 /// # Errors
 /// If it is missing, larger, or no regular file.
-pub(super) fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
+pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => anyhow!("{shown}: there is no such file"),
         _ => anyhow!("{shown}: cannot be read: {error}"),
@@ -222,7 +193,7 @@ pub(super) fn numbers(rest: &str, values: &mut [f32]) -> Result<usize> {
 }
 
 /// A word of the file on one line, however long and strange it is.
-pub(super) fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let mut start: String = word.chars().take(60).collect();
     if start.len() < word.len() {
         start.push('…');
@@ -232,26 +203,31 @@ pub(super) fn quoted(word: &str) -> String {
 
 /// The folder of the OBJ file. Nothing outside it is opened: a model from elsewhere has no business
 /// with the reader's other files.
-pub(super) struct Folder {
+pub struct Folder {
     given: PathBuf,
     root: PathBuf,
 }
 
-/// A file that is named and cannot be had: a model may do without, unlike one that reaches out of its
-/// folder.
+/// Why a file that is named cannot be had.
 #[derive(Debug)]
-pub(super) struct Missing(String);
+pub(super) enum Unavailable {
+    /// It is not there, or cannot be read: a model may do without.
+    Missing(String),
+    /// It lies out of the model's folder, and is not opened.
+    Outside(String),
+}
 
-impl Display for Missing {
+impl Display for Unavailable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
+        let (Self::Missing(why) | Self::Outside(why)) = self;
+        f.write_str(why)
     }
 }
 
-impl std::error::Error for Missing {}
+impl std::error::Error for Unavailable {}
 
 /// A file that a model names.
-pub(super) struct Named {
+pub struct Named {
     /// Its path, links resolved.
     pub path: PathBuf,
     /// Its path relative to the OBJ file's folder, with `/` between the parts.
@@ -279,17 +255,17 @@ impl Folder {
     /// OBJ file.
     ///
     /// # Errors
-    /// [`Missing`] if it is not there or no name is given; another if it is outside the folder, directly
-    /// or through a symbolic link.
+    /// [`Unavailable`] if it is not there, no name is given, or it is outside the folder, directly or
+    /// through a symbolic link; another if the name is too long.
     pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
-        let missing = |what: String| anyhow!(Missing(format!("{keyword} {what}")));
+        let missing = |what: String| anyhow!(Unavailable::Missing(format!("{keyword} {what}")));
         ensure!(!named.is_empty(), missing("is not followed by a name".to_owned()));
         let name = name(keyword, named)?;
         let outside = || {
             let name = quoted(name);
-            anyhow!(
+            anyhow!(Unavailable::Outside(format!(
                 "{keyword} names {name}, outside the OBJ file's folder; copy it into the folder"
-            )
+            )))
         };
         // Exporters on Windows write backslashes, and drives that are relative paths elsewhere.
         let relative = name.replace('\\', "/");
@@ -312,6 +288,6 @@ impl Folder {
 }
 
 /// A path on one line.
-pub(super) fn shown(path: &Path) -> String {
+pub fn shown(path: &Path) -> String {
     path.display().to_string().replace(char::is_control, "\u{fffd}")
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::{InstanceRecord, MaterialRecord, Mesh, SHARED_STRUCTS, Scene, SceneAddresses, Vertex};
+use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
     AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
 };
@@ -53,7 +53,6 @@ impl SceneOnGpu {
     /// # Errors
     /// If memory is short, or an instance's index or record offset takes more than 24 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
-        gpu.share_structs(&SHARED_STRUCTS);
         let textures = scene.model.textures.iter().map(|texture| {
             let extent = vk::Extent2D { width: texture.width, height: texture.height };
             Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
@@ -126,18 +125,9 @@ impl SceneOnGpu {
 
         let placed = instance_order(scene, options.ordering).into_iter().map(|index| {
             let instance = &instances[index as usize];
-            vk::AccelerationStructureInstanceKHR {
-                transform: transform(&instance.transform),
-                // The custom index stays the scene's, whatever the order of the build.
-                instance_custom_index_and_mask: vk::Packed24_8::new(index, 0xff),
-                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
-                    instance.record_offset,
-                    0,
-                ),
-                acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
-                    device_handle: blas[instance.mesh].address,
-                },
-            }
+            // The custom index stays the scene's, whatever the order of the build.
+            let blas = &blas[instance.mesh];
+            instance_on_gpu(&instance.transform, index as usize, instance.record_offset, blas)
         });
         let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
         Ok(Self { tlas, blas, textures, addresses, options, _buffers: buffers })
@@ -173,6 +163,23 @@ fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
     let address = unsafe { instance.acceleration_structure_reference.device_handle };
     bytes[56..].copy_from_slice(&address.to_ne_bytes());
     bytes
+}
+
+/// A bottom level in its place, seen by every ray: its custom index, and its first hit record.
+pub fn instance_on_gpu(
+    placement: &glam::Affine3A,
+    custom_index: usize,
+    record: u32,
+    blas: &AccelerationStructure,
+) -> vk::AccelerationStructureInstanceKHR {
+    vk::AccelerationStructureInstanceKHR {
+        transform: transform(placement),
+        instance_custom_index_and_mask: vk::Packed24_8::new(custom_index as u32, 0xff),
+        instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(record, 0),
+        acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
+            device_handle: blas.address,
+        },
+    }
 }
 
 /// A transform in Vulkan's form: three rows of four.

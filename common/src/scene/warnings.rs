@@ -13,7 +13,7 @@ pub(super) enum Kind {
     Definition,
     /// A material that no MTL file defines.
     Material,
-    /// A texture that is missing or no picture.
+    /// A texture that is missing, outside the model's folder, or no picture.
     Texture,
     /// An option or a form of a statement that is not supported.
     Option,
@@ -74,3 +74,6 @@ impl Warnings {
         self.0.iter().map(line).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use common::app::Picture;
+use common::gpu::ShaderEnum;
 use common::scene::Camera;
 use glam::DVec3;
 use reference::Ray;
 
 use super::ground::Landscape;
 use super::judged::{Exact, Verdict};
-use super::scenes::{PRESETS, Preset};
+use super::scenes::{Preset, PresetName};
 use super::shown;
-use run::exact::rays;
+use run::primary_hits::rays;
 
 pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
 
@@ -44,9 +45,10 @@ pub fn camera(sets: &[&str]) -> Camera {
         let mut said = sets.iter().filter_map(|set| set.split_once('='));
         said.find_map(|(name, value)| (name == control).then_some(value))
     };
-    let preset = said("preset").unwrap_or(PRESETS[0]);
-    let number = PRESETS.iter().position(|name| *name == preset).unwrap();
-    let mut camera = Preset::new(number as u32).camera;
+    let names = PresetName::LAYOUT.words;
+    let preset = said("preset").unwrap_or(names[0]);
+    let number = names.iter().position(|name| *name == preset).unwrap();
+    let mut camera = Preset::new(PresetName::ALL[number]).camera;
     if let Some(eye) = said("camera eye") {
         let eye: Vec<f64> = eye.split(',').map(|number| number.parse().unwrap()).collect();
         camera.eye = DVec3::from_slice(&eye);

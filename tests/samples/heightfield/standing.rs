@@ -10,7 +10,7 @@ use super::judged::Verdict;
 use super::marched::camera;
 use super::world::World;
 use super::{GROUND, HILLS, STEEP, land, scenes, shown};
-use run::exact::rays;
+use run::primary_hits::rays;
 
 #[test]
 fn the_chess_set_stands_on_the_ground() {

@@ -7,7 +7,7 @@ use reference::scene::Scene as ExactScene;
 use super::ground::Landscape;
 use super::judged::Exact;
 use super::{GROUND, HILLS, land, scenes};
-use run::exact::reference;
+use run::primary_hits::reference;
 
 /// What a ray meets first, as `show=hit` says it.
 pub struct World {

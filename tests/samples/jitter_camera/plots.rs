@@ -3,8 +3,9 @@
 
 use common::app::Picture;
 
+use super::converging::shrunk;
 use super::points::{Scrambling, Sequence, sample_point};
-use super::{NAME, error, offsets, part_below, run, shrunk};
+use super::{NAME, error, offsets, part_below, run};
 use run::plot::{Axis, Chart, Series, crops, draw};
 use run::render;
 

@@ -1,11 +1,11 @@
 //! Clips, the inverse, and what is inside.
 
 use glam::{DVec3, Vec3};
-use reference::solid::Solid as Exact;
+use reference::solid::Solid as ReferenceSolid;
 use reference::solid::bound::Stray;
 use reference::transform::U;
 
-use super::exact::{exact, largest};
+use super::counterpart::{counterpart, largest};
 use super::solid::{self, Solid};
 use super::stub::Stub;
 use super::tally::Tally;
@@ -21,9 +21,9 @@ fn a_clip_cuts_open_and_an_intersection_caps() {
         let show = |kind: &str| stub.hits(OUTSIDE, name, &[&format!("cut={kind}")]);
         let (open, capped) = (show("clipped by"), show("intersection"));
         let solid = shape(name);
-        let with_lid = solid.clone().within(Solid::Convex(vec![cut], "red"));
-        let clipped = exact(&solid, &[cut]);
-        let closed = exact(&with_lid, &[]);
+        let with_lid = solid.clone().intersection(Solid::Convex(vec![cut], "red"));
+        let clipped = counterpart(&solid, &[cut]);
+        let closed = counterpart(&with_lid, &[]);
         let (mut of_open, mut of_closed) = (Tally::default(), Tally::default());
         let (mut seen_inside, mut lids) = (0, 0);
         let mut members = 0;
@@ -78,7 +78,7 @@ fn inside_and_outside_are_those_of_the_exact_solid() {
             (&["section distance=5", "cut=clipped by"], vec![cut]),
         ] {
             let clip = if is_endless(name) { [clip, largest()].concat() } else { clip };
-            let solid = Exact::Intersection(exact(&shape(name), &clip).into());
+            let solid = ReferenceSolid::Intersection(counterpart(&shape(name), &clip).into());
             let section = stub.seen(OUTSIDE, name, &[sets, &["show=section"]].concat());
             let distance = if clip.is_empty() || sets.len() == 1 { 4.0 } else { 5.0 };
             for (ray, pixel) in rays.iter().zip(&section.pixels) {

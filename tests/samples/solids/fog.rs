@@ -1,9 +1,9 @@
 //! Fog, kept outside.
 
 use glam::{DVec3, Vec3};
-use reference::solid::Solid as Exact;
+use reference::solid::Solid as ReferenceSolid;
 
-use super::exact::{exact, largest};
+use super::counterpart::{counterpart, largest};
 use super::stub::Stub;
 use super::{INSIDE, OUTSIDE, is_endless, shape, solid};
 use run::bits;
@@ -30,7 +30,7 @@ fn fog_is_counted_on_the_way_outside_only() {
         let rays = stub.rays(view);
         for name in ["room", "sunk room", "half-space", "shell"] {
             let clip = if is_endless(name) { [vec![cut], largest()].concat() } else { vec![cut] };
-            let solid = Exact::Intersection(exact(&shape(name), &clip).into());
+            let solid = ReferenceSolid::Intersection(counterpart(&shape(name), &clip).into());
             let show =
                 |more: &[&str]| stub.seen(view, name, &[&sets[..], more, &["show=fog"]].concat());
             let fog = show(&[]);

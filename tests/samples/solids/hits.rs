@@ -3,16 +3,16 @@
 use common::scene::{Camera, transform};
 use glam::{Affine3A, DVec3};
 use reference::Ray;
-use reference::solid::Solid as Exact;
+use reference::solid::Solid as ReferenceSolid;
 use reference::solid::bound::Stray;
 use reference::transform::{Transform, U};
 
-use super::exact::{exact, largest};
+use super::counterpart::{counterpart, largest};
 use super::shapes::SHAPES;
 use super::stub::Stub;
 use super::tally::{Tally, at};
 use super::{FIELD_OF_VIEW, INSIDE, OUTSIDE, is_endless, shape};
-use run::exact::rays;
+use run::primary_hits::rays;
 
 /// Holds views of solids to the exact ones.
 fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
@@ -27,7 +27,8 @@ fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
             if view == INSIDE && !telling.contains(&name) || twins.contains(&name) {
                 continue;
             }
-            let solid = exact(&shape(name), &if is_endless(name) { largest() } else { vec![] });
+            let solid =
+                counterpart(&shape(name), &if is_endless(name) { largest() } else { vec![] });
             let hits = stub.hits(view, name, sets);
             let mut tally = Tally::default();
             for (ray, hit) in rays.iter().zip(&hits.pixels) {
@@ -61,7 +62,6 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
     let directions = stub.seen(far, "cube", &["show=ray direction", field]);
     let far_rays: Vec<Ray> = rays(&Camera::new(far.0, far.1, 2.5), &directions).collect();
     let near_rays = stub.rays(OUTSIDE);
-    let mut worst = Vec::new();
     for rung in ["pov", "point", "compensated"] {
         let set = format!("rung={rung}");
         for (place, view, rays, more) in
@@ -69,7 +69,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
         {
             let mut tally = Tally::default();
             for name in ["icosahedron", "slotted cube"] {
-                let solid = exact(&shape(name), &[]);
+                let solid = counterpart(&shape(name), &[]);
                 let hits = stub.hits(view, name, &[&[&*set], more].concat());
                 for (ray, hit) in rays.iter().zip(&hits.pixels) {
                     // The bounds of the best, and a hundred times that: what is right, t will tell.
@@ -79,12 +79,15 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
             }
             println!("{rung:12} {place}: {tally}");
             assert!(tally.wrong.is_empty() && tally.hits > 500, "{tally}, {:?}", tally.wrong);
-            worst.push(at(&tally.planes, 1.0));
+            let worst = at(&tally.planes, 1.0);
+            // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.
+            let promised = match rung {
+                "compensated" => worst <= 3.0,
+                _ => worst > 3.0 && worst < 1000.0,
+            };
+            assert!(promised, "{rung} {place}: {worst} ULP");
         }
     }
-    assert!(worst[4] <= 3.0 && worst[5] <= 3.0, "{worst:?}");
-    // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.
-    assert!(worst[..4].iter().all(|&most| most > 3.0 && most < 1000.0), "{worst:?}");
 }
 
 /// Where the solid stands: turned by 33 degrees, so many times as large, and moved.
@@ -120,7 +123,7 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
         let directions = [&sets[..], &["show=ray direction"]].concat();
         let directions = stub.seen(OUTSIDE, "cube", &directions);
         for name in ["king", "halves"] {
-            let solid = exact(&shape(name), &[]);
+            let solid = counterpart(&shape(name), &[]);
             let hits = stub.hits(OUTSIDE, name, &sets);
             for (ray, hit) in rays(&camera, &directions).zip(&hits.pixels) {
                 let stray = to_world.stray(ray.origin, DVec3::ZERO).length();
@@ -148,7 +151,7 @@ fn normals_point_out_of_the_solid_and_to_the_eye() {
     for view in [OUTSIDE, INSIDE] {
         let rays = stub.rays(view);
         for name in ["dodecahedron", "die", "all but a cube"] {
-            let [solid, _] = exact(&shape(name), &[]);
+            let [solid, _] = counterpart(&shape(name), &[]);
             let mut simple = Vec::new();
             solid.each(&mut |member| simple.push(member.clone()));
             let [hits, normals] =
@@ -159,8 +162,8 @@ fn normals_point_out_of_the_solid_and_to_the_eye() {
                     continue;
                 }
                 let (out, distance) = match &simple[hit[1] as usize] {
-                    Exact::HalfSpace { normal, .. } => (normal.normalize(), 0.0),
-                    Exact::Ball(ball) => {
+                    ReferenceSolid::HalfSpace { normal, .. } => (normal.normalize(), 0.0),
+                    ReferenceSolid::Ball(ball) => {
                         let out = ray.at(hit[2].into()) - ball.center;
                         (out.normalize(), ray.origin.distance(ball.center) / ball.radius)
                     }

@@ -4,7 +4,7 @@ use common::scene::Sun;
 use reference::Ray;
 use reference::solid::bound::{Stray, Verdict};
 
-use super::exact::exact;
+use super::counterpart::counterpart;
 use super::stub::Stub;
 use super::{OUTSIDE, shape};
 
@@ -36,7 +36,7 @@ fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
     }
     let (mut lit, mut dark, mut apart) = (0, 0, 0);
     for name in ["die", "tower", "shell"] {
-        let [solid, clip] = exact(&shape(name), &[]);
+        let [solid, clip] = counterpart(&shape(name), &[]);
         let [normals, shadows] =
             ["show=normal", "show=shadow origin"].map(|show| stub.seen(OUTSIDE, name, &[show]));
         for (normal, &[x, y, z, visible]) in normals.pixels.iter().zip(&shadows.pixels) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use reference::Ray;
 
 use super::{FIELD_OF_VIEW, NAME, SIZE, View};
-use run::exact::rays;
+use run::primary_hits::rays;
 use run::render;
 
 /// A model that loads faster than the pieces; solids alone do not need them.

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use reference::Ray;
-use reference::solid::Solid as Exact;
+use reference::solid::Solid as ReferenceSolid;
 use reference::solid::bound::{Found, Stray, Verdict};
 use reference::ulp::ulp_error;
 
@@ -22,7 +22,13 @@ pub struct Tally {
 
 impl Tally {
     /// `hit` is what `show=hit` says: instance, face, t, and whether the ray was inside.
-    pub fn judge(&mut self, [solid, clip]: &[Exact; 2], ray: &Ray, stray: Stray, hit: &[f32; 4]) {
+    pub fn judge(
+        &mut self,
+        [solid, clip]: &[ReferenceSolid; 2],
+        ray: &Ray,
+        stray: Stray,
+        hit: &[f32; 4],
+    ) {
         let found = (hit[0] >= 0.0).then(|| Found {
             t: hit[2].into(),
             member: hit[1] as usize,
@@ -77,8 +83,8 @@ impl fmt::Display for Tally {
     }
 }
 
-fn is_ball(solid: &Exact, member: usize) -> bool {
+fn is_ball(solid: &ReferenceSolid, member: usize) -> bool {
     let mut simple = Vec::new();
-    solid.each(&mut |solid| simple.push(matches!(solid, Exact::Ball(_))));
+    solid.each(&mut |solid| simple.push(matches!(solid, ReferenceSolid::Ball(_))));
     simple[member]
 }

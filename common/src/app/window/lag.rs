@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 /// Waits, measured.
 ///
 /// Input that came while a frame was drawn is seen after it, so it is taken to have come right after
-/// the frame before: the longest wait is an upper bound.
+/// the frame before: an upper bound while input keeps coming. A single key that comes while a slow frame
+/// is drawn is counted from the end of that frame, which is too short.
 #[derive(Default)]
 pub struct Lag {
     /// The longest wait so far.

@@ -122,12 +122,12 @@ impl Navigation {
         }
     }
 
-    /// Takes up the keys; returns whether one that moves the camera is down.
-    pub fn keys(&mut self, input: &InputState) -> bool {
+    /// Takes up the keys.
+    pub fn keys(&mut self, input: &InputState) {
         let digit = DIGITS.iter().position(|&key| input.key_pressed(key));
         if input.modifiers.command {
             self.store = digit;
-            return false;
+            return;
         }
         self.recall = digit;
         self.go_home |= input.key_pressed(Key::R) || input.key_pressed(Key::Home);
@@ -137,7 +137,6 @@ impl Navigation {
         let fly = DVec3::new(axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S));
         let hurry = if input.modifiers.shift { HURRY } else { 1.0 };
         self.motion.fly += fly * SPEED * hurry * f64::from(input.stable_dt.min(0.1));
-        fly != DVec3::ZERO
     }
 
     /// Does to the camera what was asked since the last time; returns whether it moved.

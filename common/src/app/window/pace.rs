@@ -1,9 +1,9 @@
 //! How large the next picture may be, so that the window stays responsive on any device.
 //!
 //! While something changes, pictures are as large as fifteen of them a second allow. Once nothing has
-//! changed for a moment, the picture sharpens: to full size at once if that is quick, else first to the
-//! largest size that is quick, and to full size when nobody is at the controls. A device that traces
-//! full size within the budget never sees any of this.
+//! changed for a moment, the picture sharpens: to full size at once if that is quick, else to the largest
+//! size that is quick, and then in steps of four times the pixels. A change gives up a slow picture that
+//! is being traced. A device that traces full size within the budget never sees any of this.
 
 use std::time::{Duration, Instant};
 
@@ -11,30 +11,16 @@ use ash::vk::Extent2D;
 
 /// Milliseconds for a picture while something moves: a fifteenth of a second, less the panel's share.
 const MOVING: f64 = 40.0;
-/// Milliseconds that a still picture may take while someone is at the controls.
+/// Milliseconds for a first still picture.
 const QUICK: f64 = 120.0;
 /// How long nothing must change before the picture sharpens.
 const STILL: Duration = Duration::from_millis(150);
-/// How long there must be no input before a picture that is not quick begins: nothing can interrupt it.
-const HANDS_OFF: Duration = Duration::from_millis(700);
-/// The same while the pointer rests on the panel, whose sliders are likely to be taken again.
-const HANDS_NEAR: Duration = Duration::from_secs(2);
 /// The level that a software driver starts at, before its speed is known.
 const UNKNOWN: u32 = 9;
+/// Levels from a slow picture to the next: twice the width and the height.
+const STEP: u32 = 4;
 /// The smallest picture: a sixteenth of the width and the height.
 const LAST: u32 = 16;
-
-/// Where the user's hands are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Hands {
-    /// Away from the panel.
-    #[default]
-    Off,
-    /// The pointer rests on the panel.
-    Near,
-    /// A button or a key is down.
-    On,
-}
 
 /// What to do for the next frame of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +41,6 @@ pub struct Pace {
     level: u32,
     shown: Option<u32>,
     changed: Instant,
-    input: Instant,
 }
 
 impl Pace {
@@ -63,18 +48,13 @@ impl Pace {
     pub fn new(software: bool, now: Instant) -> Self {
         let start = if software { UNKNOWN } else { 0 };
         let (cost, shown) = (None, None);
-        Self { cost, warm: false, start, level: start, shown, changed: now, input: now }
+        Self { cost, warm: false, start, level: start, shown, changed: now }
     }
 
     /// The picture no longer shows how things stand.
     pub fn change(&mut self, now: Instant) {
         self.shown = None;
         self.changed = now;
-    }
-
-    /// Someone is at the controls.
-    pub fn input(&mut self, now: Instant) {
-        self.input = now;
     }
 
     /// New shaders: what was known of their speed is void.
@@ -93,40 +73,33 @@ impl Pace {
         std::mem::replace(&mut self.warm, true)
     }
 
-    /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are worth rendering.
-    pub fn step(&mut self, now: Instant, full: Extent2D, hands: Hands, accumulates: bool) -> Step {
-        let slow_at = match hands {
-            Hands::Off => Some(self.input + HANDS_OFF),
-            Hands::Near => Some(self.input + HANDS_NEAR),
-            Hands::On => None,
-        };
-        let slow_may_begin = slow_at.is_some_and(|at| at <= now);
+    /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are
+    /// worth rendering.
+    pub fn step(&mut self, now: Instant, full: Extent2D, accumulates: bool) -> Step {
         let level = match self.shown {
             None => {
                 self.level = self.level_within(MOVING, full, self.level);
                 self.level
             }
-            Some(0) if accumulates && (self.is_quick(full) || slow_may_begin) => 0,
-            Some(0) if accumulates => return Step::Keep(slow_at),
+            Some(0) if accumulates => 0,
             Some(0) => return Step::Keep(None),
             // The first picture told nothing: its like is rendered again.
             Some(level) if self.cost.is_none() => level,
-            Some(_) if now < self.changed + STILL => {
+            Some(_) if !self.is_still(now) => {
                 return Step::Keep(Some(self.changed + STILL));
             }
             Some(shown) => {
                 let quick = self.level_within(QUICK, full, 0);
-                if quick < shown {
-                    quick
-                } else if slow_may_begin {
-                    0
-                } else {
-                    return Step::Keep(slow_at);
-                }
+                if quick < shown { quick } else { shown.saturating_sub(STEP) }
             }
         };
         self.shown = Some(level);
         Step::Render(size(full, level))
+    }
+
+    /// Whether nothing has changed for a moment.
+    pub fn is_still(&self, now: Instant) -> bool {
+        now >= self.changed + STILL
     }
 
     /// Full size at once, whatever it takes.
@@ -138,10 +111,6 @@ impl Pace {
     /// Whether the last picture was full size and shows how things stand.
     pub fn is_sharp(&self) -> bool {
         self.shown == Some(0)
-    }
-
-    fn is_quick(&self, full: Extent2D) -> bool {
-        self.level_within(QUICK, full, 0) == 0
     }
 
     /// The largest size whose predicted time is within `budget`; one step larger than `current` only
@@ -181,8 +150,8 @@ mod tests {
         }
 
         /// Takes a step and returns the milliseconds that it took, 0 for none.
-        fn step(&mut self, hands: Hands) -> f64 {
-            let Step::Render(size) = self.pace.step(self.now, FULL, hands, false) else {
+        fn step(&mut self) -> f64 {
+            let Step::Render(size) = self.pace.step(self.now, FULL, false) else {
                 self.now += Duration::from_millis(10);
                 return 0.0;
             };
@@ -200,21 +169,15 @@ mod tests {
             let mut run = Simulation::new(full);
             for frame in 0..100 {
                 run.pace.change(run.now);
-                run.pace.input(run.now);
-                let took = run.step(Hands::On);
+                let took = run.step();
                 assert!(took > 0.0 && (took <= MOVING || frame < 2), "{full}: {took}");
             }
-            // The button is still held: no slow picture begins, however long.
-            for _ in 0..200 {
-                assert!(run.step(Hands::On) <= QUICK, "{full}");
-            }
             let released = run.now;
-            run.pace.input(released);
             while !run.pace.is_sharp() {
-                run.step(Hands::Near);
+                run.step();
                 assert!(run.now < released + Duration::from_secs(9), "{full} never sharpens");
             }
-            assert_eq!(run.step(Hands::Off), 0.0, "a sharp picture is kept");
+            assert_eq!(run.step(), 0.0, "a sharp picture is kept");
         }
     }
 
@@ -222,13 +185,13 @@ mod tests {
     fn a_fast_device_renders_full_size_from_the_first_frame() {
         let now = Instant::now();
         let mut pace = Pace::new(false, now);
-        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
+        assert_eq!(pace.step(now, FULL, false), Step::Render(FULL));
         pace.took(1280 * 720, 900.0);
         pace.change(now);
-        pace.step(now, FULL, Hands::On, false);
+        pace.step(now, FULL, false);
         pace.took(1280 * 720, 2.0);
         pace.change(now);
-        assert_eq!(pace.step(now, FULL, Hands::On, false), Step::Render(FULL));
+        assert_eq!(pace.step(now, FULL, false), Step::Render(FULL));
     }
 
     #[test]
@@ -236,9 +199,9 @@ mod tests {
         let now = Instant::now();
         let mut pace = Pace::new(false, now);
         for _ in 0..5 {
-            assert_eq!(pace.step(now, FULL, Hands::Off, true), Step::Render(FULL));
+            assert_eq!(pace.step(now, FULL, true), Step::Render(FULL));
             pace.took(1280 * 720, 5.0);
         }
-        assert_eq!(pace.step(now, FULL, Hands::Off, false), Step::Keep(None));
+        assert_eq!(pace.step(now, FULL, false), Step::Keep(None));
     }
 }

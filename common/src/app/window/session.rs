@@ -15,7 +15,6 @@ use winit::window::Window;
 use super::facts::Facts;
 use super::keys::Ask;
 use super::lag::Lag;
-use super::pace::Hands;
 use super::painter::Painter;
 use super::panel::{Outcome, Panel};
 use super::reload::Reload;
@@ -117,7 +116,7 @@ impl<S: Sample> Session<S> {
             window,
         };
         // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
-        session.view.step(args.size, Hands::Off)?;
+        while let Stepped::Part = session.view.step(args.size)? {}
         session.learn();
         session.window.set_visible(true);
         session.window.request_redraw();
@@ -171,10 +170,7 @@ impl<S: Sample> Session<S> {
             | WindowEvent::MouseInput { .. }
             | WindowEvent::MouseWheel { .. }
             | WindowEvent::Touch(_)
-            | WindowEvent::KeyboardInput { .. } => {
-                self.view.input();
-                self.lag.input();
-            }
+            | WindowEvent::KeyboardInput { .. } => self.lag.input(),
             _ => {}
         }
         let response = self.egui.on_window_event(&self.window, event);
@@ -204,7 +200,7 @@ impl<S: Sample> Session<S> {
             return Ok(false);
         }
         let area = self.area(extent, drawing.pixels_per_point);
-        let stepped = self.view.step(area, outcome.hands)?;
+        let stepped = self.view.step(area)?;
         self.learn();
         if let Some(written) = self.view.take_picture(&self.facts.name) {
             self.panel.tell(match written {
@@ -283,6 +279,7 @@ impl<S: Sample> Session<S> {
                 tracing::debug!("{width}x{height}: {milliseconds:.1} ms");
                 Some(now)
             }
+            Stepped::Part => Some(now),
             Stepped::Kept(until) => until,
         };
         let resting = picture_at.is_none();

@@ -1,22 +1,36 @@
 //! A sample's picture in a window: rendered at the size that the moment allows.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 use ash::vk;
 
 use super::facts::Facts;
-use super::pace::{Hands, Pace, Step};
-use crate::app::{Frame, Picture, Sample};
-use crate::gpu::{Gpu, Image, Timer, barrier};
+use super::pace::{Pace, Step};
+use crate::app::bands::Bands;
+use crate::app::{Picture, Sample};
+use crate::gpu::{Gpu, Image, Timer};
+
+/// For how long bands are traced before the window looks for input again.
+const SLICE: Duration = Duration::from_millis(40);
+
+/// Milliseconds that a preview may take before a change gives it up.
+const PATIENCE: f64 = 150.0;
 
 /// The sample and its last picture.
 pub struct View<S> {
     /// The sample.
     pub sample: S,
-    /// The last picture.
+    /// The last whole picture.
     pub image: Image,
+    /// The next one, which is traced in bands.
+    next: Image,
+    bands: Bands,
+    /// What its bands have taken until now.
+    spent: f64,
+    /// Whether a change began it: then it is small.
+    is_preview: bool,
     pace: Pace,
     timer: Timer,
     index: u32,
@@ -38,6 +52,8 @@ pub enum Stepped {
         /// Whether that was the time of tracing alone: the first picture also compiles.
         telling: bool,
     },
+    /// Bands of the next picture; the last one stays until it is whole.
+    Part,
     /// The last picture still shows how things stand; something may be due then.
     Kept(Option<Instant>),
 }
@@ -52,6 +68,10 @@ impl<S: Sample> View<S> {
         Ok(Self {
             sample,
             image: Image::storage(gpu, "picture", nothing)?,
+            next: Image::storage(gpu, "next picture", nothing)?,
+            bands: Bands::default(),
+            spent: 0.0,
+            is_preview: true,
             pace: Pace::new(gpu.software, Instant::now()),
             timer: Timer::new(gpu)?,
             index: 0,
@@ -67,11 +87,18 @@ impl<S: Sample> View<S> {
     pub fn change(&mut self) {
         self.changed = true;
         self.pace.change(Instant::now());
+        // Who moves something wants to see it move: a preview is finished, unless it is no quick one.
+        if !self.is_preview || self.spent > PATIENCE {
+            self.give_up();
+        }
     }
 
-    /// Someone is at the controls.
-    pub fn input(&mut self) {
-        self.pace.input(Instant::now());
+    fn give_up(&mut self) {
+        if self.spent > 0.0 {
+            self.pace.took(self.bands.pixels(), self.spent);
+        }
+        self.spent = 0.0;
+        self.bands.stop();
     }
 
     /// Takes the place of the sample, once a first picture shows that it can; the old one stays if not.
@@ -82,10 +109,15 @@ impl<S: Sample> View<S> {
         let old = std::mem::replace(&mut self.sample, sample);
         self.changed = true;
         self.pace.restart(Instant::now());
-        let tried = self.render(self.image.extent);
-        if tried.is_err() {
-            self.sample = old;
-            self.changed = true;
+        let tried = self.begin(self.image.extent).and_then(|()| self.trace_band());
+        match tried {
+            Ok(true) => _ = self.show(),
+            Ok(false) => {}
+            Err(_) => {
+                self.sample = old;
+                self.bands.stop();
+                self.change();
+            }
         }
         tried.map(drop)
     }
@@ -95,58 +127,88 @@ impl<S: Sample> View<S> {
         self.picture_due = true;
     }
 
-    /// Renders the next picture for a window of size `full`, if one is due.
+    /// Renders some of the next picture for a window of size `full`, if one is due.
     ///
     /// # Errors
     /// If the sample or the device fails.
-    pub fn step(&mut self, full: vk::Extent2D, hands: Hands) -> Result<Stepped> {
+    pub fn step(&mut self, full: vk::Extent2D) -> Result<Stepped> {
         if full != self.full {
             self.full = full;
             self.change();
         }
-        let busy = self.sample.is_busy() || self.gpu.is_building();
+        if self.bands.next().is_some() {
+            if self.changed {
+                // The rest of a preview shows the new values: what follows from them must be there.
+                self.sample.changed(&self.gpu)?;
+            }
+            return self.go_on();
+        }
+        let busy = self.gpu.is_building();
         let improves = self.sample.accumulates() || busy;
-        let step = if self.picture_due && !self.pace.is_sharp() {
+        let now = Instant::now();
+        let step = if self.picture_due && !self.pace.is_sharp() && self.pace.is_still(now) {
             self.pace.full(full)
         } else {
-            self.pace.step(Instant::now(), full, hands, improves)
+            self.pace.step(now, full, improves)
         };
         let extent = match step {
             Step::Render(extent) => extent,
             Step::Keep(until) => return Ok(Stepped::Kept(until)),
         };
-        let was_building = self.gpu.is_building();
-        let telling = self.render(extent)?;
-        if was_building && !self.gpu.is_building() {
-            // What was waited for is there: frames of the old pipeline are not to be mixed with it.
-            self.change();
-        }
-        Ok(Stepped::New { milliseconds: self.milliseconds, full: extent == full, telling })
+        self.begin(extent)?;
+        self.go_on()
     }
 
-    fn render(&mut self, extent: vk::Extent2D) -> Result<bool> {
-        let resized = self.image.extent != extent;
-        if resized {
-            self.image = Image::storage(&self.gpu, "picture", extent)?;
-        }
-        self.index = if self.changed || resized { 0 } else { self.index + 1 };
-        self.changed = false;
-        let frame = |cmd| Frame { gpu: &self.gpu, cmd, image: &self.image, index: self.index };
+    /// Traces bands for as long as the window can wait.
+    fn go_on(&mut self) -> Result<Stepped> {
         let start = Instant::now();
-        self.gpu.submit(|cmd| {
-            self.timer.start(cmd);
-            self.sample.render(&frame(cmd))?;
-            self.timer.stop(cmd);
-            barrier::trace_to_trace(&self.gpu, cmd);
-            Ok(())
-        })?;
-        // Where the queue has no timestamps, the host's clock must do.
-        self.milliseconds = match self.timer.milliseconds()? {
-            0.0 => start.elapsed().as_secs_f64() * 1e3,
-            milliseconds => milliseconds,
-        };
+        while start.elapsed() < SLICE {
+            let built = self.gpu.built();
+            let whole = self.trace_band()?;
+            if built != self.gpu.built() {
+                // What was waited for is there: what the old pipeline has traced is not to be mixed with it.
+                self.give_up();
+                self.change();
+                return Ok(Stepped::Part);
+            }
+            if whole {
+                return Ok(self.show());
+            }
+        }
+        Ok(Stepped::Part)
+    }
+
+    fn begin(&mut self, extent: vk::Extent2D) -> Result<()> {
+        if self.next.extent != extent {
+            self.next = Image::storage(&self.gpu, "next picture", extent)?;
+        }
+        if self.changed {
+            self.sample.changed(&self.gpu)?;
+        }
+        let like_the_last = !self.changed && self.image.extent == extent;
+        self.is_preview = self.changed;
+        self.index = if like_the_last { self.index + 1 } else { 0 };
+        (self.changed, self.spent) = (false, 0.0);
+        self.bands.begin(extent, like_the_last);
+        Ok(())
+    }
+
+    /// Traces a band; whether the picture is whole.
+    fn trace_band(&mut self) -> Result<bool> {
+        let device = (&self.gpu, &self.timer);
+        let took = self.bands.trace(&mut self.sample, device, (&self.next, self.index))?;
+        self.spent += took.unwrap_or_default();
+        Ok(self.bands.next().is_none())
+    }
+
+    /// Puts the picture that is whole in the place of the last.
+    fn show(&mut self) -> Stepped {
+        std::mem::swap(&mut self.image, &mut self.next);
+        self.milliseconds = std::mem::take(&mut self.spent);
+        let extent = self.image.extent;
         let pixels = u64::from(extent.width) * u64::from(extent.height);
-        Ok(self.pace.took(pixels, self.milliseconds))
+        let telling = self.pace.took(pixels, self.milliseconds);
+        Stepped::New { milliseconds: self.milliseconds, full: extent == self.full, telling }
     }
 
     /// Adds what is known of the last picture.
@@ -162,7 +224,7 @@ impl<S: Sample> View<S> {
     /// # Errors
     /// If the current folder cannot be written.
     pub fn take_picture(&mut self, name: &str) -> Option<Result<PathBuf>> {
-        let ready = self.picture_due && self.pace.is_sharp();
+        let ready = self.picture_due && self.pace.is_sharp() && self.bands.next().is_none();
         self.picture_due &= !ready;
         ready.then(|| {
             let path = free_name(Path::new("."), name)?;

@@ -9,7 +9,9 @@ use ash::vk;
 use super::stages::{HitGroup, Stages, general};
 use super::{Binding, RayTracingPipeline};
 use crate::gpu::blueprint::{Blueprint, Stage};
-use crate::gpu::layout::{Reflection, ShaderStruct, StructLayout};
+use crate::gpu::enumeration::ShaderConstant;
+use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
+use crate::gpu::reflection::Reflection;
 use crate::gpu::shader::Shader;
 use crate::gpu::texture::TextureTable;
 use crate::gpu::{Executable, Gpu};
@@ -24,12 +26,12 @@ pub struct PipelineBuilder<'a> {
     bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
     push: Option<StructLayout>,
-    hit_data: Option<StructLayout>,
+    known: Known,
     constants: Vec<(u32, u32)>,
     defines: Vec<(&'a str, String)>,
     recursion: u32,
     flags: vk::PipelineCreateFlags,
-    exact: bool,
+    as_written: bool,
 }
 
 impl<'a> PipelineBuilder<'a> {
@@ -43,12 +45,12 @@ impl<'a> PipelineBuilder<'a> {
             bindings: Vec::new(),
             textures: None,
             push: None,
-            hit_data: None,
+            known: Known::default(),
             constants: Vec::new(),
             defines: Vec::new(),
             recursion: 1,
             flags: vk::PipelineCreateFlags::empty(),
-            exact: false,
+            as_written: false,
         }
     }
 
@@ -91,18 +93,21 @@ impl<'a> PipelineBuilder<'a> {
     /// Declares the push constants, checked against the block of the same name in every shader.
     pub fn push_constants<T: ShaderStruct>(mut self) -> Self {
         self.push = Some(T::LAYOUT);
+        T::reach(&mut self.known);
         self
     }
 
     /// Declares the data of hit records, checked against the `shaderRecordEXT` block of the same name.
     pub fn hit_data<T: ShaderStruct>(mut self) -> Self {
-        self.hit_data = Some(T::LAYOUT);
+        T::reach(&mut self.known);
         self
     }
 
-    /// Sets the specialization constant `id` in every stage that has it.
-    pub fn constant(mut self, id: u32, value: u32) -> Self {
-        self.constants.push((id, value));
+    /// Sets the specialization constant `id` in every stage that has it. The names that shaders have for
+    /// an enumeration's numbers are checked against it.
+    pub fn constant<T: ShaderConstant>(mut self, id: u32, value: T) -> Self {
+        self.constants.push((id, value.bits()));
+        T::ENUM.into_iter().for_each(|layout| self.known.add_enum(layout));
         self
     }
 
@@ -120,8 +125,8 @@ impl<'a> PipelineBuilder<'a> {
 
     /// Has all arithmetic done as it is written, so that a result does not depend on what else is
     /// compiled beside it.
-    pub fn exact(mut self) -> Self {
-        self.exact = true;
+    pub fn as_written(mut self) -> Self {
+        self.as_written = true;
         self
     }
 
@@ -135,7 +140,8 @@ impl<'a> PipelineBuilder<'a> {
     /// Compiles the shaders and makes the pipeline.
     ///
     /// # Errors
-    /// If a shader does not compile, a structure differs between Rust and GLSL, or the device allows
+    /// If a shader does not compile, a structure or an enumeration differs between Rust and GLSL, Rust
+    /// has not declared what lies at an address, or the device allows
     /// less recursion or fewer push constants.
     pub fn build(self, gpu: &Gpu) -> Result<RayTracingPipeline> {
         let start = Instant::now();
@@ -157,7 +163,7 @@ impl<'a> PipelineBuilder<'a> {
         );
         let defines = self.defines.as_slice();
         let mut stages =
-            Stages { folder: self.name, defines, exact: self.exact, shaders: Vec::new() };
+            Stages { folder: self.name, defines, as_written: self.as_written, shaders: Vec::new() };
         let mut groups = Vec::new();
         for shader in self.raygen.iter().chain(&self.miss) {
             groups.push(general(stages.add(shader)?));
@@ -168,10 +174,15 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &self.callable {
             groups.push(general(stages.add(shader)?));
         }
-        let own = self.push.into_iter().chain(self.hit_data).collect();
-        let shared = [gpu.shared_structs(), own].concat();
+        let mut known = self.known;
+        gpu.shared_structs().into_iter().for_each(|layout| _ = known.add_struct(layout));
         for shader in &stages.shaders {
-            Reflection::of(&shader.spirv)?.check(&shader.path, &shared)?;
+            let reflection = Reflection::of(&shader.spirv)?;
+            reflection.check(&shader.path, &known.structs)?;
+            reflection.check_addresses(&shader.path, &known.structs)?;
+        }
+        for layout in &known.enums {
+            layout.check(self.name, &stages.shaders)?;
         }
         let stage = |shader: Shader| Stage {
             path: shader.path,

@@ -4,7 +4,7 @@ use anyhow::Result;
 use ash::vk;
 
 use crate::gpu::blueprint::Group;
-use crate::gpu::exact::exact;
+use crate::gpu::contraction;
 use crate::gpu::shader::{self, Shader};
 
 /// A hit group: what happens where a ray meets one kind of geometry.
@@ -41,7 +41,7 @@ impl<'a> HitGroup<'a> {
 pub(super) struct Stages<'a> {
     pub folder: &'a str,
     pub defines: &'a [(&'a str, String)],
-    pub exact: bool,
+    pub as_written: bool,
     pub shaders: Vec<Shader>,
 }
 
@@ -54,8 +54,8 @@ impl Stages<'_> {
             Some(index) => index,
             None => {
                 let mut shader = shader::compile_with(&path, self.defines)?;
-                if self.exact {
-                    shader.spirv = exact(&shader.spirv)?;
+                if self.as_written {
+                    shader.spirv = contraction::without(&shader.spirv)?;
                 }
                 self.shaders.push(shader);
                 self.shaders.len() - 1

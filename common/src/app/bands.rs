@@ -1,0 +1,191 @@
+//! A picture in bands of rows: no device works for long without an answer.
+//!
+//! Systems take a device that does not answer for a second or two for lost, and a window that waits for
+//! a picture answers nobody. So a picture is traced in bands, each submitted and waited for alone. How
+//! many rows a band has follows what the rows before have cost.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use ash::vk;
+
+use super::{Frame, Sample};
+use crate::gpu::{Gpu, Image, Timer, barrier};
+
+/// Milliseconds for the first band after a change, which may have made every pixel a hundred times as
+/// dear.
+const FIRST: f64 = 1.0;
+/// Milliseconds for the next ones: below a cheap sky lies what no band has met yet.
+const UNSEEN: f64 = 4.0;
+/// Milliseconds for a band of a picture that was traced before and has not changed.
+const SEEN: f64 = 50.0;
+
+/// Which rows are traced, which are next, and what they are likely to take.
+#[derive(Clone, Debug, Default)]
+pub struct Bands {
+    extent: vk::Extent2D,
+    row: u32,
+    /// Milliseconds a pixel, of the last band.
+    cost: Option<f64>,
+    /// The most that a band of this picture has cost a pixel.
+    most: f64,
+    /// The same of the whole picture before, if this one is its like.
+    most_before: Option<f64>,
+    /// Milliseconds of each band of this picture.
+    pub times: Vec<f64>,
+}
+
+impl Bands {
+    /// Begins a picture; `like_the_last` if nothing has changed that could make it dearer.
+    pub fn begin(&mut self, extent: vk::Extent2D, like_the_last: bool) {
+        let complete = self.row > 0 && self.row == self.extent.height;
+        self.most_before = (like_the_last && complete).then_some(self.most);
+        (self.extent, self.row, self.most) = (extent, 0, 0.0);
+        self.times.clear();
+    }
+
+    /// Gives the picture up.
+    pub fn stop(&mut self) {
+        (self.extent.height, self.row) = (0, 0);
+    }
+
+    /// How many pixels of the picture are traced.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.extent.width) * u64::from(self.row)
+    }
+
+    /// The next band; none if the picture is complete or was given up.
+    pub fn next(&self) -> Option<vk::Rect2D> {
+        let left = self.extent.height - self.row;
+        if left == 0 {
+            return None;
+        }
+        let (budget, cost) = match (self.most_before, self.cost) {
+            (Some(cost), _) => (SEEN, cost),
+            (None, Some(cost)) if self.row == 0 => (FIRST, cost),
+            (None, Some(cost)) => (UNSEEN, cost),
+            // Nothing is known: a single row.
+            (None, None) => (0.0, 1.0),
+        };
+        let most = (budget / (cost * f64::from(self.extent.width))).clamp(1.0, left.into()) as u32;
+        // As many bands as it takes, all of one height.
+        let height = left.div_ceil(left.div_ceil(most));
+        let offset = vk::Offset2D { x: 0, y: self.row as i32 };
+        Some(vk::Rect2D { offset, extent: vk::Extent2D { height, ..self.extent } })
+    }
+
+    /// A band is traced, and has taken so many milliseconds.
+    pub fn took(&mut self, band: vk::Rect2D, milliseconds: f64) {
+        let vk::Extent2D { width, height } = band.extent;
+        let cost = milliseconds / (f64::from(width) * f64::from(height));
+        // The very first also compiles, in some drivers.
+        if self.cost.is_some() {
+            self.most = self.most.max(cost);
+        }
+        self.cost = Some(cost);
+        self.times.push(milliseconds);
+        self.row += height;
+    }
+
+    /// Traces the next band of a frame and returns the milliseconds it took, none if there is no more.
+    ///
+    /// # Errors
+    /// If the sample or the device fails.
+    pub fn trace<S: Sample>(
+        &mut self,
+        sample: &mut S,
+        (gpu, timer): (&Gpu, &Timer),
+        (image, index): (&Image, u32),
+    ) -> Result<Option<f64>> {
+        let Some(area) = self.next() else { return Ok(None) };
+        let start = Instant::now();
+        gpu.submit(|cmd| {
+            timer.start(cmd);
+            sample.render(&Frame { gpu, cmd, image, area, index })?;
+            timer.stop(cmd);
+            barrier::trace_to_trace(gpu, cmd);
+            Ok(())
+        })?;
+        // Where the queue has no timestamps, the host's clock must do.
+        let milliseconds = match timer.milliseconds()? {
+            0.0 => start.elapsed().as_secs_f64() * 1e3,
+            milliseconds => milliseconds,
+        };
+        tracing::trace!("{} rows: {milliseconds:.1} ms", area.extent.height);
+        self.took(area, milliseconds);
+        Ok(Some(milliseconds))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EXTENT: vk::Extent2D = vk::Extent2D { width: 800, height: 600 };
+
+    /// Traces a picture whose rows take `row(y)` milliseconds, and returns what its bands took.
+    fn picture(bands: &mut Bands, like_the_last: bool, row: impl Fn(u32) -> f64) -> Vec<f64> {
+        bands.begin(EXTENT, like_the_last);
+        let (mut times, mut next) = (Vec::new(), 0);
+        while let Some(area) = bands.next() {
+            assert_eq!((area.offset.x, area.offset.y), (0, next));
+            assert_eq!(area.extent.width, EXTENT.width);
+            let rows = next as u32..next as u32 + area.extent.height;
+            next += area.extent.height as i32;
+            let milliseconds = rows.map(&row).sum();
+            bands.took(area, milliseconds);
+            times.push(milliseconds);
+        }
+        assert_eq!(next, 600, "every row once");
+        times
+    }
+
+    fn longest(times: &[f64]) -> f64 {
+        times.iter().copied().fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_quick_picture_is_one_band_and_so_is_its_like() {
+        let mut bands = Bands::default();
+        assert!(picture(&mut bands, false, |_| 1e-3).len() <= 3);
+        assert_eq!(picture(&mut bands, true, |_| 1e-3).len(), 1);
+        assert_eq!(picture(&mut bands, false, |_| 1e-3).len(), 1);
+    }
+
+    #[test]
+    fn a_slow_picture_is_many_bands_none_of_them_long() {
+        let mut bands = Bands::default();
+        // A sky, and under it what is 25 times as dear.
+        let row = |y| if y < 250 { 0.4 } else { 10.0 };
+        assert!(longest(&picture(&mut bands, false, row)) <= 100.0);
+        let again = picture(&mut bands, true, row);
+        assert!(longest(&again) <= 60.0 && again.len() <= 130, "{again:?}");
+    }
+
+    #[test]
+    fn a_change_that_makes_all_a_hundred_times_as_dear_is_met_by_a_short_band() {
+        let mut bands = Bands::default();
+        picture(&mut bands, false, |_| 0.1);
+        picture(&mut bands, true, |_| 0.1);
+        assert!(longest(&picture(&mut bands, false, |_| 10.0)) <= 100.0);
+    }
+
+    #[test]
+    fn a_first_row_that_waits_for_a_compiler_is_forgotten() {
+        let mut bands = Bands::default();
+        picture(&mut bands, false, |y| if y == 0 { 900.0 } else { 1e-3 });
+        assert_eq!(picture(&mut bands, true, |_| 1e-3).len(), 1);
+    }
+
+    #[test]
+    fn what_was_given_up_has_no_next_band_and_is_no_measure() {
+        let mut bands = Bands::default();
+        bands.begin(EXTENT, false);
+        let first = bands.next().unwrap();
+        bands.took(first, 1.0);
+        bands.stop();
+        assert_eq!(bands.next(), None);
+        bands.begin(EXTENT, true);
+        assert!(bands.next().unwrap().extent.height < 600);
+    }
+}

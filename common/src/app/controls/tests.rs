@@ -1,0 +1,149 @@
+//! Controls set, listed and refused.
+
+use super::*;
+
+#[derive(Default)]
+struct Sample {
+    height: f32,
+    depth: u32,
+    on: bool,
+    show: u32,
+    tint: Vec3,
+    camera: Camera,
+}
+
+impl Sample {
+    fn controls(&mut self, c: &mut Controls) {
+        c.slider("height", &mut self.height, 0.0..=10.0);
+        c.integer("depth", &mut self.depth, 0..=8);
+        c.checkbox("shadows", &mut self.on);
+        c.one_of("show", &mut self.show, &["picture", "ray direction"]);
+        c.color("tint", &mut self.tint);
+        c.camera(&mut self.camera);
+    }
+}
+
+fn set_on(sample: &mut Sample, name: &str, text: &str) -> Result<(), String> {
+    set(name, text, |c| sample.controls(c)).map_err(|usage| usage.0)
+}
+
+#[test]
+fn every_control_can_be_set_to_what_the_list_says_it_is() {
+    let mut sample = Sample::default();
+    for control in list(|c| sample.controls(c)) {
+        set_on(&mut sample, &control.name, &control.value).unwrap();
+    }
+    set_on(&mut sample, "show", "ray direction").unwrap();
+    set_on(&mut sample, "tint", "0.5, 0.25,1").unwrap();
+    set_on(&mut sample, "camera eye", "1e6,2,-3.5").unwrap();
+    set_on(&mut sample, "field of view", "30").unwrap();
+    assert_eq!((sample.show, sample.tint), (1, Vec3::new(0.5, 0.25, 1.0)));
+    assert_eq!((sample.camera.eye, sample.camera.fov_y), (DVec3::new(1e6, 2.0, -3.5), 30.0));
+}
+
+/// A preset, what it brings, and a control that is there for one preset alone, declared before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Presets {
+    preset: u32,
+    height: f32,
+    extra: f32,
+}
+
+impl Presets {
+    fn controls(&mut self, c: &mut Controls) {
+        if self.preset == 1 {
+            c.slider("extra", &mut self.extra, 0.0..=10.0);
+        }
+        if c.one_of("preset", &mut self.preset, &["low", "high"]) {
+            self.height = [1.0, 9.0][self.preset as usize];
+        }
+        c.slider("height", &mut self.height, 0.0..=10.0);
+    }
+
+    fn with(sets: &[&str]) -> Result<Self, String> {
+        let pair = |set: &&str| {
+            let (name, text) = set.split_once('=').unwrap();
+            (name.to_owned(), text.to_owned())
+        };
+        let sets: Vec<_> = sets.iter().map(pair).collect();
+        let mut presets = Self::default();
+        set_all(&sets, |c| presets.controls(c)).map_err(|usage| usage.0)?;
+        Ok(presets)
+    }
+}
+
+#[test]
+fn the_order_of_settings_does_not_matter() {
+    let expected = Ok(Presets { preset: 1, height: 5.0, extra: 3.0 });
+    let [a, b, c] = ["preset=high", "height=5", "extra=3"];
+    for sets in [[a, b, c], [a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
+        assert_eq!(Presets::with(&sets), expected, "{sets:?}");
+    }
+    assert_eq!(Presets::with(&["height=5", "preset=high"]).unwrap().height, 5.0);
+    assert_eq!(Presets::with(&["preset=high"]).unwrap().height, 9.0);
+    assert_eq!(Presets::with(&[]), Ok(Presets::default()));
+}
+
+#[test]
+fn a_compared_preset_undoes_no_setting() {
+    let sets = [("height".to_owned(), "5".to_owned()), ("preset".to_owned(), "low".to_owned())];
+    let mut presets = Presets::default();
+    for (preset, text) in [(1, "high"), (0, "low"), (1, "high")] {
+        set_beside(&sets, "preset", text, |c| presets.controls(c)).unwrap();
+        assert_eq!((presets.preset, presets.height), (preset, 5.0));
+    }
+}
+
+#[test]
+fn an_eye_that_is_its_own_target_is_refused() {
+    let both = |eye: &str, target: &str| {
+        let sets = [("camera eye", eye), ("camera target", target)];
+        let sets = sets.map(|(name, text)| (name.to_owned(), text.to_owned()));
+        let mut sample = Sample::default();
+        set_all(&sets, |c| sample.controls(c)).map_err(|usage| usage.0)
+    };
+    let error = both("1,2,-0.5", "1,2,-0.5").unwrap_err();
+    let line = "control 'camera eye' cannot be where 'camera target' is, at '1,2,-0.5': they take \
+                two different points";
+    assert_eq!(error, line);
+    assert_eq!(both("0,0,0", "0,0,5"), Ok(()), "each where the other was");
+    let mut sample = Sample::default();
+    assert!(set_on(&mut sample, "camera eye", "0,0,0").unwrap_err().contains("camera target"));
+}
+
+#[test]
+fn a_name_given_again_begins_another_round() {
+    let again = Presets::with(&["height=5", "preset=high", "preset=low"]).unwrap();
+    assert_eq!((again.preset, again.height), (0, 1.0));
+    let last = Presets::with(&["height=5", "height=6"]).unwrap();
+    assert_eq!(last.height, 6.0);
+    // Whatever stands in the way of the rest is told.
+    let wrong = Presets::with(&["height=11", "height=6"]).unwrap_err();
+    assert!(wrong.contains("'height' cannot be '11'"), "{wrong}");
+    let absent = Presets::with(&["height=5", "extra=3"]).unwrap_err();
+    assert_eq!(absent, "no control 'extra'; there is preset, height");
+}
+
+#[test]
+fn wrong_names_and_values_say_what_there_is() {
+    let mut sample = Sample::default();
+    let error = set_on(&mut sample, "bogus", "1").unwrap_err();
+    assert!(error.contains("no control 'bogus'; there is height, depth, shadows"), "{error}");
+    let wrong = [
+        ("height", "10.5", "0 to 10"),
+        ("height", "NaN", "0 to 10"),
+        ("depth", "9", "0 to 8"),
+        ("depth", "-1", "0 to 8"),
+        ("shadows", "maybe", "on, off"),
+        ("show", "pictures", "picture, ray direction"),
+        ("tint", "1,1", "r,g,b"),
+        ("tint", "1,1,2", "0 to 1"),
+        ("camera eye", "1,2,inf", "x,y,z"),
+        ("camera eye", "1,2,1e39", "x,y,z"),
+    ];
+    for (name, text, possible) in wrong {
+        let error = set_on(&mut sample, name, text).unwrap_err();
+        assert!(error.contains(&format!("'{name}'")) && error.contains(possible), "{error}");
+    }
+    assert_eq!(sample.height, 0.0);
+}

@@ -1,0 +1,77 @@
+//! Submission: commands are recorded, submitted and waited for.
+
+use anyhow::{Context, Result, anyhow};
+use ash::vk;
+
+use super::Gpu;
+
+impl Gpu {
+    /// Records commands with `record`, submits them, and waits until the device has done them.
+    ///
+    /// # Errors
+    /// If recording or the device fails.
+    pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
+        self.submit_between(vk::Semaphore::null(), vk::Semaphore::null(), record)
+    }
+
+    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end;
+    /// either may be null.
+    ///
+    /// # Errors
+    /// As [`Gpu::submit`].
+    pub fn submit_between<R>(
+        &self,
+        before: vk::Semaphore,
+        after: vk::Semaphore,
+        record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
+    ) -> Result<R> {
+        let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
+        let info =
+            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        // SAFETY: the pool is ours, and every handle below is alive until the wait has ended.
+        unsafe {
+            let cmd = self.device.allocate_command_buffers(&info)?[0];
+            let begin = vk::CommandBufferBeginInfo::default()
+                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            self.device.begin_command_buffer(cmd, &begin)?;
+            let result = record(cmd);
+            self.device.end_command_buffer(cmd)?;
+            let done = if result.is_ok() { self.run(cmd, before, after) } else { Ok(()) };
+            self.device.free_command_buffers(pool, &[cmd]);
+            done?;
+            result
+        }
+    }
+
+    fn run(
+        &self,
+        cmd: vk::CommandBuffer,
+        before: vk::Semaphore,
+        after: vk::Semaphore,
+    ) -> Result<()> {
+        let semaphores = [before, after].map(|semaphore| {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)
+        });
+        let [before, after] =
+            semaphores.each_ref().map(|info| match info.semaphore == vk::Semaphore::null() {
+                true => &[][..],
+                false => std::slice::from_ref(info),
+            });
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+        let submit = [vk::SubmitInfo2::default()
+            .wait_semaphore_infos(before)
+            .command_buffer_infos(&buffers)
+            .signal_semaphore_infos(after)];
+        // SAFETY: cmd is recorded; the fence is destroyed after the wait.
+        unsafe {
+            let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
+            let done = self
+                .device
+                .queue_submit2(self.queue, &submit, fence)
+                .and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
+            self.device.destroy_fence(fence, None);
+            done.context("the device failed while it worked")
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! The shapes on the device: a bottom level of spheres and one of boxes, in order and with a margin.
+
+use anyhow::Result;
+use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
+use glam::{Affine3A, Vec3};
+
+use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
+
+/// What the shapes are built from; where it changes, they are built again.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Build {
+    pub scene: SceneKind,
+    pub count: u32,
+    pub ordering: bool,
+    /// Whether the boxes around shapes are larger than the shapes.
+    pub margin: bool,
+}
+
+/// The shapes in device memory, and the top level that holds them beside the meshes.
+pub struct ShapesOnGpu {
+    pub tlas: AccelerationStructure,
+    /// Where shaders find the shapes: a [`ShapeAddresses`].
+    pub addresses: Buffer,
+    /// |eye - center|² - radius² of each sphere, for this eye.
+    host_c: Option<(Vec3, Buffer)>,
+    shapes: Shapes,
+    /// Corners of the box around everything.
+    bounds: order::Bounds,
+    /// How far rays may begin from a shape; the margin of the boxes grows with it.
+    reach: f32,
+    build: Build,
+    _levels: Vec<AccelerationStructure>,
+    _buffers: Vec<Buffer>,
+}
+
+impl ShapesOnGpu {
+    pub fn new(
+        gpu: &Gpu,
+        source: &Scene,
+        scene: &SceneOnGpu,
+        build: Build,
+        eye: Vec3,
+    ) -> Result<Self> {
+        let shapes = Shapes::new(build.scene, build.count, &source.model, &source.instances);
+        let spheres: Vec<_> = shapes.spheres.iter().map(shapes::Sphere::bounds).collect();
+        let boxes: Vec<_> = shapes.boxes.iter().map(|b| (b.low, b.high)).collect();
+        // In the other scenes there are no triangles, and in this one fewer.
+        let is_shown = |(_, piece): &(usize, &Instance)| {
+            build.scene == SceneKind::Chess && !shapes::is_replaced(&source.model, piece)
+        };
+        let pieces: Vec<_> = source.instances.iter().enumerate().filter(is_shown).collect();
+        let mut bounds: Vec<_> =
+            pieces.iter().map(|(_, piece)| source.instance_bounds(piece)).collect();
+        let everything = around(bounds.iter().chain(&spheres).chain(&boxes));
+        let reach = if build.margin { reach(everything, eye) } else { 0.0 };
+
+        // ANCHOR: instances
+        let mut instances = Vec::new();
+        for (index, piece) in pieces {
+            let blas = &scene.blas[piece.mesh];
+            instances.push(instance_on_gpu(&piece.transform, index, 0, blas));
+        }
+        // One more instance for all spheres and one for all boxes. The record offset makes the device
+        // run their intersection shaders: hit group 0 is that of triangles, 1 of spheres, 2 of boxes.
+        let spheres = Level::new(gpu, "spheres", &spheres, build.ordering, reach)?;
+        let boxes = Level::new(gpu, "boxes", &boxes, build.ordering, reach)?;
+        for (record, level) in [(1, &spheres), (2, &boxes)] {
+            if let Some(blas) = &level.blas {
+                let index = source.instances.len() + record as usize - 1;
+                instances.push(instance_on_gpu(&Affine3A::IDENTITY, index, record, blas));
+                bounds.push(level.bounds);
+            }
+        }
+        // ANCHOR_END: instances
+        let ordered = ordered(&bounds, build.ordering);
+        let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
+        let tlas = build_top(gpu, &ordered)?;
+
+        let records = [
+            Buffer::with_data(gpu, "spheres", &shapes.spheres, input_usage())?,
+            Buffer::with_data(gpu, "boxes", &shapes.boxes, input_usage())?,
+            spheres.ids,
+            boxes.ids,
+        ];
+        let [spheres_at, boxes_at, sphere_ids, box_ids] =
+            records.each_ref().map(|buffer| buffer.address);
+        let addresses = ShapeAddresses {
+            spheres: spheres_at.into(),
+            boxes: boxes_at.into(),
+            sphere_ids: sphere_ids.into(),
+            box_ids: box_ids.into(),
+        };
+        Ok(Self {
+            tlas,
+            addresses: Buffer::with_data(gpu, "shapes", &[addresses], input_usage())?,
+            host_c: None,
+            shapes,
+            bounds: everything,
+            reach,
+            build,
+            _levels: [spheres.blas, boxes.blas].into_iter().flatten().collect(),
+            _buffers: records.into(),
+        })
+    }
+
+    /// Whether they must be made again, for another build or because the eye has gone far.
+    pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
+        let reach = if build.margin { reach(self.bounds, eye) } else { 0.0 };
+        build != self.build || reach != self.reach
+    }
+
+    // ANCHOR: host_c
+    /// c of the quadratic for rays from the eye: products and sums of f32 numbers, in f64.
+    pub fn compute_host_c(&mut self, gpu: &Gpu, eye: Vec3) -> Result<()> {
+        if self.host_c.as_ref().is_some_and(|(known, _)| *known == eye) {
+            return Ok(());
+        }
+        let c = self.shapes.spheres.iter().map(|sphere| {
+            let radius = f64::from(sphere.radius);
+            let distance = (eye.as_dvec3() - sphere.center.as_dvec3()).length();
+            ((distance - radius) * (distance + radius)) as f32
+        });
+        let c: Vec<f32> = c.collect();
+        self.host_c = Some((eye, Buffer::with_data(gpu, "c of spheres", &c, input_usage())?));
+        Ok(())
+    }
+    // ANCHOR_END: host_c
+
+    /// Where c lies; nowhere before it was computed.
+    pub fn host_c_address(&self) -> Address {
+        self.host_c.as_ref().map_or(0, |(_, buffer)| buffer.address).into()
+    }
+}
+
+/// All shapes of one kind as a bottom level.
+struct Level {
+    /// `None` without shapes.
+    blas: Option<AccelerationStructure>,
+    /// Which shape a primitive of the build is.
+    ids: Buffer,
+    bounds: order::Bounds,
+}
+
+impl Level {
+    fn new(
+        gpu: &Gpu,
+        name: &str,
+        bounds: &[order::Bounds],
+        ordering: bool,
+        reach: f32,
+    ) -> Result<Self> {
+        // ANCHOR: order
+        let order = ordered(bounds, ordering);
+        let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
+        // ANCHOR_END: order
+        // ANCHOR: margin
+        // A driver's box test rounds: a wall at distance x along an axis may seem to be 3u·x off, with
+        // u = 2^-24 (a subtraction, a reciprocal and a product). A fourth u is for the wall itself.
+        let margin = Vec3::splat(4.0 * 0.5f32.powi(24) * reach);
+        let grow = |i: &u32| {
+            let (low, high) = bounds[*i as usize];
+            [low - margin, high + margin]
+        };
+        let boxes: Vec<[Vec3; 2]> = order.iter().map(grow).collect();
+        // ANCHOR_END: margin
+        let input = Buffer::with_data(gpu, name, &boxes, input_usage())?;
+        let count = boxes.len() as u32;
+        let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
+        let options = BuildOptions { compact: true, ..BuildOptions::default() };
+        let blas = (count > 0)
+            .then(|| AccelerationStructure::bottom(gpu, name, &[geometry], options))
+            .transpose()?;
+        Ok(Self { blas, ids, bounds: around(bounds) })
+    }
+}
+
+/// The order of the build: near beside near, or as the shapes come.
+fn ordered(bounds: &[order::Bounds], ordering: bool) -> Vec<u32> {
+    if ordering { order::kd_median(bounds) } else { (0..bounds.len() as u32).collect() }
+}
+
+/// The box around boxes.
+fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bounds {
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
+}
+
+// ANCHOR: reach
+/// How far a ray may begin from a shape: at the eye or, as shadow rays do, anywhere on the scene.
+/// Rounded up to a power of two, so that few steps of a camera change it.
+fn reach((low, high): order::Bounds, eye: Vec3) -> f32 {
+    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
+    farthest.length().log2().ceil().exp2()
+}
+// ANCHOR_END: reach

@@ -1,0 +1,147 @@
+//! What the laboratory does without a picture: hard cases through every rung, and measurements.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use common::Sample;
+use common::app::{self, Args, check_validation, output};
+use common::files::{self, write_whole};
+use common::gpu::{Gpu, GpuOptions};
+use common::usage::Usage;
+
+use crate::disagreement::Disagreement;
+use crate::drawing::Drawing;
+use crate::ladder::Primitive;
+use crate::plot::Plot;
+use crate::{Demo, hard, measure};
+
+/// What the laboratory takes beside every sample's arguments.
+#[derive(clap::Args)]
+pub struct Lab {
+    /// Run every case of a file of hard cases through every rung; exit 1 if a top rung is wrong
+    #[arg(long, value_name = "FILE.json", conflicts_with = "measure")]
+    cases: Option<PathBuf>,
+
+    /// Measure errors and time of every rung on seeded random rays, and ask a GPU's compiler about each;
+    /// write accuracy.md, .json, plots as .svg and .png to a folder
+    #[arg(long, value_name = "FOLDER")]
+    measure: Option<PathBuf>,
+
+    /// With --measure: only this primitive; repeatable
+    #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
+    only: Vec<Primitive>,
+
+    /// With --measure: rays of each family
+    #[arg(long, value_name = "N", default_value = "10000", requires = "measure", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    rays: u32,
+
+    /// With --measure: rounds of timing; 0 measures errors alone
+    #[arg(long, value_name = "N", default_value = "30", requires = "measure", value_parser = clap::value_parser!(u32).range(..=1000))]
+    rounds: u32,
+}
+
+fn primitive(name: &str) -> Result<Primitive, String> {
+    let found = Primitive::ALL.into_iter().find(|primitive| primitive.name() == name);
+    let names = Primitive::ALL.map(Primitive::name).join(", ");
+    found.ok_or_else(|| format!("there is {names}"))
+}
+
+/// What --measure writes.
+const FILES: [&str; 6] = [
+    "accuracy.json",
+    "accuracy.md",
+    "accuracy.svg",
+    "accuracy.png",
+    "accuracy_compiled.svg",
+    "accuracy_compiled.png",
+];
+
+/// Makes the folder, and finds out whether all files can be written, before a minute's work.
+fn prepare(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
+    FILES.iter().try_for_each(|file| files::check_writable(&folder.join(file)))
+}
+
+impl Lab {
+    /// Does what the arguments ask: the laboratory's work, or a picture.
+    ///
+    /// # Errors
+    /// Whatever went wrong.
+    pub fn start(&self, args: &Args) -> Result<()> {
+        let is_asked = self.cases.is_some() || self.measure.is_some();
+        if !is_asked || args.list_controls {
+            return app::start::<Demo>(env!("CARGO_BIN_NAME"), args);
+        }
+        self.check(args)?;
+        app::check_files(args)?;
+        if let Some(folder) = &self.measure {
+            prepare(folder)?;
+        }
+        let gpu = Gpu::new(&GpuOptions {
+            requirements: Demo::requirements(),
+            device: args.device.as_deref(),
+            validate: args.validate,
+            window: None,
+        })?;
+        let validation = gpu.validation();
+        if let Some(cases) = &self.cases {
+            hard::run(&gpu, cases, args.report.as_deref())?;
+        }
+        if let Some(folder) = &self.measure {
+            self.measure(&gpu, folder)?;
+        }
+        drop(gpu);
+        check_validation(&validation)
+    }
+
+    /// Refuses what goes with a picture alone.
+    fn check(&self, args: &Args) -> Result<(), Usage> {
+        if args.compare.is_some() || args.list_devices || !args.sets.is_empty() {
+            let line = "--cases and --measure take no controls, and list no devices";
+            return Err(Usage(line.to_owned()));
+        }
+        if args.out.is_some() || args.frames_given {
+            let line = "--cases and --measure make no picture for --out or --frames";
+            return Err(Usage(line.to_owned()));
+        }
+        if args.scene.is_some() {
+            let line = "--cases and --measure bring their own shapes and take no --scene";
+            return Err(Usage(line.to_owned()));
+        }
+        if args.compile_for.is_some() {
+            let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
+            return Err(Usage(line.to_owned()));
+        }
+        if self.measure.is_some() && args.report.is_some() {
+            let line = "--measure writes its report to the folder and takes no --report";
+            return Err(Usage(line.to_owned()));
+        }
+        if let (Some(cases), Some(report)) = (&self.cases, &args.report)
+            && files::same(cases, report)
+        {
+            let line = format!("--cases and --report both name '{}'", report.display());
+            return Err(Usage(line));
+        }
+        Ok(())
+    }
+
+    fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
+        let measured = measure::measure(gpu, &self.only, self.rays as usize, self.rounds)?;
+        let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
+        save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
+        save("accuracy.md", measured.markdown().as_bytes())?;
+        if let Some(plot) = Plot::new(&measured) {
+            save("accuracy.svg", plot.svg()?.as_bytes())?;
+            save("accuracy.png", &plot.png()?)?;
+        }
+        if let Some(plot) = Disagreement::new(&measured) {
+            save("accuracy_compiled.svg", plot.svg()?.as_bytes())?;
+            save("accuracy_compiled.png", &plot.png()?)?;
+        }
+        if let Some(why) = &measured.no_compiler {
+            output::print(&format!("no estimates: {why}\n"))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,160 @@
+//! A composition: everything that a picture is made from, meshes and what is no mesh.
+
+use std::collections::BTreeSet;
+
+use common::scene::{Light, Material, Scene, Sun};
+use glam::{Vec2, Vec3};
+
+use crate::{Box, Face, Solid, Sphere};
+
+/// A landscape in a box, as high as two waves say: hills, and ridges across.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heightfield {
+    /// The lowest x and z.
+    pub low: Vec2,
+    /// The highest.
+    pub high: Vec2,
+    /// Height of the hills.
+    pub hills: f32,
+    /// Length of a hill and its valley along x and along z.
+    pub hill: Vec2,
+    /// Height of the ridges.
+    pub ridges: f32,
+    /// Their length along x and along z.
+    pub ridge: Vec2,
+    /// Colour of the light fields, linear RGB.
+    pub light: Vec3,
+    /// Colour of the dark ones.
+    pub dark: Vec3,
+    /// Colour where it is steep.
+    pub rock: Vec3,
+    /// Length of a field's side.
+    pub square: f32,
+}
+
+/// A light, and whether what stands in its way casts a shadow.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneLight {
+    /// The light.
+    pub light: Light,
+    /// Whether shadow rays are traced to it.
+    pub shadows: bool,
+}
+
+/// An infinite plane, `normal · p = distance · |normal|`, and the squares on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoardPlane {
+    /// Points to the outside; any length but 0.
+    pub normal: Vec3,
+    /// From the origin along the normal.
+    pub distance: f32,
+    /// Colour of the light squares, linear RGB.
+    pub light: Vec3,
+    /// Colour of the dark squares.
+    pub dark: Vec3,
+    /// Length of a square's side.
+    pub square: f32,
+    /// What part of the light is mirrored, looked at straight.
+    pub reflection: f32,
+}
+
+/// Everything that a picture is made from.
+#[derive(Clone)]
+pub struct Composition {
+    /// Meshes in use, materials, instances, the camera.
+    pub scene: Scene,
+    /// At most [`MAX_LIGHTS`].
+    pub lights: Vec<SceneLight>,
+    /// The plane, if there is one.
+    pub plane: Option<BoardPlane>,
+    /// Spheres; their materials are opaque.
+    pub spheres: Vec<Sphere>,
+    /// Boxes, likewise.
+    pub boxes: Vec<Box>,
+    /// Convex solids, likewise.
+    pub solids: Vec<Solid>,
+    /// Their faces, those of a solid one after the other.
+    pub faces: Vec<Face>,
+    /// Corners of the boxes around the solids.
+    pub solid_bounds: Vec<(Vec3, Vec3)>,
+    /// The landscape, if there is one.
+    pub heightfield: Option<Heightfield>,
+    /// Rays a pixel.
+    pub samples: u32,
+    /// Shadow rays a hit, to a light that has a size.
+    pub light_samples: u32,
+    /// How often a path may be reflected.
+    pub depth: u32,
+}
+
+/// The most lights of a composition.
+pub const MAX_LIGHTS: usize = 4;
+
+impl Composition {
+    /// Meshes as they stand under a sun.
+    pub fn of_meshes(scene: Scene) -> Self {
+        let light = Light::directional(&Sun::default(), 0.0);
+        let mut composition = Self {
+            scene,
+            lights: vec![SceneLight { light, shadows: true }],
+            plane: None,
+            spheres: Vec::new(),
+            boxes: Vec::new(),
+            solids: Vec::new(),
+            faces: Vec::new(),
+            solid_bounds: Vec::new(),
+            heightfield: None,
+            samples: 1,
+            light_samples: 16,
+            depth: 4,
+        };
+        composition.prune();
+        composition
+    }
+
+    /// The materials that something wears, each once, in the model's order.
+    pub fn materials_in_use(&self) -> impl Iterator<Item = &Material> {
+        self.in_use().into_iter().map(|index| &self.scene.model.materials[index])
+    }
+
+    fn in_use(&self) -> BTreeSet<usize> {
+        let meshes = self.scene.instances.iter().map(|instance| instance.material);
+        let spheres = self.spheres.iter().map(|sphere| sphere.material as usize);
+        let boxes = self.boxes.iter().map(|b| b.material as usize);
+        let solids = self.solids.iter().map(|solid| solid.material as usize);
+        meshes.chain(spheres).chain(boxes).chain(solids).collect()
+    }
+
+    // ANCHOR: prune
+    /// Drops the meshes that nothing places and the textures that no material in use reads, so that no
+    /// memory is spent on them. Materials stay: they are few, and others count on their numbers.
+    pub fn prune(&mut self) {
+        let used = self.in_use();
+        let Scene { model, instances, .. } = &mut self.scene;
+        let meshes: BTreeSet<usize> = instances.iter().map(|instance| instance.mesh).collect();
+        keep(&mut model.meshes, &meshes);
+        for instance in instances {
+            instance.mesh = meshes.range(..instance.mesh).count();
+        }
+        for (number, material) in model.materials.iter_mut().enumerate() {
+            if !used.contains(&number) {
+                (material.base_texture, material.opacity_texture) = (None, None);
+            }
+        }
+        let slots = |m: &Material| [m.base_texture, m.opacity_texture];
+        let textures: BTreeSet<usize> = model.materials.iter().flat_map(slots).flatten().collect();
+        keep(&mut model.textures, &textures);
+        for material in &mut model.materials {
+            for slot in [&mut material.base_texture, &mut material.opacity_texture] {
+                *slot = slot.map(|old| textures.range(..old).count());
+            }
+        }
+    }
+    // ANCHOR_END: prune
+}
+
+/// Keeps the items at these positions.
+fn keep<T>(items: &mut Vec<T>, positions: &BTreeSet<usize>) {
+    let mut position = 0..;
+    items.retain(|_| position.next().is_some_and(|at| positions.contains(&at)));
+}

@@ -1,0 +1,144 @@
+//! Effects: what a scene may call for. Each is one bit.
+//!
+//! A chapter that adds an effect says so in its metadata (`effects` in Cargo.toml) and adds a row to
+//! [`Effect`], and to `finding.rs` the condition and the reason; a test fails until it has.
+
+use Effect::*;
+
+/// Something that costs time and that not every scene needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum Effect {
+    /// Meshes (02).
+    Triangles,
+    /// Colours from an image, `map_Kd` (02).
+    Textures,
+    /// Surfaces with holes, `map_d` or `d` below 1 (03).
+    CutOut,
+    /// Spheres that a shader intersects (08).
+    Spheres,
+    /// Boxes that a shader intersects (08).
+    Boxes,
+    /// A landscape that a shader marches over (21).
+    Heightfield,
+    /// A plane without end (12).
+    Plane,
+    /// Convex solids that a shader intersects (22).
+    Solids,
+    /// Shadows of a light at a place (05).
+    PointShadows,
+    /// Shadows of a light at infinity (05).
+    DirectionalShadows,
+    /// Soft shadows: a light with a size (05).
+    AreaLight,
+    /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
+    Mirror,
+    /// Several rays a pixel (04).
+    AntiAliasing,
+}
+
+impl Effect {
+    /// All effects, by number: that of an effect is its bit.
+    pub const ALL: [Self; 13] = [
+        Triangles,
+        Textures,
+        CutOut,
+        Spheres,
+        Boxes,
+        Heightfield,
+        Plane,
+        Solids,
+        PointShadows,
+        DirectionalShadows,
+        AreaLight,
+        Mirror,
+        AntiAliasing,
+    ];
+
+    /// The name, as metadata, reports and controls have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Triangles => "triangles",
+            Textures => "textures",
+            CutOut => "cut-out",
+            Spheres => "spheres",
+            Boxes => "boxes",
+            Heightfield => "heightfield",
+            Plane => "plane",
+            Solids => "solids",
+            PointShadows => "point shadows",
+            DirectionalShadows => "directional shadows",
+            AreaLight => "area light",
+            Mirror => "mirror",
+            AntiAliasing => "anti-aliasing",
+        }
+    }
+
+    /// The macro that shaders know it by, such as `EFFECT_CUT_OUT`.
+    pub fn define(self) -> String {
+        let letter = |c: char| if c.is_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
+        format!("EFFECT_{}", self.name().chars().map(letter).collect::<String>())
+    }
+
+    /// The effect of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+}
+
+/// A set of effects: bit n is the effect with number n.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effects(pub u32);
+
+impl Effects {
+    /// Every effect that there is.
+    pub fn everything() -> Self {
+        Effect::ALL.into_iter().fold(Self(0), Self::with)
+    }
+
+    /// Whether the effect is in the set.
+    pub fn has(self, effect: Effect) -> bool {
+        self.0 & 1 << effect as u32 != 0
+    }
+
+    /// Whether one of the effects is in the set.
+    pub fn has_any(self, effects: &[Effect]) -> bool {
+        effects.iter().any(|&effect| self.has(effect))
+    }
+
+    /// The set and this effect.
+    pub fn with(self, effect: Effect) -> Self {
+        Self(self.0 | 1 << effect as u32)
+    }
+
+    /// The set without this effect.
+    pub fn without(self, effect: Effect) -> Self {
+        Self(self.0 & !(1 << effect as u32))
+    }
+
+    /// The effects in the set, in the order of [`Effect::ALL`].
+    pub fn all(self) -> impl Iterator<Item = Effect> {
+        Effect::ALL.into_iter().filter(move |&effect| self.has(effect))
+    }
+
+    /// The names of the effects in the set.
+    pub fn names(self) -> Vec<&'static str> {
+        self.all().map(Effect::name).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effects_bit_is_its_place_in_the_list() {
+        for (number, effect) in Effect::ALL.into_iter().enumerate() {
+            assert_eq!(effect as usize, number);
+            assert_eq!(Effect::named(effect.name()), Some(effect));
+        }
+        let all = Effects::everything();
+        assert_eq!(all.0.count_ones() as usize, Effect::ALL.len());
+        assert!(!all.without(Plane).has(Plane) && all.without(Plane).with(Plane) == all);
+    }
+}

@@ -1,0 +1,190 @@
+//! From the tables of a scene file to what is rendered.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use anyhow::Result;
+use common::scene::text::{Folder, quoted};
+use common::scene::{Camera, Instance, Material, Model, Scene, assets, obj, place_position};
+use glam::{Affine3A, Mat3A};
+use toml::Spanned;
+
+use super::description::{Board, Description, Piece, View};
+use super::names::{Numbers, find, numbers, opaque, some};
+use super::polytope;
+use super::source::Source;
+use crate::{Box, Composition, MAX_LIGHTS, Sphere};
+
+/// Pieces, spheres, boxes, solids and materials, each.
+const MOST: usize = 100_000;
+
+impl Description {
+    /// What the file describes.
+    ///
+    /// # Errors
+    /// If it contradicts itself, or names what there is not.
+    pub(super) fn compose(&self, path: &Path, source: &Source) -> Result<Composition> {
+        source.check(&self.light, MAX_LIGHTS, "lights")?;
+        source.check(&self.material, MOST, "materials")?;
+        source.check(&self.piece, MOST, "pieces")?;
+        source.check(&self.sphere, MOST, "spheres")?;
+        source.check(&self.boxes, MOST, "boxes")?;
+        source.check(&self.solid, MOST, "solids")?;
+        let mut model = self.model(path, source)?;
+        let materials = self.paint(&mut model.materials, source)?;
+        let view = self.camera.get_ref();
+        let View { eye, target, field_of_view } = *view;
+        if eye.distance(target) < 1e-9 {
+            let what = "the camera stands where it looks; move `eye` or `target`";
+            return Err(source.error(self.camera.span().start, what));
+        }
+        let instances = self.instances(&model, &materials, source)?;
+        let lights = self.light.iter().map(|lamp| {
+            let lit = lamp.get_ref().light();
+            lit.map_err(|what| source.error(lamp.span().start, what))
+        });
+        let heightfield = self.heightfield.as_ref().map(|land| {
+            let found = land.get_ref().heightfield();
+            found.map_err(|what| source.error(land.span().start, what))
+        });
+        let mut composition = Composition {
+            lights: lights.collect::<Result<_>>()?,
+            plane: self.plane.as_ref().map(Board::plane),
+            spheres: Vec::new(),
+            boxes: Vec::new(),
+            solids: Vec::new(),
+            faces: Vec::new(),
+            solid_bounds: Vec::new(),
+            heightfield: heightfield.transpose()?,
+            samples: self.picture.samples,
+            light_samples: self.picture.light_samples,
+            depth: self.picture.depth,
+            scene: Scene { model, instances, camera: Camera::new(eye, target, field_of_view) },
+        };
+        self.add_shapes(&mut composition, &materials, source)?;
+        composition.prune();
+        Ok(composition)
+    }
+
+    /// The model that pieces are taken from.
+    fn model(&self, path: &Path, source: &Source) -> Result<Model> {
+        let Some(named) = &self.model else {
+            return match self.piece.is_empty() && self.position.is_none() {
+                true => Ok(Model::default()),
+                false => obj::load(&assets().join("chess.obj")),
+            };
+        };
+        let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {
+            let what =
+                error.to_string().replace("the OBJ file's folder", "the scene file's folder");
+            source.error(named.span().start, &what)
+        })?;
+        if !found.path.is_file() {
+            let what = format!("model names {}, which is no file", quoted(named.get_ref()));
+            return Err(source.error(named.span().start, &what));
+        }
+        obj::load(&path.with_file_name(&found.name))
+    }
+
+    /// Adds and changes materials, and returns the number of each name.
+    fn paint(&self, materials: &mut Vec<Material>, source: &Source) -> Result<Numbers> {
+        let mut numbers = numbers(materials.iter().map(|material| &material.name));
+        let mut painted = HashSet::new();
+        for paint in &self.material {
+            let name = &paint.get_ref().name;
+            if !painted.insert(name) {
+                let what = format!("a second material {}", quoted(name));
+                return Err(source.error(paint.span().start, &what));
+            }
+            let number = *numbers.entry(name.clone()).or_insert_with(|| {
+                materials.push(Material { name: name.clone(), ..Material::default() });
+                materials.len() - 1
+            });
+            paint.get_ref().apply(&mut materials[number]);
+        }
+        Ok(numbers)
+    }
+
+    /// Pieces where they are put, or every mesh where its file has it.
+    fn instances(
+        &self,
+        model: &Model,
+        materials: &Numbers,
+        source: &Source,
+    ) -> Result<Vec<Instance>> {
+        if self.piece.is_empty() && self.position.is_none() {
+            return Ok(standing(model));
+        }
+        let mut instances = place(&self.piece, model, materials, source)?;
+        if let Some(position) = &self.position {
+            place_position(model, position.get_ref(), &mut instances)
+                .map_err(|error| source.error(position.span().start, &error.to_string()))?;
+        }
+        Ok(instances)
+    }
+
+    fn add_shapes(&self, to: &mut Composition, materials: &Numbers, source: &Source) -> Result<()> {
+        let model = &to.scene.model;
+        for ball in self.sphere.iter().map(Spanned::get_ref) {
+            let material = opaque(model, materials, &ball.material, source)?;
+            to.spheres.push(Sphere { center: ball.center, radius: ball.radius, material });
+        }
+        for block in &self.boxes {
+            let at = block.span().start;
+            let block = block.get_ref();
+            if !block.low.cmplt(block.high).all() {
+                let what = "a box has its `high` above its `low` along every axis";
+                return Err(source.error(at, what));
+            }
+            let material = opaque(model, materials, &block.material, source)?;
+            to.boxes.push(Box { low: block.low, high: block.high, material });
+        }
+        for body in &self.solid {
+            let at = body.span().start;
+            let body = body.get_ref();
+            let material = opaque(model, materials, &body.material, source)?;
+            let (solid, bounds) =
+                polytope::solid(body.center, &body.planes, material, &mut to.faces)
+                    .map_err(|what| source.error(at, what))?;
+            to.solids.push(solid);
+            to.solid_bounds.push(bounds);
+        }
+        Ok(())
+    }
+}
+
+/// Every mesh once, where its file has it.
+fn standing(model: &Model) -> Vec<Instance> {
+    let instance = |(mesh, material)| Instance {
+        mesh,
+        transform: Affine3A::IDENTITY,
+        material,
+        record_offset: 0,
+    };
+    model.meshes.iter().map(|mesh| mesh.material).enumerate().map(instance).collect()
+}
+
+fn place(
+    pieces: &[Spanned<Piece>],
+    model: &Model,
+    materials: &Numbers,
+    source: &Source,
+) -> Result<Vec<Instance>> {
+    let meshes = numbers(model.meshes.iter().map(|mesh| &mesh.name));
+    let placed = pieces.iter().map(|piece| {
+        let Piece { mesh, at, turn, size, material } = piece.get_ref();
+        let mesh = *meshes.get(mesh.get_ref()).ok_or_else(|| {
+            let known = some(model.meshes.iter().map(|mesh| &mesh.name));
+            let what = format!("no mesh {}; there is {known}", quoted(mesh.get_ref()));
+            source.error(mesh.span().start, &what)
+        })?;
+        let material = match material {
+            Some(name) => find(model, materials, name, source)?,
+            None => model.meshes[mesh].material,
+        };
+        let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
+        let transform = Affine3A { matrix3, translation: (*at).into() };
+        Ok(Instance { mesh, transform, material, record_offset: 0 })
+    });
+    placed.collect()
+}

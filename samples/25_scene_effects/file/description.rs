@@ -1,0 +1,211 @@
+//! A scene file, version 1: camera, lights, materials, what stands where, a plane, spheres and boxes.
+//!
+//! TOML. Every table but `camera` may be missing; an unknown key is an error, and so is a number that is
+//! not finite or out of bounds. `model` names an OBJ file in the scene file's folder or below it: each of
+//! its meshes is placed where the file has it, unless `[[piece]]` tables place meshes by name. Without
+//! `model`, pieces are those of the book's own chess set, or of none if there is no `[[piece]]`. The page
+//! of chapter 25 lists every key.
+
+use glam::{DVec3, Vec2, Vec3};
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::bounded;
+
+/// A scene file as it stands.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Description {
+    #[serde(rename = "version")]
+    pub(super) _version: i64,
+    pub(super) model: Option<Spanned<String>>,
+    pub(super) position: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(super) picture: Picture,
+    pub(super) camera: Spanned<View>,
+    #[serde(default)]
+    pub(super) light: Vec<Spanned<Lamp>>,
+    #[serde(default)]
+    pub(super) material: Vec<Spanned<Paint>>,
+    #[serde(default)]
+    pub(super) piece: Vec<Spanned<Piece>>,
+    pub(super) plane: Option<Board>,
+    #[serde(default)]
+    pub(super) sphere: Vec<Spanned<Ball>>,
+    #[serde(default, rename = "box")]
+    pub(super) boxes: Vec<Spanned<Block>>,
+    #[serde(default)]
+    pub(super) solid: Vec<Spanned<Body>>,
+    pub(super) heightfield: Option<Spanned<Land>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct Picture {
+    #[serde(deserialize_with = "bounded::samples")]
+    pub(super) samples: u32,
+    #[serde(deserialize_with = "bounded::samples")]
+    pub(super) light_samples: u32,
+    #[serde(deserialize_with = "bounded::depth")]
+    pub(super) depth: u32,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self { samples: 1, light_samples: 16, depth: 4 }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct View {
+    #[serde(deserialize_with = "bounded::far_point")]
+    pub(super) eye: DVec3,
+    #[serde(deserialize_with = "bounded::far_point")]
+    pub(super) target: DVec3,
+    #[serde(deserialize_with = "bounded::view")]
+    pub(super) field_of_view: f64,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Kind {
+    Directional,
+    Point,
+}
+
+/// A light of either kind; which keys go with which is checked when it is made.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Lamp {
+    pub(super) kind: Kind,
+    #[serde(default, deserialize_with = "bounded::maybe_degrees")]
+    pub(super) azimuth: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_degrees")]
+    pub(super) elevation: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_strength")]
+    pub(super) radiance: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_point")]
+    pub(super) position: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_strength")]
+    pub(super) intensity: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::part")]
+    pub(super) size: f32,
+    #[serde(default = "yes")]
+    pub(super) shadows: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// A new material, or what differs from the model's of that name.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Paint {
+    pub(super) name: String,
+    #[serde(default, deserialize_with = "bounded::maybe_color")]
+    pub(super) color: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_color")]
+    pub(super) specular: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_exponent")]
+    pub(super) shininess: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_strength")]
+    pub(super) emission: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_part")]
+    pub(super) opacity: Option<f32>,
+    pub(super) mirror: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Piece {
+    pub(super) mesh: Spanned<String>,
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) at: Vec3,
+    #[serde(default, deserialize_with = "bounded::degrees")]
+    pub(super) turn: f32,
+    #[serde(default = "one", deserialize_with = "bounded::length")]
+    pub(super) size: f32,
+    pub(super) material: Option<Spanned<String>>,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Board {
+    #[serde(deserialize_with = "bounded::direction")]
+    pub(super) normal: Vec3,
+    #[serde(default, deserialize_with = "bounded::coordinate")]
+    pub(super) distance: f32,
+    #[serde(deserialize_with = "bounded::color")]
+    pub(super) light: Vec3,
+    #[serde(deserialize_with = "bounded::color")]
+    pub(super) dark: Vec3,
+    #[serde(default = "one", deserialize_with = "bounded::length")]
+    pub(super) square: f32,
+    #[serde(default, deserialize_with = "bounded::part")]
+    pub(super) reflection: f32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Ball {
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) center: Vec3,
+    #[serde(deserialize_with = "bounded::length")]
+    pub(super) radius: f32,
+    pub(super) material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Block {
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) low: Vec3,
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) high: Vec3,
+    pub(super) material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Body {
+    #[serde(deserialize_with = "bounded::point")]
+    pub(super) center: Vec3,
+    #[serde(deserialize_with = "bounded::faces")]
+    pub(super) planes: Vec<[f64; 4]>,
+    pub(super) material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Land {
+    #[serde(deserialize_with = "bounded::place")]
+    pub(super) low: Vec2,
+    #[serde(deserialize_with = "bounded::place")]
+    pub(super) high: Vec2,
+    #[serde(deserialize_with = "bounded::height")]
+    pub(super) hills: f32,
+    #[serde(deserialize_with = "bounded::lengths")]
+    pub(super) hill: Vec2,
+    #[serde(default, deserialize_with = "bounded::height")]
+    pub(super) ridges: f32,
+    #[serde(default = "ones", deserialize_with = "bounded::lengths")]
+    pub(super) ridge: Vec2,
+    #[serde(deserialize_with = "bounded::color")]
+    pub(super) light: Vec3,
+    #[serde(deserialize_with = "bounded::color")]
+    pub(super) dark: Vec3,
+    #[serde(deserialize_with = "bounded::color")]
+    pub(super) rock: Vec3,
+    #[serde(default = "one", deserialize_with = "bounded::length")]
+    pub(super) square: f32,
+}
+
+fn ones() -> Vec2 {
+    Vec2::ONE
+}

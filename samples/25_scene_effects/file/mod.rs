@@ -1,0 +1,40 @@
+//! Files that are scenes: models, and scene files of version 1.
+
+mod bounded;
+mod compose;
+mod description;
+mod names;
+mod polytope;
+mod source;
+mod values;
+
+use std::path::Path;
+
+use anyhow::Result;
+use common::scene::Scene;
+use description::Description;
+use source::Source;
+
+use crate::Composition;
+
+/// What this program reads.
+const VERSION: i64 = 1;
+
+/// Opens a scene file, or an OBJ file as it stands under a sun.
+///
+/// # Errors
+/// If it is missing or wrong, in one line with file and line.
+pub fn open(path: &Path) -> Result<Composition> {
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        return Ok(Composition::of_meshes(Scene::open(path)?));
+    }
+    let source = Source::open(path)?;
+    // The version before the rest: what the rest means depends on it.
+    let table: toml::Table = source.parse()?;
+    if table.get("version").and_then(toml::Value::as_integer) != Some(VERSION) {
+        let at = source.line_of("version").unwrap_or(0);
+        let what = format!("the first key is `version = {VERSION}`; no other version is known");
+        return Err(source.error(at, &what));
+    }
+    source.parse::<Description>()?.compose(path, &source)
+}

@@ -1,0 +1,68 @@
+//! What the tables of a scene file call by name.
+
+use std::collections::HashMap;
+
+use anyhow::Result;
+use common::scene::Model;
+use common::scene::text::quoted;
+use toml::Spanned;
+
+use super::source::Source;
+
+/// What is called by a name, by position: the first of several.
+pub(super) type Numbers = HashMap<String, usize>;
+
+/// The numbers of names.
+pub(super) fn numbers<'a>(names: impl Iterator<Item = &'a String>) -> Numbers {
+    let mut numbers = Numbers::new();
+    for (number, name) in names.enumerate() {
+        numbers.entry(name.clone()).or_insert(number);
+    }
+    numbers
+}
+
+/// The first of many names, on one line.
+pub(super) fn some<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    let bare = |name: &String| quoted(name).trim_matches('"').to_owned();
+    names.take(20).map(bare).collect::<Vec<_>>().join(", ")
+}
+
+/// The material of a name.
+///
+/// # Errors
+/// If there is none, with those that there are.
+pub(super) fn find(
+    model: &Model,
+    materials: &Numbers,
+    name: &Spanned<String>,
+    source: &Source,
+) -> Result<usize> {
+    materials.get(name.get_ref()).copied().ok_or_else(|| {
+        let what = match some(model.materials.iter().map(|material| &material.name)) {
+            none if none.is_empty() => {
+                format!("no material {}; add a [[material]]", quoted(name.get_ref()))
+            }
+            known => format!("no material {}; there is {known}", quoted(name.get_ref())),
+        };
+        source.error(name.span().start, &what)
+    })
+}
+
+/// A material of a shape, which no any-hit shader asks for holes or texture coordinates.
+pub(super) fn opaque(
+    model: &Model,
+    materials: &Numbers,
+    name: &Spanned<String>,
+    source: &Source,
+) -> Result<u32> {
+    let number = find(model, materials, name, source)?;
+    let material = &model.materials[number];
+    match material.has_cutout() || material.base_texture.is_some() {
+        true => {
+            let what =
+                format!("{} has holes or a texture: only meshes can", quoted(&material.name));
+            Err(source.error(name.span().start, &what))
+        }
+        false => Ok(number as u32),
+    }
+}

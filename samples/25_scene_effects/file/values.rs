@@ -1,0 +1,70 @@
+//! From a table of a scene file to the value that it stands for.
+
+use common::scene::{Light, Material, PointLight, Sun};
+
+use super::description::{Board, Kind, Lamp, Land, Paint};
+use crate::{BoardPlane, Heightfield, SceneLight};
+
+impl Lamp {
+    pub(super) fn light(&self) -> Result<SceneLight, &'static str> {
+        let light = match *self {
+            Self {
+                kind: Kind::Directional,
+                azimuth: Some(azimuth),
+                elevation: Some(elevation),
+                radiance: Some(radiance),
+                position: None,
+                intensity: None,
+                ..
+            } => Light::directional(&Sun { azimuth, elevation, radiance }, self.size),
+            Self {
+                kind: Kind::Point,
+                position: Some(position),
+                intensity: Some(intensity),
+                azimuth: None,
+                elevation: None,
+                radiance: None,
+                ..
+            } => Light::point(&PointLight { position, intensity }, self.size),
+            Self { kind: Kind::Directional, .. } => {
+                return Err("a directional light has `azimuth`, `elevation` and `radiance`");
+            }
+            Self { kind: Kind::Point, .. } => {
+                return Err("a point light has `position` and `intensity`");
+            }
+        };
+        Ok(SceneLight { light, shadows: self.shadows })
+    }
+}
+
+impl Board {
+    pub(super) fn plane(&self) -> BoardPlane {
+        let &Self { normal, distance, light, dark, square, reflection } = self;
+        BoardPlane { normal, distance, light, dark, square, reflection }
+    }
+}
+
+impl Land {
+    pub(super) fn heightfield(&self) -> Result<Heightfield, &'static str> {
+        let &Self { low, high, hills, hill, ridges, ridge, light, dark, rock, square } = self;
+        match low.cmplt(high).all() && hills + ridges > 0.0 {
+            true => {
+                Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
+            }
+            false => Err("a heightfield has its `high` above its `low`, and `hills` above 0"),
+        }
+    }
+}
+
+impl Paint {
+    pub(super) fn apply(&self, material: &mut Material) {
+        material.base_color = self.color.unwrap_or(material.base_color);
+        material.specular = self.specular.unwrap_or(material.specular);
+        material.shininess = self.shininess.unwrap_or(material.shininess);
+        material.emission = self.emission.unwrap_or(material.emission);
+        material.opacity = self.opacity.unwrap_or(material.opacity);
+        if let Some(mirror) = self.mirror {
+            material.illumination = if mirror { 3 } else { 2 };
+        }
+    }
+}

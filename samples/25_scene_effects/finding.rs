@@ -1,0 +1,99 @@
+//! What a scene calls for, found from the scene alone, with the reason.
+
+use common::scene::{LightKind, Material};
+
+use crate::Effect::{self, *};
+use crate::{Composition, Effects, SceneLight};
+
+/// Whether an effect is called for, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Which effect.
+    pub effect: Effect,
+    /// Whether the scene calls for it.
+    pub needed: bool,
+    /// What in the scene says so.
+    pub why: String,
+}
+
+/// What a scene calls for: a finding for every effect, in the order of [`Effect::ALL`].
+pub fn findings(scene: &Composition) -> Vec<Finding> {
+    let finding = |effect| match found(scene, effect) {
+        Some(why) => Finding { effect, needed: true, why },
+        None => Finding { effect, needed: false, why: why_not(effect).to_owned() },
+    };
+    Effect::ALL.into_iter().map(finding).collect()
+}
+
+/// The effects that findings call for.
+pub fn needed(findings: &[Finding]) -> Effects {
+    let needed = findings.iter().filter(|finding| finding.needed);
+    needed.fold(Effects::default(), |set, finding| set.with(finding.effect))
+}
+
+// ANCHOR: found
+/// Why a scene calls for an effect, if it does. Only what is placed counts: a material that nothing
+/// wears calls for nothing.
+fn found(scene: &Composition, effect: Effect) -> Option<String> {
+    let worn = |is: &dyn Fn(&Material) -> bool, what: &str| {
+        let mut worn = scene.materials_in_use();
+        worn.find(|material| is(material)).map(|m| format!("material `{}` {what}", m.name))
+    };
+    let light = |is: &dyn Fn(&SceneLight) -> bool, what: &str| {
+        let number = scene.lights.iter().position(is)?;
+        Some(format!("light {} {what}", number + 1))
+    };
+    let count = |count: usize, what: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {what}")),
+        _ => Some(format!("{count} {what}s")),
+    };
+    match effect {
+        Triangles => {
+            count(scene.scene.instances.len(), "placed mesh").map(|n| n.replace("meshs", "meshes"))
+        }
+        Textures => worn(&|m| m.base_texture.is_some(), "has map_Kd"),
+        CutOut => worn(&|m| m.opacity_texture.is_some(), "has map_d")
+            .or_else(|| worn(&|m| m.opacity < 1.0, "has d below 1")),
+        Spheres => count(scene.spheres.len(), "sphere"),
+        Boxes => count(scene.boxes.len(), "box").map(|n| n.replace("boxs", "boxes")),
+        Heightfield => scene.heightfield.as_ref().map(|_| "there is a heightfield".to_owned()),
+        Solids => count(scene.solids.len(), "solid"),
+        Plane => scene.plane.as_ref().map(|_| "there is a plane".to_owned()),
+        PointShadows => light(
+            &|l| l.shadows && l.light.kind == LightKind::Point,
+            "is a point light with shadows",
+        ),
+        DirectionalShadows => light(
+            &|l| l.shadows && l.light.kind == LightKind::Directional,
+            "is directional, with shadows",
+        ),
+        AreaLight => light(&|l| l.shadows && l.light.size > 0.0, "casts shadows and has a size"),
+        // No ray goes on at depth 0.
+        Mirror if scene.depth == 0 => None,
+        Mirror => worn(&Material::is_mirror, "has illum 3 or more and Ks above 0").or_else(|| {
+            let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
+            mirrors.then(|| "the plane mirrors".to_owned())
+        }),
+        AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
+    }
+}
+// ANCHOR_END: found
+
+fn why_not(effect: Effect) -> &'static str {
+    match effect {
+        Triangles => "no mesh is placed",
+        Textures => "no material in use has map_Kd",
+        CutOut => "every material in use is opaque",
+        Spheres => "no sphere",
+        Boxes => "no box",
+        Heightfield => "no heightfield",
+        Plane => "no plane",
+        Solids => "no solid",
+        PointShadows => "no point light casts shadows",
+        DirectionalShadows => "no directional light casts shadows",
+        AreaLight => "no light that casts shadows has a size",
+        Mirror => "nothing in use mirrors, or paths end at once",
+        AntiAliasing => "one ray a pixel",
+    }
+}

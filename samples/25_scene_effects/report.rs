@@ -1,0 +1,57 @@
+//! What the chapter reports: the effects with their reasons and costs, and what was compiled.
+
+use anyhow::Result;
+use common::gpu::{RayTracingPipeline, Reflection, Stage, Variant};
+use effects::Finding;
+use serde_json::{Value, json};
+
+use crate::recipe::Recipe;
+use crate::scenes::SCENES;
+use crate::{Costs, Demo};
+
+/// The report of a run.
+///
+/// # Errors
+/// If a module is none.
+pub fn report(demo: &Demo) -> Result<Value> {
+    let costs = demo.costs.as_ref().map(Costs::all).unwrap_or_default();
+    let found = demo.findings();
+    let effects = found.iter().map(|Finding { effect, needed, why }| {
+        let cost = costs.iter().find(|cost| cost.effect == *effect);
+        json!({
+            "name": effect.name(),
+            "in": needed,
+            "why": why,
+            "cost_milliseconds": cost.map(|cost| cost.milliseconds),
+            "time_without": cost.map(|cost| cost.ratio),
+        })
+    });
+    Ok(json!({
+        "scene": SCENES[demo.number as usize],
+        "effects": effects.collect::<Vec<_>>(),
+        "pipeline": demo.pipelines.current().map(compiled).transpose()?,
+    }))
+}
+
+// ANCHOR: compiled
+/// What was compiled, from the very words that the driver got.
+fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
+    let Variant { key: recipe, pipeline, sbt } = variant;
+    let RayTracingPipeline { blueprint, groups, build_time, .. } = pipeline;
+    let stages = blueprint.stages.iter().map(|Stage { path, words, .. }| {
+        let contents = serde_json::to_value(Reflection::of(words)?.contents())?;
+        Ok(json!({ "path": path, "words": words.len(), "module": contents }))
+    });
+    Ok(json!({
+        "effects": recipe.effects.names(),
+        "stages": stages.collect::<Result<Vec<_>>>()?,
+        "groups": { "raygen": groups[0], "miss": groups[1], "hit": groups[2] },
+        "sbt_bytes": sbt.layout.size,
+        "recursion": blueprint.recursion,
+        "cull_mask": recipe.mask(),
+        "light_kinds": recipe.light_kinds,
+        "lights": recipe.lights,
+        "build_milliseconds": build_time.as_secs_f64() * 1e3,
+    }))
+}
+// ANCHOR_END: compiled

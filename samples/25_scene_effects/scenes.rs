@@ -1,0 +1,34 @@
+//! The chapter's own scenes, in `samples/assets/scenes`.
+
+use std::path::PathBuf;
+
+use common::scene::assets;
+
+/// From the least to everything. The last is a file of the reader's.
+pub const SCENES: [&str; 14] = [
+    "one sphere",
+    "two kings",
+    "empty board",
+    "opening",
+    "lamp at night",
+    "soft evening",
+    "fretwork",
+    "knight",
+    "bauhaus",
+    "mirror balls",
+    "solids",
+    "lake",
+    "everything",
+    "file",
+];
+
+/// What the chapter begins with.
+pub const EVERYTHING: u32 = 12;
+/// Where `--scene` names a file.
+pub const FILE: u32 = 13;
+
+/// The file of one of them.
+pub fn path(number: u32) -> PathBuf {
+    let name = SCENES[number as usize].replace(' ', "_");
+    assets().join("scenes").join(name).with_extension("toml")
+}

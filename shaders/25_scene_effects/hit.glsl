@@ -1,0 +1,26 @@
+// What a hit shader reports of the surface that a ray met. What to do about it, the raygen shader
+// decides: this is the payload of its rays. It has what the effects in use have to tell, and no more.
+
+// ANCHOR: hit
+struct Hit {
+    vec3 position;    // on the surface, in the world
+    float t;          // the distance along the ray; -1 if the ray met nothing
+    vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
+    uint material;    // which material: push.scene.materials.at[material]; or one of the two below
+    vec3 color;       // the material's colour, its texture already read; for a miss, the sky's
+#ifdef DEPARTURES
+    float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
+    vec3 face;        // the surface's own normal: unit, on the same side
+#endif
+#ifdef LIFTS
+    vec3 lift;        // from the flat triangle to the round surface that its normals pretend
+#endif
+#ifdef CURVES
+    float curvature;  // by how much the normal turns in a unit of length
+#endif
+};                    // 44 to 76 bytes
+// ANCHOR_END: hit
+
+// The ground and the plane are made of nothing that is in the list of materials.
+const uint MATERIAL_GROUND = -2;
+const uint MATERIAL_PLANE = -1;

@@ -1,0 +1,26 @@
+// What the hit shaders of shapes report: spheres, boxes and solids, placed as they are.
+
+// ANCHOR: report
+// `own` is what the shape's test costs, in roundings; the device's own transform of the ray takes 30 of
+// the point's coordinates (chapter 08, with the unit matrix).
+Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
+    Hit hit;
+    hit.position = point;
+    hit.t = gl_HitTEXT;
+    hit.normal = faceforward(outward, gl_WorldRayDirectionEXT, outward);
+    hit.material = material;
+    hit.color = push.scene.materials.at[material].base_color;
+#ifdef DEPARTURES
+    const float ROUNDING = 5.9604645e-8;
+    hit.height = ROUNDING * dot(abs(hit.normal), own + 30.0 * abs(point));
+    hit.face = hit.normal;
+#endif
+#ifdef LIFTS
+    hit.lift = vec3(0.0);
+#endif
+#ifdef CURVES
+    hit.curvature = curvature;
+#endif
+    return hit;
+}
+// ANCHOR_END: report

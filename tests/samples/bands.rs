@@ -1,0 +1,32 @@
+//! A picture in many bands of rows is the picture in few, to the bit.
+
+use run::{bits, render};
+
+#[test]
+fn many_bands_give_the_same_bytes_as_few() {
+    // What a first frame costs is not known before: its first band is one row. The second frame is its like,
+    // and so small that on any but the busiest machine it is one band.
+    let choices: [(&str, &[&str]); 14] = [
+        ("02_basic", &[]),
+        ("03_any_hit", &["mode=random", "samples=2"]),
+        ("04_jitter_camera", &["accumulate=off", "sequence=centre"]),
+        ("05_shadow_miss", &["light size=0.5"]),
+        ("06_reflection", &["light size=0.5"]),
+        ("07_multi_closest_hit", &[]),
+        ("08_intersection", &["light size=0.5"]),
+        ("09_instancing", &["coordinates=both", "light size=0.5"]),
+        ("12_infinite_plane", &["light size=0.5"]),
+        ("21_heightfield", &["light size=0.5"]),
+        ("22_solids", &["light size=0.5"]),
+        ("24_accuracy", &[]),
+        ("25_scene_effects", &["scene=soft evening"]),
+        ("26_leaving_a_surface", &["light size=0.5"]),
+    ];
+    for (name, sets) in choices {
+        let sets = sets.iter().flat_map(|set| ["--set", set]).collect::<Vec<_>>();
+        let [many, few] = ["1", "2"]
+            .map(|frames| render(name, "40x24", &[&sets[..], &["--frames", frames]].concat()));
+        assert!(many.report["bands"].as_u64() > Some(1), "{name}: {}", many.report["bands"]);
+        assert_eq!(bits(&many.picture), bits(&few.picture), "{name}");
+    }
+}

@@ -1,0 +1,102 @@
+//! The set far from the origin: what coordinates and object rays are worth there.
+
+use glam::Vec3;
+use reference::transform::U;
+
+use super::formation::{self, SceneKind};
+use super::{SPECIMEN, ViewedScene, absolute, percent_changed, picture};
+
+#[test]
+fn far_away_only_camera_relative_coordinates_keep_the_picture() {
+    let sets = |far: &str, coordinates: &str, show: &str| {
+        let sets = [far, coordinates].map(str::to_owned).into_iter().chain([show.to_owned()]);
+        let sets: Vec<_> = sets.collect();
+        picture(&sets.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let [relative, world] = ["coordinates=camera-relative", "coordinates=world"];
+    let near = |show| sets("far=0", relative, show);
+    let (hits, shadows) = (near("show=hit"), near("show=shadow"));
+    println!("| far | coordinates | another triangle | another shadow |");
+    let mut rows = Vec::new();
+    for far in ["10000", "100000", "1000000", "1234567.9"] {
+        for coordinates in [world, relative] {
+            let far = format!("far={far}");
+            let moved = sets(&far, coordinates, "show=hit");
+            let shadow = sets(&far, coordinates, "show=shadow");
+            let triangles = percent_changed(&hits, &moved);
+            let dark = percent_changed(&shadows, &shadow);
+            println!("| {far} | {coordinates} | {triangles:.2} % | {dark:.2} % |");
+            rows.push((coordinates == world, far, triangles, dark));
+        }
+    }
+    for (is_world, far, triangles, dark) in rows {
+        let distance: f64 = far.trim_start_matches("far=").parse().unwrap();
+        if !is_world {
+            assert!(triangles < 0.05 && dark < 0.05, "{far}: {triangles} {dark}");
+        } else if distance >= 1e6 {
+            assert!(triangles > 20.0 && dark > 5.0, "{far}: {triangles} {dark}");
+        }
+    }
+}
+
+#[test]
+fn both_coordinates_side_by_side_are_the_two_pictures() {
+    // A soft light, or its random numbers would not tell the pixels apart.
+    let sets = ["far=1000000", "light size=0.1", "light samples=2"];
+    let show = |coordinates: &str| {
+        picture(&[&sets[..], &[&format!("coordinates={coordinates}")]].concat())
+    };
+    let [both, world, relative] = ["both", "world", "camera-relative"].map(show);
+    for (index, pixel) in both.pixels.iter().enumerate() {
+        let half = if index % 120 < 60 { &world } else { &relative };
+        assert_eq!(pixel, &half.pixels[index], "pixel {index}");
+    }
+}
+
+/// The ray's origin in the space of each piece that was seen: error by rung, in parts of the bound of
+/// `L^-1·(o - T)`.
+fn origin_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> {
+    let origins = picture(&[sets, &["show=object origin"]].concat());
+    let seen = origins.pixels.iter().filter(|pixel| pixel[3] >= 0.0);
+    let errors = seen.map(|&[x, y, z, index]| {
+        let transform = viewed.transform(index as usize);
+        let apart = viewed.camera.eye.as_vec3().as_dvec3() - transform.translation;
+        let exact = transform.inverse * apart;
+        // The difference, the entries and the sum of three products: 1 + 1 + 3 roundings.
+        let bound = 1.01 * 5.0 * U * (absolute(transform.inverse) * apart.abs());
+        let error = (Vec3::new(x, y, z).as_dvec3() - exact).abs();
+        let relative = error.length() / exact.length();
+        (index as usize, relative, (error / bound).max_element())
+    });
+    errors.collect()
+}
+
+#[test]
+fn the_difference_first_keeps_the_object_space_origin() {
+    println!("| far | object ray | error, relative, most | parts of the bound |");
+    for far in [0.0, 1e3, 1e6] {
+        let viewed = ViewedScene::new(
+            SceneKind::Specimens,
+            0,
+            formation::camera(SceneKind::Specimens),
+            far,
+            false,
+        );
+        let first = viewed.pieces.len() - 6;
+        for rung in ["device", "matrix", "inverse"] {
+            let (far_set, rung_set) = (format!("far={far}"), format!("object ray={rung}"));
+            let sets = [SPECIMEN, "coordinates=world", &far_set, &rung_set];
+            let errors = origin_errors(&viewed, &sets);
+            let knights = errors.iter().filter(|(index, ..)| *index >= first);
+            let worst = knights.clone().fold(0.0, |worst, (_, error, _)| f64::max(worst, *error));
+            let part = knights.clone().fold(0.0, |worst, (.., part)| f64::max(worst, *part));
+            println!("| {far} | {rung} | {worst:.1e} | {part:.1} |");
+            assert!(knights.count() > 300);
+            if rung == "inverse" {
+                assert!(errors.iter().all(|(.., part)| *part <= 1.0), "{far}: {part}");
+            } else if far == 1e6 {
+                assert!(part > 1000.0, "{rung}: {part}");
+            }
+        }
+    }
+}

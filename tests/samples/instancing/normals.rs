@@ -1,0 +1,67 @@
+//! Normals turned by each rung, held to the inverse transpose.
+
+use glam::Vec3;
+use reference::transform::U;
+
+use super::formation::{self, SceneKind};
+use super::{SPECIMEN, ViewedScene, absolute, picture};
+
+/// What `normals` made of the object-space normals whose bits the GPU wrote: for each pixel the piece,
+/// the sine of the error's angle, and the bound on it if the inverse was rounded once.
+fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> {
+    let show = |view| picture(&[&[SPECIMEN], sets, &[view]].concat());
+    let (objects, worlds) = (show("show=object normal"), show("show=normal"));
+    let pixels = objects.pixels.iter().zip(&worlds.pixels);
+    let seen = pixels.filter(|(object, _)| object[3] >= 0.0);
+    let errors = seen.map(|(&[x, y, z, index], &[r, g, b, _])| {
+        let index = index as usize;
+        let transform = viewed.transform(index);
+        let object = Vec3::new(x, y, z).as_dvec3();
+        let exact = transform.inverse.transpose() * object;
+        let world = Vec3::new(r, g, b).as_dvec3() * 2.0 - 1.0;
+        // The entry, the product and two sums; then normalising, and 0.5 + 0.5 n of the picture.
+        let strayed = absolute(transform.inverse).transpose() * object.abs() * 4.0;
+        let bound = 1.01 * U * (strayed.length() / exact.length() + 2.0 * 3f64.sqrt());
+        (index, exact.normalize().cross(world.normalize()).length(), bound)
+    });
+    errors.collect()
+}
+
+#[test]
+fn normals_turn_with_the_inverse_transpose() {
+    println!("| far | normals | off by, in degrees, at most |");
+    for far in [0.0, 1e6] {
+        let viewed = ViewedScene::new(
+            SceneKind::Specimens,
+            0,
+            formation::camera(SceneKind::Specimens),
+            far,
+            false,
+        );
+        for normals in ["device inverse", "host inverse"] {
+            let (far_set, set) = (format!("far={far}"), format!("normals={normals}"));
+            let errors = normal_errors(&viewed, &["coordinates=world", &far_set, &set]);
+            let worst = errors.iter().fold(0.0, |worst, &(_, sine, _)| f64::max(worst, sine));
+            println!("| {far} | {normals} | {:.1e} |", worst.asin().to_degrees());
+            assert!(errors.len() > 2000, "{}", errors.len());
+            // The specification says nothing of the device's, so nothing is asked of it.
+            if normals == "host inverse" {
+                assert!(errors.iter().all(|(_, sine, bound)| sine <= bound), "{worst}");
+            }
+        }
+    }
+    // By the matrix: right where it only turns and mirrors, wrong where it shears or stretches.
+    let viewed = ViewedScene::specimens();
+    let first = viewed.pieces.len() - 6;
+    // Two only turned and mirrored, and four sheared or stretched.
+    let mut most = [0f64; 6];
+    for (index, sine, _) in normal_errors(&viewed, &["normals=matrix"]) {
+        if let Some(knight) = index.checked_sub(first) {
+            most[knight] = most[knight].max(sine.min(1.0).asin().to_degrees());
+        }
+    }
+    println!("by the matrix, in degrees: {most:.5?}");
+    let (rigid, deformed) = most.split_at(2);
+    assert!(rigid.iter().all(|&degrees| degrees < 1e-4), "{most:?}");
+    assert!(deformed.iter().all(|&degrees| degrees > 15.0), "{most:?}");
+}

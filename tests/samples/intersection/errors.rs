@@ -1,0 +1,45 @@
+//! Errors of t, and the rays whose hit or miss is wrong.
+
+use reference::ulp::ulp_error;
+
+/// Errors of t in ULP, and rays whose hit or miss is wrong.
+#[derive(Default)]
+pub struct Errors {
+    pub ulp: Vec<f64>,
+    pub rays: usize,
+    pub false_hits: usize,
+    pub false_misses: usize,
+}
+
+impl Errors {
+    pub fn add(&mut self, t: Option<f32>, exact: Option<f64>) {
+        self.rays += 1;
+        match (t, exact) {
+            (Some(t), Some(exact)) => self.ulp.push(ulp_error(t, exact)),
+            (Some(_), None) => self.false_hits += 1,
+            (None, Some(_)) => self.false_misses += 1,
+            (None, None) => {}
+        }
+    }
+
+    /// The error that so large a part of the hits stay below.
+    pub fn at(&self, part: f64) -> f64 {
+        let mut sorted = self.ulp.clone();
+        sorted.sort_by(f64::total_cmp);
+        let place = (sorted.len() as f64 * part) as usize;
+        sorted.get(place).or(sorted.last()).copied().unwrap_or(0.0)
+    }
+
+    /// A row of the page's table.
+    pub fn row(&self) -> String {
+        let percent = |count: usize| 100.0 * count as f64 / self.rays as f64;
+        format!(
+            "{:.1} | {:.1} | {:.0} | {:.2} % | {:.2} %",
+            self.at(0.5),
+            self.at(0.99),
+            self.at(1.0),
+            percent(self.false_hits),
+            percent(self.false_misses)
+        )
+    }
+}

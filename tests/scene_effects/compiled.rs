@@ -1,0 +1,105 @@
+//! What a GPU's own compiler makes of each scene's pipeline, against that which has everything.
+
+use effects::Effect;
+use run::compiled_for;
+use serde_json::Value;
+
+use super::{NAME, SCENES};
+
+/// A pipeline on one family: it is one program.
+#[derive(Debug, PartialEq)]
+struct Figures {
+    instructions: u64,
+    registers: u64,
+    spilled: u64,
+    waves: u64,
+    scratch: u64,
+}
+
+impl Figures {
+    fn of(rows: &[Value], family: &str) -> Self {
+        let rows: Vec<_> = rows.iter().filter(|row| row["family"] == family).collect();
+        let [program] = rows.as_slice() else {
+            panic!("{} programs for {family}", rows.len());
+        };
+        let figure = |key: &str| program[key].as_u64().expect("a whole number");
+        Self {
+            instructions: figure("instructions"),
+            registers: figure("registers"),
+            spilled: figure("spilled_registers"),
+            waves: figure("waves"),
+            scratch: figure("scratch_bytes"),
+        }
+    }
+
+    /// Its cells of a table.
+    fn cells(&self) -> String {
+        let Self { instructions, registers, spilled, waves, .. } = self;
+        format!("{} | {registers} | {spilled} | {waves}", thousands(*instructions))
+    }
+}
+
+/// A whole number with commas.
+fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let parts = digits.as_bytes().rchunks(3).rev().map(|part| String::from_utf8_lossy(part));
+    parts.collect::<Vec<_>>().join(",")
+}
+
+/// What was made of a scene's own pipeline, or of the one with everything; `None` without the compiler.
+fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
+    let sets = [format!("scene={scene}"), format!("pipeline={pipeline}")];
+    let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);
+    let arguments: Vec<&str> = ["--size", "16x10"].into_iter().chain(sets).collect();
+    compiled_for(NAME, family, &arguments)
+}
+
+const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
+
+#[test]
+fn each_scene_is_one_program_that_fits_its_registers_and_is_no_larger_than_that_of_everything() {
+    let Some(everything) = compiled("one sphere", "everything", "all") else { return };
+    for (scene, effects, _) in SCENES {
+        let own = compiled(scene, "specialised", "all").expect("the compiler is there");
+        for family in FAMILIES {
+            let everything = Figures::of(&everything, family);
+            let own = Figures::of(&own, family);
+            println!("{scene}, {family}: {own:?}");
+            assert_eq!((own.spilled, own.scratch), (0, 0), "{scene}, {family}");
+            assert_eq!((everything.spilled, everything.scratch), (0, 0), "{family}");
+            // With all effects the two differ in one constant, and a compiler's schedule is not monotonic.
+            let all = effects.len() == Effect::ALL.len();
+            let few = if all { everything.instructions / 200 } else { 0 };
+            assert!(
+                own.instructions <= everything.instructions + few,
+                "{scene}, {family}: {own:?}"
+            );
+            assert!(own.registers <= everything.registers, "{scene}, {family}: {own:?}");
+            assert!(own.waves >= everything.waves, "{scene}, {family}: {own:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "prints a table of the page"]
+fn table() {
+    let everything = compiled("one sphere", "everything", "all").expect("the compiler is there");
+    println!("{}\n", everything[0]["compiler"].as_str().unwrap());
+    let own = SCENES.map(|(scene, ..)| compiled(scene, "specialised", "all").unwrap());
+    for family in FAMILIES {
+        println!("| {family} | instructions | registers | spilled | waves |");
+        println!("|---|---:|---:|---:|---:|");
+        for ((scene, ..), own) in SCENES.iter().zip(&own) {
+            println!("| {scene} | {} |", Figures::of(own, family).cells());
+        }
+        println!(
+            "| *any scene, by* `pipeline=everything` | {} |\n",
+            Figures::of(&everything, family).cells()
+        );
+    }
+    // The pipeline does not depend on the scene, so one row is enough.
+    for (scene, ..) in SCENES {
+        let other = compiled(scene, "everything", "navi31").unwrap();
+        assert_eq!(Figures::of(&other, "navi31"), Figures::of(&everything, "navi31"), "{scene}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Scenes made from sets of effects, each with what the set calls for and nothing else.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use effects::Effect::{self, *};
+use effects::Effects;
+use reference::random::Random;
+
+/// A number with two digits, so that text and float agree on it.
+fn between(random: &mut Random, low: f64, high: f64) -> f64 {
+    (random.between(low, high) * 100.0).round() / 100.0
+}
+
+/// What of a set a scene can call for: holes and textures are on triangles, a size is a shadow's, and a
+/// mirror is on something.
+pub fn possible(mut set: Effects) -> Effects {
+    if !set.has(Triangles) {
+        set = set.without(Textures).without(CutOut);
+    }
+    if !set.has_any(&[PointShadows, DirectionalShadows]) {
+        set = set.without(AreaLight);
+    }
+    if !set.has_any(&[Triangles, Spheres, Boxes, Plane, Solids]) {
+        set = set.without(Mirror);
+    }
+    set
+}
+
+/// Sixteen sets in which each two effects are seen in all four ways that are possible.
+///
+/// An effect is in set number `r` if `r` has an odd number of bits in common with the effect's own
+/// number: any two different numbers from 1 to 15 are independent (an orthogonal array of strength 2:
+/// Rao, "Factorial Experiments Derivable from Combinatorial Arrangements of Arrays", 1947). The order of
+/// the numbers is one in which [`possible`] loses no pair.
+pub fn all_pairs() -> Vec<Effects> {
+    const NUMBERS: [u32; 13] = [14, 6, 10, 12, 11, 15, 3, 1, 9, 2, 13, 5, 7];
+    let set = |row: u32| {
+        let chosen = Effect::ALL.into_iter().zip(NUMBERS);
+        let chosen = chosen.filter(|&(_, number)| (row & number).count_ones() % 2 == 1);
+        chosen.fold(Effects::default(), |set, (effect, _)| set.with(effect))
+    };
+    (0..16).map(set).map(possible).collect()
+}
+
+/// Writes a scene that calls for a set of effects, and its model, into a folder.
+pub fn write(folder: &Path, name: &str, set: Effects, random: &mut Random) -> PathBuf {
+    fs::write(folder.join("model.obj"), MODEL).unwrap();
+    fs::write(folder.join("model.mtl"), MATERIALS).unwrap();
+    let checks = |x: u32, y: u32| match (x / 4 + y / 4) % 2 {
+        0 => image::Rgba([200, 60, 30, 255]),
+        _ => image::Rgba([40, 120, 180, 0]),
+    };
+    image::RgbaImage::from_fn(16, 16, checks).save(folder.join("checks.png")).unwrap();
+    let path = folder.join(name).with_extension("toml");
+    fs::write(&path, text(set, random)).unwrap();
+    path
+}
+
+const MODEL: &str = "mtllib model.mtl
+v -1 0 0
+v 1 0 0
+v 1 2 0
+v -1 2 0
+v 0 0 1.5
+vt 0 0
+vt 2 0
+vt 2 2
+vt 0 2
+o tent
+usemtl plain
+f 1 5 4
+f 5 2 3
+f 5 3 4
+o picture
+usemtl painted
+f 1/1 2/2 3/3 4/4
+o lattice
+usemtl pierced
+f 1/1 2/2 3/3 4/4
+";
+
+const MATERIALS: &str = "newmtl plain
+Kd 0.6 0.5 0.4
+Ks 0 0 0
+illum 2
+newmtl painted
+Kd 1 1 1
+Ks 0 0 0
+illum 2
+map_Kd checks.png
+newmtl pierced
+Kd 0.3 0.5 0.3
+Ks 0 0 0
+illum 2
+map_d checks.png
+";
+
+fn text(set: Effects, random: &mut Random) -> String {
+    let has = |effect| set.has(effect);
+    let mut n = |low, high| between(random, low, high);
+    let mut text = format!(
+        "version = 1\nmodel = \"model.obj\"\n[picture]\nsamples = {}\nlight_samples = 3\ndepth = 3\n",
+        if has(AntiAliasing) { 2 } else { 1 }
+    );
+    let (x, y) = (n(-1.5, 1.5), n(1.2, 2.4));
+    text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");
+    // Both kinds of light shine everywhere; what differs is which casts shadows.
+    let size = if has(AreaLight) { 0.2 } else { 0.0 };
+    text += &format!(
+        "[[light]]\nkind = \"directional\"\nazimuth = {}\nelevation = {}\nradiance = [2, 2, 1.6]\n\
+         size = {size}\nshadows = {}\n",
+        n(270.0, 330.0),
+        n(25.0, 50.0),
+        has(DirectionalShadows)
+    );
+    text += &format!(
+        "[[light]]\nkind = \"point\"\nposition = [{}, 3, {}]\nintensity = [6, 7, 9]\n\
+         size = {size}\nshadows = {}\n",
+        n(0.0, 2.0),
+        n(1.0, 3.0),
+        has(PointShadows)
+    );
+    let mirror = has(Mirror);
+    for name in ["metal", "paint"] {
+        text += &format!(
+            "[[material]]\nname = \"{name}\"\ncolor = [{}, {}, {}]\nspecular = [0.6, 0.5, 0.4]\n\
+             shininess = 80\nmirror = {}\n",
+            n(0.1, 0.8),
+            n(0.1, 0.8),
+            n(0.1, 0.8),
+            mirror && name == "metal"
+        );
+    }
+    // Without one, every mesh of the model would be placed.
+    if has(Triangles) {
+        for (mesh, placed) in [("tent", true), ("picture", has(Textures)), ("lattice", has(CutOut))]
+        {
+            if placed {
+                text += &format!(
+                    "[[piece]]\nmesh = \"{mesh}\"\nat = [{}, 0.02, {}]\nturn = {}\n",
+                    n(-2.0, 2.0),
+                    n(-2.0, 1.5),
+                    n(-40.0, 40.0)
+                );
+                if mesh == "tent" {
+                    text += "material = \"metal\"\n";
+                }
+            }
+        }
+    } else {
+        text = text.replace("model = \"model.obj\"\n", "");
+    }
+    for (number, material) in ["metal", "paint"].into_iter().enumerate() {
+        let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
+        let radius = n(0.3, 0.7);
+        if has(Spheres) {
+            text += &format!(
+                "[[sphere]]\ncenter = [{x}, {radius}, {z}]\nradius = {radius}\nmaterial = \"{material}\"\n"
+            );
+        }
+        let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
+        if has(Boxes) {
+            text += &format!(
+                "[[box]]\nlow = [{x}, 0, {z}]\nhigh = [{}, {}, {}]\nmaterial = \"{material}\"\n",
+                x + 0.5,
+                n(0.3, 1.0),
+                z + 0.5
+            );
+        }
+        let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
+        if has(Solids) {
+            let side = ["1", "-1"];
+            let planes = side.map(|x| side.map(|y| side.map(|z| format!("[{x}, {y}, {z}, 0.4]"))));
+            let planes = planes.concat().concat().join(", ");
+            text += &format!(
+                "[[solid]]\ncenter = [{x}, {}, {z}]\nplanes = [{planes}]\nmaterial = \"{material}\"\n",
+                0.5 + number as f64
+            );
+        }
+    }
+    if has(Heightfield) {
+        text += &format!(
+            "[heightfield]\nlow = [-12, -14]\nhigh = [12, -3]\nhills = {}\nhill = [9, 8]\nridges = 0.1\n\
+             ridge = [2, 3]\nlight = [0.5, 0.4, 0.2]\ndark = [0.1, 0.2, 0.05]\nrock = [0.3, 0.2, 0.2]\n",
+            n(0.6, 1.4)
+        );
+    }
+    if has(Plane) {
+        text += &format!(
+            "[plane]\nnormal = [0, 2, {}]\nlight = [0.6, 0.5, 0.3]\ndark = [0.1, 0.05, 0.02]\n\
+             reflection = {}\n",
+            n(-0.1, 0.1),
+            if mirror { 0.2 } else { 0.0 }
+        );
+    }
+    text
+}

@@ -1,0 +1,109 @@
+//! The measured tables of the page and their plot. Made when asked for:
+//! `cargo test --test scene_effects plots -- --ignored --nocapture`.
+
+use serde_json::Value;
+
+use super::{NAME, SCENES};
+use run::command;
+use run::plot::{Axis, Chart, Series, draw};
+
+/// A report of a run without validation, which would be timed as well. The driver's cache is off, so that
+/// each pipeline is compiled.
+fn report(sets: &[&str], more: &[&str]) -> Value {
+    let sets = sets.iter().flat_map(|&set| ["--set", set]);
+    let output = command(NAME)
+        .args(["--headless", "--report", "-", "--size", "320x200"])
+        .args(sets)
+        .args(more)
+        .env("MESA_SHADER_CACHE_DISABLE", "true")
+        .output()
+        .expect("the sample starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("the report is JSON")
+}
+
+/// Milliseconds from the shaders' text to the first frame that is as fast as the others: the pipeline,
+/// and what the driver puts off to the first trace. The least of three runs.
+fn compile_time(sets: &[&str]) -> f64 {
+    let times = (0..3).map(|_| {
+        let report = report(sets, &["--frames", "4"]);
+        let frames = &report["gpu_milliseconds"];
+        let put_off = frames["max"].as_f64().unwrap() - frames["min"].as_f64().unwrap();
+        put_off + report["chapter"]["pipeline"]["build_milliseconds"].as_f64().unwrap()
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
+
+fn spirv_kilobytes(report: &Value) -> f64 {
+    let stages = report["chapter"]["pipeline"]["stages"].as_array().unwrap();
+    stages.iter().map(|stage| stage["words"].as_f64().unwrap()).sum::<f64>() * 4.0 / 1024.0
+}
+
+#[test]
+#[ignore = "measures for minutes; draws docs/images/25_times.svg"]
+fn scenes() {
+    let mut points = (vec![], vec![]);
+    println!(
+        "| scene | effects | stages | SBT | payload | SPIR-V | compile | memory | time | everything / own |"
+    );
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
+    for (name, effects, _) in SCENES {
+        let scene = format!("scene={name}");
+        let own = report(&[&scene], &[]);
+        let pipeline = &own["chapter"]["pipeline"];
+        let stages = pipeline["stages"].as_array().unwrap();
+        let compile = compile_time(&[&scene]);
+        let rounds = ["--frames", "25", "--compare", "pipeline=specialised|everything"];
+        let times = report(&[&scene], &rounds)["comparison"].clone();
+        let [time, everything] = [0, 1].map(|value| times["values"][value].clone());
+        let ratio = everything["ratio"].clone();
+        let (milliseconds, median) =
+            (time["milliseconds"].as_f64().unwrap(), ratio["median"].as_f64().unwrap());
+        println!(
+            "| {name} | {} | {} | {} B | {} B | {:.0} KB | {compile:.0} ms | {:.2} MB | {milliseconds:.1} ms | **{median:.2}** ({:.2} to {:.2}) |",
+            effects.len(),
+            stages.len(),
+            pipeline["sbt_bytes"],
+            stages[0]["module"]["payload"],
+            spirv_kilobytes(&own),
+            own["bytes_allocated"].as_f64().unwrap() / 1e6,
+            ratio["low"].as_f64().unwrap(),
+            ratio["high"].as_f64().unwrap(),
+        );
+        points.0.push([milliseconds, median]);
+        points.1.push([stages.len() as f64, compile]);
+    }
+    let ticks = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+    let time = Axis { label: "own pipeline, milliseconds", ticks: &ticks, logarithmic: true };
+    let ratio = Axis {
+        label: "everything / own",
+        ticks: &[0.5, 1.0, 1.5, 2.0, 2.5, 3.0],
+        logarithmic: false,
+    };
+    let count = Axis {
+        label: "stages",
+        ticks: &[2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0],
+        logarithmic: false,
+    };
+    let compile = Axis {
+        label: "compile, milliseconds",
+        ticks: &[0.0, 250.0, 500.0, 750.0, 1000.0, 1250.0],
+        logarithmic: false,
+    };
+    let series = |points| vec![Series { name: "", points, line: false, dots: true }];
+    let charts = [
+        Chart {
+            title: "what everything costs a scene",
+            x: time,
+            y: ratio,
+            series: series(points.0),
+        },
+        Chart {
+            title: "what a stage costs to compile",
+            x: count,
+            y: compile,
+            series: series(points.1),
+        },
+    ];
+    draw("25_times.svg", (380, 300), &charts);
+}
