@@ -42,9 +42,9 @@ fn a_right_scene_is_accepted() {
 
 #[test]
 fn files_that_are_no_scene() {
-    file_refused("", "s.toml:1: the first key is `version = 1`; no other version is known");
-    file_refused("version = 2\n", "s.toml:1: the first key is `version = 1`");
-    file_refused("\nversion = \"1\"\n", "s.toml:2: the first key is `version = 1`");
+    file_refused("", "s.toml:1: a scene file has the key `version = 1`; no other version is known");
+    file_refused("version = 2\n", "s.toml:1: a scene file has the key `version = 1`");
+    file_refused("\nversion = \"1\"\n", "s.toml:2: a scene file has the key `version = 1`");
     file_refused("version = 1\n", "s.toml:1: missing field `camera`");
     file_refused(&HEAD[..HEAD.len() - 30], "s.toml:4: ");
     file_refused("version = 1\nversion = 1\n", "s.toml:2: duplicate key");
@@ -152,7 +152,7 @@ fn things_that_are_wrong() {
     table_refused(
         "[heightfield]\nlow = [0, 0]\nhigh = [1, 1]\nhills = 0\nhill = [1, 1]\nlight = [1, 1, 1]\n\
          dark = [0, 0, 0]\nrock = [0, 0, 0]\n",
-        "s.toml:6: a heightfield has its `high` above its `low`, and `hills` above 0",
+        "s.toml:6: a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0",
     );
     table_refused(&solid("[0, 1, 0, 1, 1]"), "s.toml:11: 5 numbers where there are 4");
     let many = "[[sphere]]\ncenter = [0,0,0]\nradius = 1\nmaterial = \"a\"\n".repeat(100_001);

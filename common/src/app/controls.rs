@@ -173,30 +173,30 @@ impl Value<'_> {
     }
 
     /// Sets the value from text; `None` if the text is not one that is possible.
-    pub fn set(self, text: &str) -> Option<()> {
+    pub fn set(&mut self, text: &str) -> Option<()> {
         let within =
             |number: f32, range: &RangeInclusive<f32>| range.contains(&number).then_some(number);
         match self {
-            Self::Slider(value, range) => *value = within(text.parse().ok()?, &range)?,
+            Self::Slider(value, range) => **value = within(text.parse().ok()?, range)?,
             Self::Integer(value, range) => {
-                *value = text.parse().ok().filter(|number| range.contains(number))?;
+                **value = text.parse().ok().filter(|number| range.contains(number))?;
             }
             Self::Checkbox(value) => {
-                *value = match text {
+                **value = match text {
                     "on" | "true" | "1" => true,
                     "off" | "false" | "0" => false,
                     _ => return None,
                 }
             }
-            Self::Color(value) => *value = vector(text, &(0.0..=1.0))?,
+            Self::Color(value) => **value = vector(text, &(0.0..=1.0))?,
             Self::Choice(value, options) => {
-                *value = options.iter().position(|option| *option == text)? as u32;
+                **value = options.iter().position(|option| *option == text)? as u32;
             }
-            Self::Vector(value, range) => *value = vector(text, &range)?,
+            Self::Vector(value, range) => **value = vector(text, range)?,
             // Shaders get it in 32 bits.
             Self::Point(value) => {
                 let point = DVec3::from_array(three(text)?);
-                *value = point.as_vec3().is_finite().then_some(point)?;
+                **value = point.as_vec3().is_finite().then_some(point)?;
             }
         }
         Some(())
@@ -247,21 +247,23 @@ struct Settings<'a> {
     waiting: Vec<(&'a str, &'a str)>,
     seen: Vec<String>,
     refused: Option<String>,
+    /// Whether a control that is given the value that it has does what it does at a change.
+    repeats: bool,
 }
 
 impl Visit for Settings<'_> {
-    fn visit(&mut self, name: &str, value: Value) -> bool {
+    fn visit(&mut self, name: &str, mut value: Value) -> bool {
         self.seen.push(name.to_owned());
         let wanted = self.waiting.iter().position(|&(waiting, _)| waiting == name);
         let Some(wanted) = wanted.filter(|_| self.refused.is_none()) else { return false };
         let (_, text) = self.waiting.remove(wanted);
-        let possible = value.possible();
-        let set = value.set(text);
-        if set.is_none() {
+        let before = value.text();
+        if value.set(text).is_none() {
+            let possible = value.possible();
             self.refused =
                 Some(format!("control '{name}' cannot be '{text}': it takes {possible}"));
         }
-        set.is_some()
+        self.repeats || value.text() != before
     }
 
     /// Either point alone would do, but an eye that is its own target looks nowhere.
@@ -284,7 +286,7 @@ impl Visit for Settings<'_> {
 /// # Errors
 /// If there is none of that name, or the value is not possible; the line lists what is.
 pub fn set(name: &str, text: &str, mut declare: impl FnMut(&mut Controls)) -> Result<(), Usage> {
-    round(vec![(name, text)], &mut declare)
+    round(vec![(name, text)], true, &mut declare)
 }
 
 /// Sets controls, each given by name and text, as they are declared and not as they are given: a preset
@@ -293,22 +295,27 @@ pub fn set(name: &str, text: &str, mut declare: impl FnMut(&mut Controls)) -> Re
 ///
 /// # Errors
 /// As [`set`].
-pub fn set_all(
+pub fn set_all(sets: &[(String, String)], declare: impl FnMut(&mut Controls)) -> Result<(), Usage> {
+    rounds(sets, true, declare)
+}
+
+fn rounds(
     sets: &[(String, String)],
+    repeats: bool,
     mut declare: impl FnMut(&mut Controls),
 ) -> Result<(), Usage> {
     let mut waiting: Vec<(&str, &str)> = Vec::new();
     for (name, text) in sets {
         if waiting.iter().any(|(other, _)| other == name) {
-            round(std::mem::take(&mut waiting), &mut declare)?;
+            round(std::mem::take(&mut waiting), repeats, &mut declare)?;
         }
         waiting.push((name, text));
     }
-    round(waiting, &mut declare)
+    round(waiting, repeats, &mut declare)
 }
 
 /// As [`set_all`], but with one control at a value of its own: what that brings, as a preset does, undoes
-/// none of the others.
+/// none of the others. A control that has its value already does nothing: it is asked once a frame.
 ///
 /// # Errors
 /// As [`set`].
@@ -320,12 +327,16 @@ pub fn set_beside(
 ) -> Result<(), Usage> {
     let others = sets.iter().filter(|(other, _)| other != name).cloned();
     let all: Vec<_> = others.chain([(name.to_owned(), text.to_owned())]).collect();
-    set_all(&all, declare)
+    rounds(&all, false, declare)
 }
 
 /// Sets controls of different names.
-fn round(waiting: Vec<(&str, &str)>, declare: &mut impl FnMut(&mut Controls)) -> Result<(), Usage> {
-    let mut settings = Settings { waiting, seen: Vec::new(), refused: None };
+fn round(
+    waiting: Vec<(&str, &str)>,
+    repeats: bool,
+    declare: &mut impl FnMut(&mut Controls),
+) -> Result<(), Usage> {
+    let mut settings = Settings { waiting, seen: Vec::new(), refused: None, repeats };
     while let Some(&(name, _)) = settings.waiting.first() {
         let count = settings.waiting.len();
         settings.seen.clear();

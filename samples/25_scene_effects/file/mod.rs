@@ -33,7 +33,8 @@ pub fn open(path: &Path) -> Result<Composition> {
     let table: toml::Table = source.parse()?;
     if table.get("version").and_then(toml::Value::as_integer) != Some(VERSION) {
         let at = source.line_of("version").unwrap_or(0);
-        let what = format!("the first key is `version = {VERSION}`; no other version is known");
+        let what =
+            format!("a scene file has the key `version = {VERSION}`; no other version is known");
         return Err(source.error(at, &what));
     }
     source.parse::<Description>()?.compose(path, &source)

@@ -59,8 +59,10 @@ pub(super) fn opaque(
     let material = &model.materials[number];
     match material.has_cutout() || material.base_texture.is_some() {
         true => {
-            let what =
-                format!("{} has holes or a texture: only meshes can", quoted(&material.name));
+            let what = format!(
+                "{} has holes or a texture, which only meshes can have",
+                quoted(&material.name)
+            );
             Err(source.error(name.span().start, &what))
         }
         false => Ok(number as u32),

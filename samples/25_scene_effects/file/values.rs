@@ -51,7 +51,9 @@ impl Land {
             true => {
                 Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
             }
-            false => Err("a heightfield has its `high` above its `low`, and `hills` above 0"),
+            false => {
+                Err("a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0")
+            }
         }
     }
 }

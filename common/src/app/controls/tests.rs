@@ -147,3 +147,20 @@ fn wrong_names_and_values_say_what_there_is() {
     }
     assert_eq!(sample.height, 0.0);
 }
+
+/// What a comparison sets before each frame costs nothing once it is set, as a scene would that is opened
+/// again.
+#[test]
+fn a_control_beside_the_compared_one_acts_once() {
+    let (mut scene, mut rung, mut opened) = (0, 0, 0);
+    let mut declare = |c: &mut Controls| {
+        opened += u32::from(c.one_of("scene", &mut scene, &["board", "lake"]));
+        c.one_of("rung", &mut rung, &["naive", "stable"]);
+    };
+    let sets = [("scene".to_owned(), "lake".to_owned())];
+    set_all(&sets, &mut declare).unwrap();
+    for value in ["naive", "stable", "naive"] {
+        set_beside(&sets, "rung", value, &mut declare).unwrap();
+    }
+    assert_eq!((scene, rung, opened), (1, 0, 1));
+}
