@@ -1,7 +1,6 @@
 //! 07_multi_closest_hit: the group and the record of every ray, the data of records, the printed table.
 
 use std::fs;
-use std::path::Path;
 
 use common::gpu::{Limits, sbt};
 use common::scene::{Instance, Scene};
