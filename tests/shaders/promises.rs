@@ -5,6 +5,9 @@
 
 use std::fs;
 
+use common::gpu::shader::compile_with;
+use common::gpu::{Gpu, GpuOptions, Requirements};
+
 use super::files;
 
 /// Half of the distance from 1 to the next float: the error of one rounding, relative.
@@ -142,5 +145,44 @@ fn no_shadow_ray_ends_before_it_begins() {
         if away > start {
             assert!((tmin * away - start).abs() <= 1e-6 * start, "{tmin} {away} {start}");
         }
+    }
+}
+
+#[test]
+fn error_free_sums_demand_rounding_to_nearest() {
+    for function in ["two_sum", "two_product", "quick_two_sum", "dot_compensated"] {
+        for file in callers(function) {
+            // 24 declares the mode itself, in exact.glsl; 25 takes the plane from common.
+            let known = ["12_infinite_plane", "22_solids", "24_accuracy", "common"];
+            let folder = file.split('/').next().expect("a folder");
+            assert!(known.contains(&folder), "{file} calls {function}");
+        }
+    }
+    let requirements = Requirements::ray_tracing();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
+    for name in ["12_infinite_plane", "22_solids", "25_scene_effects"] {
+        // A copy that does not compile once the mode is demanded.
+        let shaders = run::copy_of_shaders();
+        for folder in ["common", "12_infinite_plane"] {
+            let file = shaders.path().join(folder).join("error_free.glsl");
+            let text = fs::read_to_string(&file).expect("a shader");
+            let told = text.replace("spirv_execution_mode(", "#error demanded\n");
+            assert_ne!(told, text);
+            fs::write(file, told).expect("a copy can be written");
+        }
+        let mut command = run::command(name);
+        command.env("SHADERS", shaders.path()).args(["--headless", "--size", "8x8"]);
+        let output = command.output().expect("the sample starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let demanded = errors.contains("demanded");
+        assert_eq!(demanded, gpu.limits.rounding_to_nearest_even, "{name}: {errors}");
+    }
+    // And the compiler has put it into the module: OpExecutionMode, RoundingModeRTE, 32 bits.
+    let define = [("ROUNDING_MODE_RTE", "1".to_owned())];
+    let stages =
+        ["12_infinite_plane/camera.rgen", "22_solids/solid.rint", "25_scene_effects/camera.rgen"];
+    for stage in stages {
+        let words = compile_with(stage, &define).expect("it compiles").spirv;
+        assert!(words.windows(4).any(|w| w[0] == 4 << 16 | 16 && w[2..] == [4462, 32]), "{stage}");
     }
 }
