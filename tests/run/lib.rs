@@ -175,10 +175,7 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
         .to_rgb8();
     assert_eq!(expected.dimensions(), (picture.width, picture.height), "{name}: the size differs");
     let (width, height) = expected.dimensions();
-    let reference = nv_flip::FlipImageRgb8::with_data(width, height, &expected);
-    let actual = nv_flip::FlipImageRgb8::with_data(width, height, &picture.srgb());
-    let error = nv_flip::flip(reference, actual, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    let mean = nv_flip::FlipPool::from_image(&error).mean();
+    let mean = flip::mean((width, height), &expected, &picture.srgb());
     if mean > tolerance {
         let kept = root().join(format!("target/golden/{name}.png"));
         std::fs::create_dir_all(kept.parent().expect("it lies in a folder")).expect("a folder");
