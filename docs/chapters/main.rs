@@ -22,6 +22,7 @@ mod diff;
 mod exercise;
 mod fault;
 mod gallery;
+mod laboratory;
 mod markdown;
 mod mention;
 mod moved;

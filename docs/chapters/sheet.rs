@@ -111,9 +111,10 @@ fn top(table: &Table<HardCases>) -> String {
     }
     let (mut right, mut all, mut missing) = (0, 0, 0);
     for rung in table.rungs.iter().filter(|rung| rung.top) {
-        right += rung.right;
-        all += rung.cases;
-        missing += usize::from(rung.unavailable.is_some());
+        match rung.unavailable {
+            Some(_) => missing += 1,
+            None => (right, all) = (right + rung.right, all + rung.cases),
+        }
     }
     match missing {
         0 => format!("top rungs right {right} of {all}"),

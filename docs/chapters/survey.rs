@@ -12,18 +12,15 @@ use anyhow::{Context, Result, bail};
 use common::gpu::Limits;
 use serde_json::Value;
 
-use crate::card::{self, Card, Device, HardCases, Measured, Table};
+use crate::card::{self, Card, Device};
 use crate::child;
+use crate::laboratory;
 use crate::program::Programs;
 use crate::project::{Chapter, Project};
 use crate::sheet;
 
 /// The size of the picture whose time is taken.
 pub const TIMED: &str = "480x300";
-
-/// The chapter whose hard cases and measurements a card has, and the cases.
-const LABORATORY: &str = "24_accuracy";
-const CASES: &str = "tests/data/hard_cases.json";
 
 /// A survey of one device.
 pub struct Survey<'a> {
@@ -40,7 +37,7 @@ pub struct Survey<'a> {
 impl Survey<'_> {
     /// What would be run, a line a program.
     pub fn list(&self) -> String {
-        let golden = |chapter: &Chapter| {
+        let line = |chapter: &Chapter| {
             let arguments: String =
                 chapter.golden.iter().map(|argument| format!(" {argument}")).collect();
             format!(
@@ -49,9 +46,9 @@ impl Survey<'_> {
                 golden(chapter)
             )
         };
-        let mut text: String = self.project.chapters.iter().map(golden).collect();
-        for (what, arguments) in self.laboratory(Path::new("FOLDER")) {
-            text.push_str(&format!("{LABORATORY}: {} ({what})\n", arguments.join(" ")));
+        let mut text: String = self.project.chapters.iter().map(line).collect();
+        for (what, arguments) in laboratory::runs(self.project, Path::new("FOLDER")) {
+            text.push_str(&format!("{}: {} ({what})\n", laboratory::NAME, arguments.join(" ")));
         }
         text
     }
@@ -66,8 +63,13 @@ impl Survey<'_> {
         common::files::check_writable(&out.join("card.md"))?;
         self.build()?;
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-        let laboratory = self.laboratory(folder.path());
+        let laboratory = laboratory::runs(self.project, folder.path());
         let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
+        let limit = self.limit.as_secs();
+        crate::print(&format!(
+            "{} lines to come; a program is stopped after {limit} s\n",
+            steps.all
+        ))?;
         let mut card = Card {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
@@ -87,16 +89,11 @@ impl Survey<'_> {
             card.chapters.push(line);
         }
         for (index, (what, arguments)) in laboratory.iter().enumerate() {
-            let failed = self.ask(LABORATORY, arguments).err().map(|error| told(&error));
+            let failed = self.ask(laboratory::NAME, arguments).err().map(|error| told(&error));
             steps.told(what, failed.as_deref().unwrap_or("done"))?;
             match index {
-                0 => {
-                    card.hard_cases =
-                        table(failed, || hard_cases(&folder.path().join("cases.json")))
-                }
-                _ => {
-                    card.measured = table(failed, || measured(&folder.path().join("accuracy.json")))
-                }
+                0 => card.hard_cases = laboratory::hard_cases(failed, folder.path()),
+                _ => card.measured = laboratory::measured(failed, folder.path()),
             }
         }
         let stem = card.stem();
@@ -213,20 +210,6 @@ impl Survey<'_> {
         }
         Ok(())
     }
-
-    /// What chapter 24 is asked, where the project has it: hard cases, then random rays.
-    fn laboratory(&self, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
-        if !self.project.chapters.iter().any(|chapter| chapter.name == LABORATORY) {
-            return Vec::new();
-        }
-        let report = folder.join("cases.json").to_string_lossy().into_owned();
-        let mut cases = words(&["--headless", "--cases", CASES, "--report"]);
-        cases.push(report);
-        let mut measure = words(&["--headless", "--rays", "256", "--rounds", "5"]);
-        measure.extend(words(&["--only", "sphere", "--only", "triangle", "--measure"]));
-        measure.push(folder.to_string_lossy().into_owned());
-        vec![("hard cases", cases), ("random rays", measure)]
-    }
 }
 
 /// Says what has been done and how long the rest may take.
@@ -251,20 +234,23 @@ impl Steps {
     }
 }
 
+/// A chapter's golden picture.
 fn golden(chapter: &Chapter) -> String {
     format!("tests/golden/{}.png", chapter.name)
 }
 
-fn words(words: &[&str]) -> Vec<String> {
+/// Arguments of a program.
+pub fn words(words: &[&str]) -> Vec<String> {
     words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// An error as the card has it: one line, and no path of this machine.
-fn told(error: &anyhow::Error) -> String {
+pub fn told(error: &anyhow::Error) -> String {
     card::without_paths(&format!("{error:#}").replace('\n', " "))
 }
 
-fn read(report: &Path) -> Result<Value> {
+/// What a program has reported.
+pub fn read(report: &Path) -> Result<Value> {
     let text = fs::read_to_string(report).context("it has written no report")?;
     serde_json::from_str(&text).context("its report is no JSON")
 }
@@ -277,42 +263,7 @@ fn device(report: &Value) -> Option<Device> {
 }
 
 /// The rows of a list, those of another shape left out.
-fn rows<T: serde::de::DeserializeOwned>(list: &Value) -> Vec<T> {
+pub fn rows<T: serde::de::DeserializeOwned>(list: &Value) -> Vec<T> {
     let rows = list.as_array().into_iter().flatten();
     rows.filter_map(|row| serde_json::from_value(row.clone()).ok()).collect()
-}
-
-/// The rows that a run has left, or why there are none.
-fn table<Row>(failed: Option<String>, rungs: impl FnOnce() -> Result<Vec<Row>>) -> Table<Row> {
-    match rungs() {
-        Ok(rungs) => Table { failed, rungs },
-        Err(error) => {
-            Table { failed: Some(failed.unwrap_or_else(|| told(&error))), rungs: Vec::new() }
-        }
-    }
-}
-
-fn hard_cases(report: &Path) -> Result<Vec<HardCases>> {
-    Ok(rows(&read(report)?["rungs"]))
-}
-
-fn measured(report: &Path) -> Result<Vec<Measured>> {
-    let report = read(report)?;
-    let rungs = report["rungs"].as_array().context("it has measured nothing")?;
-    let row = |rung: &Value| {
-        let text = |key: &str| rung[key].as_str().unwrap_or_default().to_owned();
-        let errors: Vec<&Value> = rung["errors"].as_array().into_iter().flatten().collect();
-        let number = |row: &Value, key: &str| row[key].as_f64().unwrap_or_default();
-        let wrong = ["false_hits", "false_misses", "never_offered", "not_finite"];
-        let wrong = errors.iter().flat_map(|row| wrong.map(|key| number(row, key))).sum::<f64>();
-        Measured {
-            primitive: text("primitive"),
-            rung: text("rung"),
-            name: text("name"),
-            worst_ulp: errors.iter().map(|row| number(row, "max")).fold(0.0, f64::max),
-            wrong: wrong as u64,
-            time_ratio: rung["time"]["ratio"]["median"].as_f64(),
-        }
-    };
-    Ok(rungs.iter().map(row).collect())
 }

@@ -100,7 +100,8 @@ fn a_card_tells_what_was_run_and_fills_the_page() {
     let (project, programs) = (project(), programs(&[]));
     let (outcome, card, sheet) = survey(&project, programs.path(), &[], &[]);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
-    assert!(outcome.out.starts_with("[1/2] 01_one: passes, "), "{}", outcome.out);
+    let start = "2 lines to come; a program is stopped after 180 s\n[1/2] 01_one: passes, ";
+    assert!(outcome.out.starts_with(start), "{}", outcome.out);
     assert!(outcome.out.contains(" s left\n[2/2] 02_basic: passes"), "{}", outcome.out);
     let device = card["device"]["name"].as_str().expect("a device");
     assert!(sheet.starts_with(&format!("# {device}\n")), "{sheet}");
