@@ -21,6 +21,12 @@ pub struct Ended {
 }
 
 impl Ended {
+    /// In one line what was wrong with its arguments, if that is what it says: exit code 2.
+    pub fn refused(&self) -> Option<String> {
+        let code = self.status.and_then(|status| status.code());
+        self.failed().filter(|_| code == Some(2))
+    }
+
     /// In one line why it failed; `None` if it did not.
     pub fn failed(&self) -> Option<String> {
         let Some(status) = self.status else {

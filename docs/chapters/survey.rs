@@ -10,10 +10,11 @@ use std::time::{Duration, Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
 use common::gpu::Limits;
+use common::usage::Usage;
 use serde_json::Value;
 
 use crate::card::{self, Card, Device};
-use crate::child;
+use crate::child::{self, Ended};
 use crate::laboratory;
 use crate::program::Programs;
 use crate::project::{Chapter, Project};
@@ -62,6 +63,7 @@ impl Survey<'_> {
         fs::create_dir_all(out).with_context(cannot)?;
         common::files::check_writable(&out.join("card.md"))?;
         self.build()?;
+        self.check_device()?;
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
         let laboratory = laboratory::runs(self.project, folder.path());
         let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
@@ -125,11 +127,27 @@ impl Survey<'_> {
         cargo.status().map(drop).context("cargo does not start")
     }
 
+    /// Fails if `--device` names none, before anything is run for a card.
+    fn check_device(&self) -> Result<()> {
+        let (Some(_), Some(chapter)) = (self.device, self.project.chapters.last()) else {
+            return Ok(());
+        };
+        let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
+        ended.refused().map_or(Ok(()), |line| Err(Usage(line).into()))
+    }
+
     /// Runs a program to its end.
     ///
     /// # Errors
     /// If it cannot be run, or fails: in one line, why.
     fn ask(&self, name: &str, arguments: &[String]) -> Result<()> {
+        match self.end_of(name, arguments)?.failed() {
+            Some(why) => bail!("{why}"),
+            None => Ok(()),
+        }
+    }
+
+    fn end_of(&self, name: &str, arguments: &[String]) -> Result<Ended> {
         let mut command = self.programs.command(name).map_err(anyhow::Error::msg)?;
         if let Some(shaders) = std::env::var_os("SHADERS") {
             command.env("SHADERS", shaders);
@@ -137,11 +155,7 @@ impl Survey<'_> {
         if let Some(device) = self.device {
             command.args(["--device", device]);
         }
-        let ended = child::run(command.args(arguments), self.limit).context("it does not start")?;
-        match ended.failed() {
-            Some(why) => bail!("{why}"),
-            None => Ok(()),
-        }
+        child::run(command.args(arguments), self.limit).context("it does not start")
     }
 
     /// One chapter: its golden picture under validation, its time, and what compilers say.

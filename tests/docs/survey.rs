@@ -194,6 +194,24 @@ fn a_picture_that_differs_and_one_that_is_missing_are_lines_of_the_card() {
     assert_eq!(missing, "its golden picture is missing");
 }
 
+#[test]
+fn a_device_that_is_not_there_is_refused_before_anything_runs() {
+    let (project, programs) = (project(), programs(&[]));
+    let tool = programs.path().join(format!("chapters{EXE_SUFFIX}"));
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(tool);
+    command.args(["survey", "--device", "no such card", "--out"]).arg(cards.path());
+    let outcome = run(command.arg("--root").arg(project.path("")));
+    assert_eq!((outcome.code, &*outcome.out), (2, ""), "{}", outcome.err);
+    assert!(
+        outcome.err.starts_with("error: no device 'no such card'; there is 0: "),
+        "{}",
+        outcome.err
+    );
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    assert_eq!(cards.path().read_dir().expect("a folder").count(), 0);
+}
+
 /// A card that is whole.
 const CARD: &str = r#"{
   "date": "2026-11-22", "system": "linux x86_64", "validated": true, "tolerance": 0.002,
