@@ -3,6 +3,7 @@
 use similar::{DiffOp, group_diff_ops};
 
 use crate::anchor::{anchors, part};
+use crate::card;
 use crate::diff::{self, FileDiff, Line, Parts, Side};
 use crate::fault::Fault;
 use crate::gallery;
@@ -10,6 +11,7 @@ use crate::page::{Block, Kind, Page};
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
 use crate::shader;
+use crate::sheet;
 
 /// Lines around a change on a page.
 const CONTEXT: usize = 2;
@@ -42,6 +44,10 @@ pub fn body(
             let controls = programs.controls(name).map_err(|what| wrong(what, BUILD))?;
             Ok((controls.table(), format!("{name} --list-controls")))
         }
+        (Kind::Devices, []) => {
+            let (cards, _) = card::all(project);
+            Ok((sheet::devices(&cards), card::FOLDER.to_owned()))
+        }
         (Kind::Gallery, []) => Ok((gallery::table(project, &page.path), "Cargo.toml".to_owned())),
         (kind, _) => {
             let form = match kind {
@@ -49,6 +55,7 @@ pub fn body(
                 Kind::Diff => "<!-- diff OLD NEW FILE#ANCHOR -->, the file being optional",
                 Kind::Controls => "<!-- controls NN_name -->",
                 Kind::Gallery => "<!-- gallery -->",
+                Kind::Devices => "<!-- devices -->",
             };
             let what = format!("<!-- {} {} --> is no marker", kind.word(), words.join(" "));
             Err(wrong(what, &format!("write {form}")))

@@ -13,7 +13,7 @@ use crate::picture::{Picture, Sources};
 use crate::program::Programs;
 use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
-use crate::{agree, command, exercise, gallery, mention, placeholder, stray, taught, test};
+use crate::{agree, card, command, exercise, gallery, mention, placeholder, stray, taught, test};
 
 /// The book of a project.
 pub struct Book<'a> {
@@ -77,6 +77,7 @@ impl<'a> Book<'a> {
         }
         faults.extend(self.wrong_anchors());
         faults.extend(stray::check(self.project, &linked));
+        faults.extend(card::all(self.project).1);
         faults.extend(taught::check(self.project));
         faults.sort();
         faults.dedup();

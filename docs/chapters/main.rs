@@ -4,6 +4,7 @@
 //! - `diff A B`: what one chapter changes in another: code, shaders and page
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
+//! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
 //!
@@ -14,11 +15,14 @@ mod agree;
 mod anchor;
 mod body;
 mod book;
+mod card;
+mod child;
 mod command;
 mod diff;
 mod exercise;
 mod fault;
 mod gallery;
+mod laboratory;
 mod markdown;
 mod mention;
 mod moved;
@@ -30,14 +34,17 @@ mod program;
 mod project;
 mod reference;
 mod shader;
+mod sheet;
 mod show;
 mod stray;
+mod survey;
 mod taught;
 mod test;
 
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use anyhow::{Result, bail};
 use clap::{Parser, Subcommand};
@@ -49,6 +56,7 @@ use fault::Fault;
 use new::New;
 use program::Programs;
 use project::{Chapter, Project};
+use survey::Survey;
 
 /// Shows any two chapters side by side, and keeps the book's pages true to the code
 #[derive(Debug, Parser)]
@@ -108,6 +116,22 @@ enum Command {
         #[arg(long, value_name = "NAME", num_args = 0..)]
         pictures: Option<Vec<String>>,
     },
+    /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
+    /// 1 if a chapter fails. Under five minutes on a GPU, some more on a software driver
+    Survey {
+        /// Use this device: a number of --list-devices or a part of its name
+        #[arg(long, value_name = "N|NAME")]
+        device: Option<String>,
+        /// Where the card goes, as Markdown and as JSON
+        #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
+        out: PathBuf,
+        /// Stop a program after so many seconds
+        #[arg(long, value_name = "SECONDS", default_value_t = 180)]
+        limit: u64,
+        /// Only print what would be run
+        #[arg(long)]
+        list: bool,
+    },
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -124,7 +148,7 @@ fn parse() -> Result<Arguments> {
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line = line.unwrap_or("no command; there is list, diff, new, sync, check");
+        let line = line.unwrap_or("no command; there is list, diff, new, sync, survey, check");
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }
@@ -150,6 +174,16 @@ fn run(arguments: &Arguments) -> Result<()> {
             let files = new.write()?;
             let list: String = files.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", new.next()))
+        }
+        Command::Survey { device, out, limit, list } => {
+            let programs = Programs::beside_this(&project.root)?;
+            let limit = Duration::from_secs(*limit);
+            let survey =
+                Survey { project: &project, programs: &programs, device: device.as_deref(), limit };
+            match list {
+                true => print(&survey.list()),
+                false => survey.run(out),
+            }
         }
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {

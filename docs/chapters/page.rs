@@ -27,10 +27,13 @@ pub enum Kind {
     Controls,
     /// Every chapter's picture, title and line: `gallery`.
     Gallery,
+    /// Every report card that was sent in: `devices`.
+    Devices,
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Snippet, Self::Diff, Self::Controls, Self::Gallery];
+    const ALL: [Self; 5] =
+        [Self::Snippet, Self::Diff, Self::Controls, Self::Gallery, Self::Devices];
 
     /// The word in the marker.
     pub fn word(self) -> &'static str {
@@ -39,6 +42,7 @@ impl Kind {
             Self::Diff => "diff",
             Self::Controls => "controls",
             Self::Gallery => "gallery",
+            Self::Devices => "devices",
         }
     }
 
@@ -46,6 +50,7 @@ impl Kind {
     pub fn noun(self) -> &'static str {
         match self {
             Self::Controls => "table of controls",
+            Self::Devices => "table of devices",
             _ => self.word(),
         }
     }

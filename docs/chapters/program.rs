@@ -113,6 +113,11 @@ impl Programs {
         Ok(command)
     }
 
+    /// Whether they are built with `--release`.
+    pub fn are_released(&self) -> bool {
+        self.folder.ends_with("release")
+    }
+
     /// Asks several programs for their controls at once; [`Programs::controls`] then answers from memory.
     pub fn ask(&self, names: &[&str]) {
         let workers = thread::available_parallelism().map_or(1, usize::from);

@@ -26,6 +26,9 @@ pub struct Chapter {
     /// What it needs of the device beyond the baseline.
     #[serde(default)]
     pub needs: Vec<String>,
+    /// The arguments of its golden picture, the size apart.
+    #[serde(default, skip_serializing)]
+    pub golden: Vec<String>,
     /// The effects that it adds to chapter 25's table, by name.
     #[serde(default)]
     pub effects: Vec<String>,

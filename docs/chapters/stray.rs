@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::card;
 use crate::fault::Fault;
 use crate::gallery::OTHER_PAGES;
 use crate::project::{Project, SUMMARY};
@@ -54,6 +55,8 @@ fn why(
             (own || sources.code_says(&format!("\"{below}\"")), "no program names it")
         }
         _ if folder == "docs" && name == "book.toml" => (true, ""),
+        // Whether they are whole, their own check says.
+        "json" if folder == card::FOLDER => (true, ""),
         _ if name == "Cargo.toml" => {
             let member = format!("\"{folder}\",");
             (project.manifest.contains(&member), "it is no member of the workspace")

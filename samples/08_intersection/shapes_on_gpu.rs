@@ -1,7 +1,9 @@
 //! The shapes on the device: a bottom level of spheres and one of boxes, in order and with a margin.
 
 use anyhow::Result;
-use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::gpu::{
+    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order, padded,
+};
 use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
@@ -155,14 +157,8 @@ impl Level {
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order
         // ANCHOR: margin
-        // A driver's box test rounds: a wall at distance x along an axis may seem to be 3u·x off, with
-        // u = 2^-24 (a subtraction, a reciprocal and a product). A fourth u is for the wall itself.
-        let margin = Vec3::splat(4.0 * 0.5f32.powi(24) * reach);
-        let grow = |i: &u32| {
-            let (low, high) = bounds[*i as usize];
-            [low - margin, high + margin]
-        };
-        let boxes: Vec<[Vec3; 2]> = order.iter().map(grow).collect();
+        let boxes: Vec<[Vec3; 2]> =
+            order.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
         // ANCHOR_END: margin
         let input = Buffer::with_data(gpu, name, &boxes, input_usage())?;
         let count = boxes.len() as u32;

@@ -231,6 +231,7 @@ fn pipeline(
         .constant(4, constants.plane_test)
         .constant(5, constants.plane)
         .constant(6, constants.inside)
+        .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -1,7 +1,7 @@
 //! The ground on the device: one box, beside the pieces that stand on it.
 
 use anyhow::Result;
-use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::gpu::{self, AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
 use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
@@ -77,12 +77,12 @@ impl Land {
     }
 }
 
-/// A driver's box test rounds: chapter 08 derives 4 roundings of the farthest distance. In steps of
-/// powers of two, so that few steps of a camera change it.
+/// A driver's box test rounds (chapter 08). In steps of powers of two, so that few steps of a camera change
+/// it.
 fn margin(landscape: Landscape, eye: Vec3) -> f32 {
     let (low, high) = landscape.bounds(0.0);
     let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
-    4.0 * 0.5f32.powi(24) * farthest.length().log2().ceil().exp2()
+    gpu::margin(farthest.length().log2().ceil().exp2())
 }
 
 // ANCHOR: stand

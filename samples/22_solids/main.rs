@@ -194,6 +194,7 @@ fn pipeline(
         .constant(2, constants.smooth_terminator)
         .constant(3, constants.rung)
         .constant(4, constants.fog)
+        .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

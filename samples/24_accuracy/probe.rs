@@ -178,8 +178,8 @@ fn boxes(gpu: &Gpu, shapes: &[Shape], asked: &[(usize, Ray)]) -> Result<Level> {
     // ANCHOR_END: margin
     let bottom = |(shape, reach): (&Shape, &f64)| -> Result<_> {
         let (low, high) = shape.bounds();
-        // Three roundings of the box test, one of the wall; an instance's matrix rounds as often again.
-        let roundings = if matches!(shape, Shape::Instance(_)) { 8.0 } else { 4.0 };
+        // As in `common::gpu::padded`; an instance's matrix takes three products and their sum.
+        let roundings = if matches!(shape, Shape::Instance(_)) { 18.0 } else { 10.0 };
         let margin = DVec3::splat(roundings * 2f64.powi(-24) * reach);
         let corners = [down(low - margin), up(high + margin)];
         let input = Buffer::with_data(gpu, "box", &corners, input_usage())?;

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use ash::vk;
-use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
 use common::scene::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
 use effects::{Composition, Sphere};
 use glam::{Affine3A, Vec3};
@@ -85,13 +85,8 @@ impl SceneGeometry {
         if order.is_empty() {
             return Ok(order);
         }
-        // A driver's box test rounds: chapter 08 derives 4 roundings of the farthest distance.
-        let margin = Vec3::splat(4.0 * 0.5f32.powi(24) * self.reach);
-        let boxes = order.iter().map(|&i| {
-            let (low, high) = bounds[i as usize];
-            [low - margin, high + margin]
-        });
-        let boxes: Vec<[Vec3; 2]> = boxes.collect();
+        let boxes: Vec<[Vec3; 2]> =
+            order.iter().map(|&i| padded(bounds[i as usize], self.reach)).collect();
         let input = Buffer::with_data(gpu, "boxes of shapes", &boxes, input_usage())?;
         let count = boxes.len() as u32;
         let input = Geometry::Aabbs { boxes: input.address, count, opaque: true };

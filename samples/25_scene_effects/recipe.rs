@@ -116,6 +116,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .define("SPECIALISED", 1)
         .as_written()
+        .rounding_to_nearest_even(gpu)
         .constant(0, recipe.light_kinds)
         .constant(1, recipe.lights)
         .constant(2, recipe.mask())

@@ -29,8 +29,9 @@ bool box_reciprocal(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 fa
 // ANCHOR_END: reciprocal
 
 // ANCHOR: division
-// A true division, which rounds once; and where d = 0, the origin is in the slab or it is not. Whether
-// a wall is entered or left, the sign of d says (after Majercik et al., JCGT 7:3, 2018).
+// A true division: t is off by no more than Vulkan allows for a difference and a quotient, 1 + 2.5 ULP,
+// and its sign is right. Where d = 0, the origin is in the slab or it is not. Whether a wall is entered or
+// left, the sign of d says (after Majercik et al., JCGT 7:3, 2018).
 bool box_division(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 faces[2]) {
     t = vec2(-LARGEST, LARGEST);
     faces[0] = vec3(0.0);

@@ -14,9 +14,10 @@ hitAttributeEXT vec3 outward;
 // The hit again, from the shape and not from the ray: on the sphere or the wall as nearly as rounding
 // allows, wherever the ray came from. And how far above it a ray must start that leaves it.
 //
-// Sphere, center + r·outward. A unit vector is off by 6u in length, product and sum round: 7u·r + u·|p|.
-// The next ray's test finds f exactly but for u·r and then, for the roots to have one sign, needs
-// 6u·r (c) or 17u·r (the foot: 11u·r along the ray, 4u·r across, 2u·r of root and sum): 24u·r in all.
+// Sphere, center + r·outward. A unit vector is off by 16u in length (Vulkan allows 9u for the square root
+// and 5u for a division), product and sum round: 17u·r + u·|p|. The next ray's test finds f exactly but
+// for u·r and then, for the roots to have one sign, needs 6u·r (c) or 29u·r (the foot: 15u·r along the ray,
+// 4u·r across, 10u·r of root and sum): 46u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
 // difference is never wrong. Then the instance's transform, as for triangles (common/place.glsl).
 void place_on_shape(uint id) {
@@ -25,7 +26,7 @@ void place_on_shape(uint id) {
     if (gl_HitKindEXT == KIND_SPHERE) {
         Sphere sphere = push.shapes.spheres.at[id];
         point = sphere.center + sphere.radius * outward;
-        own = abs(point) + vec3(24.0 * sphere.radius);
+        own = abs(point) + vec3(46.0 * sphere.radius);
     } else {
         Box box = push.shapes.boxes.at[id];
         point = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;

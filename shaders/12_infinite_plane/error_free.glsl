@@ -1,10 +1,20 @@
 // The error of a sum and of a product, as a float of its own.
 //
-// This needs rounding to nearest and `precise`. FUSED is whether fma() rounds once, which GLSL does not
+// This needs `precise` and rounding to nearest. FUSED is whether fma() rounds once, which GLSL does not
 // promise: who has asked the device defines it before; 0 is right everywhere.
 #ifndef FUSED
 #define FUSED 0
 #endif
+
+// ANCHOR: rounding
+// Vulkan lets a device round up or down, unless a shader demands the nearest. GLSL has no word for that
+// mode, so it is SPIR-V's. The host defines this macro where the device offers the mode; elsewhere
+// the errors below are off by roundings of their own.
+#ifdef ROUNDING_MODE_RTE
+#extension GL_EXT_spirv_intrinsics : require
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4467], 4462, 32);
+#endif
+// ANCHOR_END: rounding
 
 // ANCHOR: exact
 // a + b is sum.x + sum.y, exactly (Knuth).

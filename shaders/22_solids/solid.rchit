@@ -18,14 +18,14 @@ hitAttributeEXT uvec2 crossed;
 //
 // Plane: brought onto it, the point is off by the rounding of the last sum, |p|. The next ray's height
 // is a sum of products with the distances to the anchor, or from the origin: 4 roundings of those.
-// Ball: as in shape.rchit of chapter 08, 24 roundings of the radius.
+// Ball: as in shape.rchit of chapter 08, 46 roundings of the radius.
 vec3 point_of_face(Face face, out vec3 normal, out vec3 straying) {
     precise vec3 p = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
     if (face.kind == FACE_BALL) {
         Ball ball = push.solids.balls.at[face.index];
         normal = normalize(p - ball.center);
         precise vec3 point = ball.center + ball.radius * normal;
-        straying = abs(point) + vec3(24.0 * ball.radius);
+        straying = abs(point) + vec3(46.0 * ball.radius);
         return point;
     }
     Plane plane = push.solids.planes.at[face.index];

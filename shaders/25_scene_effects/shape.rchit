@@ -23,7 +23,7 @@ void main() {
     if (gl_HitKindEXT == KIND_SPHERE) {
         Sphere sphere = push.world.spheres.at[gl_PrimitiveID];
         point = sphere.center + sphere.radius * outward;
-        own = abs(point) + vec3(24.0 * sphere.radius);
+        own = abs(point) + vec3(46.0 * sphere.radius);
         number = sphere.material;
         curvature = 1.0 / sphere.radius;
     }

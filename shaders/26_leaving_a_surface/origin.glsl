@@ -48,7 +48,9 @@ Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
     from.to_mesh = mat3(hit.to_mesh);
     from.to_a = -within;
 
-    vec3 up = normalize(cross(from.e1, from.e2));
+    // Without an area there is no normal but the one that chapter 05 chose.
+    vec3 up = cross(from.e1, from.e2);
+    up = normalize(dot(up, up) > 1e-37 ? up : from.to_mesh * from.normal);
     // A normal comes into the world by the transposed matrix that takes points out of it.
     up = faceforward(up, -from.normal, up * from.to_mesh);
     mat3 sizes = mat3(abs(from.to_mesh[0]), abs(from.to_mesh[1]), abs(from.to_mesh[2]));
@@ -108,7 +110,8 @@ Start start_reprojected(Departure from) {
 float triangle_test_error(Departure from, vec3 direction) {
     vec3 a = from.to_a, b = a + from.e1, c = a + from.e2;
     float longest = max(max(length(from.e1), length(from.e2)), length(from.e2 - from.e1));
-    float area = length(cross(from.e1, from.e2));   // twice the triangle's
+    float area = length(cross(from.e1, from.e2));   // twice the triangle's, which may be rounded to 0
+    area = max(max(area, 2.0 * ROUNDING * longest * longest), 1e-30);
 
     // The axis along which the ray goes farthest becomes z, and the corners slide along the ray to z = 0.
     vec3 size = abs(direction);

@@ -20,7 +20,7 @@ bool is_lit(Start start, vec3 to_light, float end) {
         1,                          // sbtRecordStride: one record a geometry
         1,                          // missIndex: shadow.rmiss
         start.origin,
-        start.tmin / length(to_light),
+        min(start.tmin / max(length(to_light), 1e-20), end),   // a lamp may be nearer than tmin
         to_light,
         end,                        // tmax
         1                           // payload location

@@ -18,7 +18,8 @@ struct Light {
 // is uniform on the disk, and all together leave no gaps (Vogel 1979).
 vec2 disk_point(uint i, uint n, vec2 start) {
     float radius = sqrt((float(i) + start.x) / float(n));
-    float angle = 6.28318531 * fract(0.618033989 * float(i) + start.y);
+    // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
+    float angle = 6.283185 * (fract(0.618033989 * float(i) + start.y + 0.5) - 0.5);
     return radius * vec2(cos(angle), sin(angle));
 }
 // ANCHOR_END: disk

@@ -21,7 +21,8 @@
 // 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
 //    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
 //    quotient, r the longest edge (common/reference/src/bound.rs has the steps), and for the rounded
-//    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room.
+//    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room, but none more than r: the
+//    depth that the test finds is a mean of the corners' depths, whatever their weights.
 //
 // 1 to 3 are vectors, and what counts of them is the part along the plane's normal.
 
@@ -52,11 +53,14 @@ void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights) 
     vec3 across = mat3(gl_ObjectToWorldEXT) * e1;
     vec3 along = mat3(gl_ObjectToWorldEXT) * e2;
     float longest = max(max(length(across), length(along)), length(along - across));
-    float area = length(cross(across, along));    // twice the triangle's
+    float area = length(cross(across, along));    // twice the triangle's, which may be rounded to 0
+    area = max(max(area, 2.0 * ROUNDING * longest * longest), 1e-30);
     float test = longest * (37.0 + 2.0 * longest * longest / area);
 
     hit.position = world;
-    hit.face = normalize(vec3(cross(e1, e2) * gl_WorldToObjectEXT));
+    vec3 face = vec3(cross(e1, e2) * gl_WorldToObjectEXT);
+    // Without an area there is no normal: then the side that the ray came from is up.
+    hit.face = normalize(dot(face, face) > 1e-37 ? face : gl_WorldRayDirectionEXT);
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);
 }

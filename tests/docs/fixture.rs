@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use run::{program, root};
+use run::{copy, program, root};
 use tempfile::TempDir;
 
 /// A project on disk, gone with its last user.
@@ -132,18 +132,6 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
 fn files(folder: &Path) -> Vec<PathBuf> {
     let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
     entries(folder).into_iter().flat_map(below).collect()
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).expect("a folder");
-    for entry in entries(from) {
-        let target = to.join(entry.file_name().expect("a name"));
-        if entry.is_dir() {
-            copy(&entry, &target);
-        } else {
-            fs::copy(&entry, &target).expect("a file");
-        }
-    }
 }
 
 /// Everything but what is copied from the real project.

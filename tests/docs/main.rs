@@ -5,6 +5,7 @@ mod fixture;
 mod named;
 mod new;
 mod stale;
+mod survey;
 
 use std::fs;
 use std::path::Path;

@@ -7,27 +7,13 @@ use crate::{refused_by, sample};
 
 /// A copy of `shaders/` in which `edit` has changed one file of the sample.
 fn folder(file: &str, edit: impl FnOnce(String) -> String) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    copy(&run::root().join("shaders"), folder.path());
+    let folder = run::copy_of_shaders();
     let path = folder.path().join(file);
     let text = fs::read_to_string(&path).unwrap();
     let edited = edit(text.clone());
     assert_ne!(edited, text, "the edit of {file} has found nothing to change");
     fs::write(path, edited).unwrap();
     folder
-}
-
-fn copy(from: &Path, to: &Path) {
-    for entry in from.read_dir().unwrap() {
-        let from = entry.unwrap().path();
-        let to = to.join(from.file_name().unwrap());
-        if from.is_dir() {
-            fs::create_dir(&to).unwrap();
-            copy(&from, &to);
-        } else {
-            fs::copy(&from, &to).unwrap();
-        }
-    }
 }
 
 #[track_caller]

@@ -71,6 +71,60 @@ pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
     Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
 }
 
+/// What a shader of the book computes, a pixel an answer: the text `declarations` stands before the
+/// files of 02_basic, and `body` is the `main` of a raygen shader. That sees the pixel as `ivec2 at` and sets `vec4 answer`.
+pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
+    let folder = copy_of_shaders();
+    let text = format!(
+        "#version 460\n\
+         #extension GL_EXT_ray_tracing : require\n\
+         #extension GL_EXT_buffer_reference2 : require\n\
+         #extension GL_EXT_scalar_block_layout : require\n\
+         #extension GL_GOOGLE_include_directive : require\n\
+         layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D picture;\n\
+         {declarations}\n\
+         #include \"push.glsl\"\n\
+         #include \"band.glsl\"\n\
+         void main() {{\n\
+             ivec2 at = ivec2(pixel_id());\n\
+             vec4 answer = vec4(push.camera.origin, 0.0);\n\
+             {body}\n\
+             imageStore(picture, at, answer);\n\
+         }}\n"
+    );
+    std::fs::write(folder.path().join("02_basic/camera.rgen"), text)
+        .expect("a copy can be written");
+    let out = folder.path().join("out.exr");
+    let output = command("02_basic")
+        .env("SHADERS", folder.path())
+        .args(["--headless", "--validate", "--size", size, "--out"])
+        .arg(&out)
+        .output()
+        .expect("the sample starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Picture::open_exr(&out).expect("the picture is an EXR")
+}
+
+/// A copy of `shaders/` that a test may change.
+pub fn copy_of_shaders() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    copy(&root().join("shaders"), folder.path());
+    folder
+}
+
+/// Copies a folder and all below it.
+pub fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a folder can be made");
+    for entry in from.read_dir().expect("a folder can be read") {
+        let path = entry.expect("an entry").path();
+        let to = to.join(path.file_name().expect("a name"));
+        match path.is_dir() {
+            true => copy(&path, &to),
+            false => drop(std::fs::copy(&path, &to).expect("a file can be copied")),
+        }
+    }
+}
+
 /// What the compiler of a family of GPUs makes of a sample's pipelines, a row a program; `None`, and a
 /// line, where that compiler is not installed.
 pub fn compiled_for(name: &str, family: &str, arguments: &[&str]) -> Option<Vec<Value>> {
@@ -121,10 +175,7 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
         .to_rgb8();
     assert_eq!(expected.dimensions(), (picture.width, picture.height), "{name}: the size differs");
     let (width, height) = expected.dimensions();
-    let reference = nv_flip::FlipImageRgb8::with_data(width, height, &expected);
-    let actual = nv_flip::FlipImageRgb8::with_data(width, height, &picture.srgb());
-    let error = nv_flip::flip(reference, actual, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    let mean = nv_flip::FlipPool::from_image(&error).mean();
+    let mean = flip::mean((width, height), &expected, &picture.srgb());
     if mean > tolerance {
         let kept = root().join(format!("target/golden/{name}.png"));
         std::fs::create_dir_all(kept.parent().expect("it lies in a folder")).expect("a folder");

@@ -14,4 +14,5 @@ mod multi_closest_hit;
 mod reflection;
 mod settings;
 mod shadow_miss;
+mod slivers;
 mod solids;

@@ -1,7 +1,6 @@
 //! 07_multi_closest_hit: the group and the record of every ray, the data of records, the printed table.
 
 use std::fs;
-use std::path::Path;
 
 use common::gpu::{Limits, sbt};
 use common::scene::{Instance, Scene};
@@ -171,10 +170,7 @@ fn the_printed_table_is_the_layout_for_the_device_s_limits() {
 
 #[test]
 fn record_data_that_differ_between_rust_and_glsl_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    for part in ["common", NAME] {
-        copy(&root().join("shaders").join(part), &folder.path().join(part));
-    }
+    let folder = run::copy_of_shaders();
     let file = folder.path().join(NAME).join("look.glsl");
     let text = fs::read_to_string(&file).unwrap();
     let swapped =
@@ -186,12 +182,4 @@ fn record_data_that_differ_between_rust_and_glsl_are_refused() {
         refusal(command(NAME).args(["--headless"]).env("SHADERS", folder.path()).output().unwrap());
     assert_eq!(code, 1);
     assert!(line.contains("Look.roughness is 12 bytes from the start in the shader"), "{line}");
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir(to).unwrap();
-    for file in fs::read_dir(from).unwrap() {
-        let file = file.unwrap();
-        fs::copy(file.path(), to.join(file.file_name())).unwrap();
-    }
 }

@@ -70,6 +70,10 @@ pub struct Args {
     #[arg(long, value_name = "FAMILY", value_enum)]
     pub compile_for: Option<Family>,
 
+    /// Ask the device's own compiler about the pipelines, for the report, where it tells
+    #[arg(long, hide = true)]
+    pub compiler_figures: bool,
+
     /// Make the pipelines on standard input for the family in the environment: the child of --compile-for
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,

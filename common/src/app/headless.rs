@@ -25,8 +25,12 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let start = Instant::now();
     check_files(args)?;
     let comparison = args.compare.as_deref().map(compare::parse).transpose()?;
+    let requirements = match args.compiler_figures {
+        true => S::requirements().compiler_figures_where_offered(),
+        false => S::requirements(),
+    };
     let gpu = Gpu::new(&GpuOptions {
-        requirements: S::requirements(),
+        requirements,
         device: args.device.as_deref(),
         validate: args.validate,
         window: None,
@@ -110,6 +114,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             sample: name.to_owned(),
             device: gpu.name.clone(),
             driver: gpu.driver.clone(),
+            limits: gpu.limits,
             width: args.size.width,
             height: args.size.height,
             frames: args.frames,
@@ -127,6 +132,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             validation_messages: gpu.validation().all(),
             comparison,
             compiled_for,
+            executables: statistics.executables,
             chapter: sample.report()?,
         }
         .save(path)?;

@@ -9,6 +9,7 @@ use super::compare::Comparison;
 use super::compile_for::CompiledFor;
 use super::output;
 use crate::files::write_whole;
+use crate::gpu::{Executable, Limits};
 
 /// The report of one run.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -19,6 +20,8 @@ pub struct Report {
     pub device: String,
     /// Its driver, in its maker's words.
     pub driver: String,
+    /// What it has, and how much of it.
+    pub limits: Limits,
     /// Pixels a row.
     pub width: u32,
     /// Rows.
@@ -53,6 +56,8 @@ pub struct Report {
     pub comparison: Option<Comparison>,
     /// What `--compile-for` found out, a row a program.
     pub compiled_for: Vec<CompiledFor>,
+    /// What the device's own compiler says of the last pipeline, where it was asked and tells.
+    pub executables: Vec<Executable>,
     /// What the chapter itself has to tell.
     pub chapter: serde_json::Value,
 }

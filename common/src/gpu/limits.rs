@@ -1,10 +1,13 @@
 //! The limits that ray tracing code must heed, read once.
 
 use ash::{Instance, vk};
+use serde::{Deserialize, Serialize};
 
 /// Properties of the device that decide sizes, alignments and depths.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
+    /// The version of Vulkan that the device has: major, minor, patch.
+    pub vulkan: [u32; 3],
     /// Bytes of an opaque shader group handle (32 on every known device).
     pub shader_group_handle_size: u64,
     /// What the stride of a shader binding table's region is a multiple of.
@@ -63,7 +66,13 @@ impl Limits {
         let families =
             unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
         let bits = families[family as usize].timestamp_valid_bits;
+        let version = properties.properties.api_version;
         Self {
+            vulkan: [
+                vk::api_version_major(version),
+                vk::api_version_minor(version),
+                vk::api_version_patch(version),
+            ],
             shader_group_handle_size: pipeline.shader_group_handle_size.into(),
             shader_group_handle_alignment: pipeline.shader_group_handle_alignment.into(),
             shader_group_base_alignment: pipeline.shader_group_base_alignment.into(),

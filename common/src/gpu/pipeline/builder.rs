@@ -130,6 +130,15 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
+    /// by `#ifdef ROUNDING_MODE_RTE`.
+    pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
+        match gpu.limits.rounding_to_nearest_even {
+            true => self.define("ROUNDING_MODE_RTE", 1),
+            false => self,
+        }
+    }
+
     /// Promises that rays shall skip all triangles, or all boxes: where the device has
     /// [`Limits::primitive_culling`](super::Limits), and only one of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {

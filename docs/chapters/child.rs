@@ -1,0 +1,105 @@
+//! A program that is run to its end, or to the end of our patience.
+
+use std::fs::File;
+use std::io::{Read, Seek};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result};
+
+/// How often a child is looked after.
+const GLANCE: Duration = Duration::from_millis(10);
+
+/// How a program ended.
+pub struct Ended {
+    /// `None` if it was stopped.
+    status: Option<ExitStatus>,
+    /// What it said on standard error.
+    said: String,
+    limit: Duration,
+}
+
+impl Ended {
+    /// In one line what was wrong with its arguments, if that is what it says: exit code 2.
+    pub fn refused(&self) -> Option<String> {
+        let code = self.status.and_then(|status| status.code());
+        self.failed().filter(|_| code == Some(2))
+    }
+
+    /// In one line why it failed; `None` if it did not.
+    pub fn failed(&self) -> Option<String> {
+        let Some(status) = self.status else {
+            return Some(format!("stopped after {} s without an end", self.limit.as_secs()));
+        };
+        if status.success() {
+            return None;
+        }
+        if let Some(name) = crash(status) {
+            return Some(format!("crashed ({name})"));
+        }
+        let line = self.said.lines().find_map(|line| line.strip_prefix("error: "));
+        let line = line.or_else(|| self.said.lines().find(|line| !line.trim().is_empty()));
+        Some(line.map_or_else(|| status.to_string(), |line| line.trim().to_owned()))
+    }
+}
+
+/// Runs a command, and kills it if it takes longer than `limit`.
+///
+/// # Errors
+/// If it does not start.
+pub fn run(command: &mut Command, limit: Duration) -> Result<Ended> {
+    // A file and no pipe: nobody has to read it while the program runs.
+    let mut errors = tempfile::tempfile().context("cannot make a temporary file")?;
+    let output = errors.try_clone()?;
+    let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(output).spawn()?;
+    let status = wait(&mut child, limit)?;
+    let said = read(&mut errors)?;
+    Ok(Ended { status, said, limit })
+}
+
+fn wait(child: &mut Child, limit: Duration) -> Result<Option<ExitStatus>> {
+    let start = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        if start.elapsed() > limit {
+            child.kill()?;
+            child.wait()?;
+            return Ok(None);
+        }
+        thread::sleep(GLANCE);
+    }
+}
+
+fn read(file: &mut File) -> Result<String> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// What the system calls a crash, if this is one.
+#[cfg(unix)]
+fn crash(status: ExitStatus) -> Option<String> {
+    use std::os::unix::process::ExitStatusExt;
+    let signal = status.signal()?;
+    let names = [
+        (4, "SIGILL"),
+        (6, "SIGABRT"),
+        (7, "SIGBUS"),
+        (8, "SIGFPE"),
+        (9, "SIGKILL"),
+        (11, "SIGSEGV"),
+    ];
+    let known = names.into_iter().find(|(number, _)| *number == signal);
+    Some(known.map_or_else(|| format!("signal {signal}"), |(_, name)| name.to_owned()))
+}
+
+/// What the system calls a crash, if this is one.
+#[cfg(not(unix))]
+fn crash(status: ExitStatus) -> Option<String> {
+    let code = status.code()? as u32;
+    (code >= 0xC000_0000).then(|| format!("{code:#010x}"))
+}

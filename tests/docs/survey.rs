@@ -1,0 +1,282 @@
+//! The report card of a device: what is on it when all is well, and how each failure looks.
+
+use std::env::consts::EXE_SUFFIX;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use run::{copy, program};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::fixture::{Fixture, Outcome, run};
+use crate::{Case, expect};
+
+/// A project whose golden pictures are what its programs render.
+fn project() -> Fixture {
+    let fixture = Fixture::new();
+    for name in ["01_one", "02_basic"] {
+        let picture = fixture.path(&format!("docs/images/{name}.png"));
+        fs::copy(picture, fixture.path(&format!("tests/golden/{name}.png"))).expect("a golden");
+    }
+    fixture
+}
+
+/// The tool beside programs: real ones where no script takes their place.
+fn programs(scripts: &[(&str, &str)]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let place = |name: &str| folder.path().join(format!("{name}{EXE_SUFFIX}"));
+    fs::copy(program("chapters"), place("chapters")).expect("the tool");
+    for name in ["01_one", "02_basic"] {
+        match scripts.iter().find(|(replaced, _)| *replaced == name) {
+            Some((_, script)) => executable(&place(name), script),
+            None => drop(fs::copy(program("02_basic"), place(name)).expect("a program")),
+        }
+    }
+    folder
+}
+
+#[cfg(unix)]
+fn executable(path: &Path, script: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::write(path, format!("#!/bin/sh\n{script}\n")).expect("a script");
+    fs::set_permissions(path, fs::Permissions::from_mode(0o755)).expect("a script may be run");
+}
+
+#[cfg(not(unix))]
+fn executable(_: &Path, _: &str) {
+    unreachable!("scripts stand in for programs on Unix alone");
+}
+
+/// Surveys a project; returns the tool's end and the card.
+fn survey(
+    project: &Fixture,
+    programs: &Path,
+    environment: &[(&str, &Path)],
+    arguments: &[&str],
+) -> (Outcome, Value, String) {
+    let tool = programs.join(format!("chapters{EXE_SUFFIX}"));
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(tool);
+    command.arg("survey").args(arguments).arg("--out").arg(cards.path());
+    command.arg("--root").arg(project.path("")).envs(environment.iter().copied());
+    let outcome = run(&mut command);
+    let mut files: Vec<_> = cards
+        .path()
+        .read_dir()
+        .expect("a folder")
+        .map(|file| file.expect("a file").path())
+        .collect();
+    files.sort();
+    let [json, md] = &files[..] else { panic!("{files:?}: {}{}", outcome.out, outcome.err) };
+    let read = |path: &Path| fs::read_to_string(path).expect("a card");
+    let (text, sheet) = (read(json), read(md));
+    for private in [project.path(""), programs.to_owned(), std::env::temp_dir()] {
+        let private = private.to_str().expect("UTF-8");
+        assert!(!text.contains(private) && !sheet.contains(private), "{private}: {text}{sheet}");
+    }
+    (outcome, serde_json::from_str(&text).expect("JSON"), sheet)
+}
+
+/// The lines of a card that has two failures, by chapter.
+#[track_caller]
+fn failures((outcome, card, sheet): (Outcome, Value, String)) -> [String; 2] {
+    assert_eq!(outcome.code, 1, "{}{}", outcome.out, outcome.err);
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    let chapters = card["chapters"].as_array().expect("chapters");
+    let lines: Vec<String> = chapters
+        .iter()
+        .map(|chapter| chapter["failed"].as_str().unwrap_or_default().to_owned())
+        .collect();
+    for line in lines.iter().filter(|line| !line.is_empty()) {
+        assert!(!line.contains('\n') && outcome.out.contains(line), "{line}: {}", outcome.out);
+        assert!(sheet.contains(&line.replace('|', "\\|")), "{line}: {sheet}");
+    }
+    lines.try_into().expect("two chapters")
+}
+
+#[test]
+fn a_card_tells_what_was_run_and_fills_the_page() {
+    let (project, programs) = (project(), programs(&[]));
+    let (outcome, card, sheet) = survey(&project, programs.path(), &[], &[]);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    let start = "2 lines to come; a program is stopped after 180 s\n[1/2] 01_one: passes, ";
+    assert!(outcome.out.starts_with(start), "{}", outcome.out);
+    assert!(outcome.out.contains(" s left\n[2/2] 02_basic: passes"), "{}", outcome.out);
+    let device = card["device"]["name"].as_str().expect("a device");
+    assert!(sheet.starts_with(&format!("# {device}\n")), "{sheet}");
+    assert!(card["device"]["limits"]["vulkan"][0].as_u64() >= Some(1), "{card}");
+    for chapter in card["chapters"].as_array().expect("chapters") {
+        assert_eq!((&chapter["failed"], &chapter["mean_flip"]), (&Value::Null, &0.0.into()));
+        assert!(chapter["milliseconds"].as_f64() > Some(0.0), "{chapter}");
+    }
+    // The page shows it, and check is content.
+    let words = device.to_lowercase();
+    let words = words.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let file = format!("docs/devices/{}.json", words.collect::<Vec<_>>().join("-"));
+    project.write(&file, &serde_json::to_string_pretty(&card).expect("JSON"));
+    project.write("docs/devices.md", "# What was tested\n\n<!-- devices -->\n<!-- /devices -->\n");
+    assert_eq!(project.run(&["sync"]).code, 0);
+    let row = project.read("docs/devices.md");
+    assert!(row.contains(&format!("| {device} |")) && row.contains(" | 2 of 2 | "), "{row}");
+    assert_eq!(project.check(), "");
+}
+
+#[test]
+fn a_broken_shader_is_a_line_of_the_card() {
+    let (project, programs) = (project(), programs(&[]));
+    let shaders = tempfile::tempdir().expect("a temporary folder");
+    copy(&project.path("shaders"), shaders.path());
+    let sky = shaders.path().join("02_basic/sky.rmiss");
+    let text = fs::read_to_string(&sky).expect("a shader");
+    fs::write(&sky, format!("{text}broken\n")).expect("a shader");
+    let line = text.lines().count() + 1;
+    for told in failures(survey(&project, programs.path(), &[("SHADERS", shaders.path())], &[])) {
+        let start = format!("shader does not compile: 02_basic/sky.rmiss:{line}");
+        assert!(told.starts_with(&start), "{told}");
+    }
+}
+
+#[test]
+fn a_missing_driver_is_a_line_of_the_card() {
+    let (project, programs) = (project(), programs(&[]));
+    let nowhere = Path::new("/nonexistent");
+    let environment = [("VK_DRIVER_FILES", nowhere), ("VK_ICD_FILENAMES", nowhere)];
+    let (outcome, card, sheet) = survey(&project, programs.path(), &environment, &[]);
+    assert_eq!(card["device"], Value::Null);
+    for told in failures((outcome, card, sheet)) {
+        assert!(told.contains("Vulkan driver") && told.contains("run ./setup"), "{told}");
+    }
+}
+
+#[test]
+fn without_the_validation_layer_pictures_are_still_held_to_golden_ones() {
+    let (project, programs) = (project(), programs(&[]));
+    let nowhere = Path::new("/nonexistent");
+    let (outcome, card, sheet) =
+        survey(&project, programs.path(), &[("VK_LAYER_PATH", nowhere)], &[]);
+    assert_eq!((outcome.code, &card["validated"]), (0, &Value::Bool(false)), "{}", outcome.err);
+    assert!(sheet.contains("| validation | not installed |"), "{sheet}");
+}
+
+#[cfg(unix)]
+#[test]
+fn lost_devices_crashes_and_hangs_are_lines_of_the_card() {
+    let lost = "echo 'error: the device is lost: ERROR_DEVICE_LOST' >&2; exit 1";
+    for (scripts, told) in [
+        (
+            [("01_one", lost), ("02_basic", "kill -SEGV $$")],
+            ["the device is lost: ERROR_DEVICE_LOST", "crashed (SIGSEGV)"],
+        ),
+        (
+            [("01_one", "exec sleep 100"), ("02_basic", "exit 3")],
+            ["stopped after 1 s without an end", "exit status: 3"],
+        ),
+    ] {
+        let (project, programs) = (project(), programs(&scripts));
+        assert_eq!(failures(survey(&project, programs.path(), &[], &["--limit", "1"])), told);
+    }
+}
+
+#[test]
+fn a_picture_that_differs_and_one_that_is_missing_are_lines_of_the_card() {
+    let (project, programs) = (project(), programs(&[]));
+    let [one, basic] = ["01_one", "02_basic"].map(|name| format!("tests/golden/{name}.png"));
+    let mut picture = image::open(project.path(&one)).expect("a picture").to_rgb8();
+    picture.iter_mut().for_each(|channel| *channel = 255 - *channel);
+    picture.save(project.path(&one)).expect("a picture");
+    project.remove(&basic);
+    let [differs, missing] = failures(survey(&project, programs.path(), &[], &[]));
+    assert!(
+        differs.starts_with("its picture differs: mean FLIP 0.")
+            && differs.ends_with("above 0.002")
+    );
+    assert_eq!(missing, "its golden picture is missing");
+}
+
+#[test]
+fn a_device_that_is_not_there_is_refused_before_anything_runs() {
+    let (project, programs) = (project(), programs(&[]));
+    let tool = programs.path().join(format!("chapters{EXE_SUFFIX}"));
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(tool);
+    command.args(["survey", "--device", "no such card", "--out"]).arg(cards.path());
+    let outcome = run(command.arg("--root").arg(project.path("")));
+    assert_eq!((outcome.code, &*outcome.out), (2, ""), "{}", outcome.err);
+    assert!(
+        outcome.err.starts_with("error: no device 'no such card'; there is 0: "),
+        "{}",
+        outcome.err
+    );
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    assert_eq!(cards.path().read_dir().expect("a folder").count(), 0);
+}
+
+/// A card that is whole.
+const CARD: &str = r#"{
+  "date": "2026-11-22", "system": "linux x86_64", "validated": true, "tolerance": 0.002,
+  "device": {"name": "A card", "driver": "d", "limits": LIMITS},
+  "chapters": [{"name": "02_basic", "failed": null, "mean_flip": 0.0, "milliseconds": 1.0,
+    "validation_messages": 0, "compiler": [], "radv": []}],
+  "hard_cases": {"failed": null, "rungs": []},
+  "measured": {"failed": null, "rungs": []}
+}
+"#;
+
+fn card() -> String {
+    let limits = serde_json::to_string(&common::gpu::Limits::default()).expect("JSON");
+    CARD.replace("LIMITS", &limits)
+}
+
+#[test]
+fn what_is_no_card_is_refused() {
+    fn send(fixture: &Fixture, from: &str, to: &str) {
+        let card = card();
+        assert!(card.contains(from), "{from}");
+        fixture.write("docs/devices/a-card.json", &card.replacen(from, to, 1));
+    }
+    let fixture = Fixture::new();
+    send(&fixture, "A card", "A card");
+    assert_eq!(fixture.check(), "");
+    let remedy = "; send the file that cargo chapters survey wrote";
+    let cases: [Case; 7] = [
+        ("no JSON", |f| send(f, "{", "<"), "docs/devices/a-card.json:1: no valid card: ", remedy),
+        (
+            "a field that no card has",
+            |f| send(f, "\"system\":", "\"user\": \"ada\", \"system\":"),
+            "docs/devices/a-card.json:2: no valid card: unknown field `user`",
+            remedy,
+        ),
+        (
+            "a date that is none",
+            |f| send(f, "2026-11-22", "today"),
+            "docs/devices/a-card.json:1: no valid card: 'today' is no date",
+            remedy,
+        ),
+        (
+            "a chapter that is not there",
+            |f| send(f, "02_basic", "99_none"),
+            "docs/devices/a-card.json:1: no valid card: there is no chapter '99_none'",
+            remedy,
+        ),
+        (
+            "a chapter that passes though its picture differs",
+            |f| send(f, "\"mean_flip\": 0.0", "\"mean_flip\": 0.1"),
+            "docs/devices/a-card.json:1: no valid card: 02_basic passes without",
+            remedy,
+        ),
+        (
+            "a path of somebody's machine",
+            |f| send(f, "\"d\"", "\"/home/ada/libvulkan.so\""),
+            "docs/devices/a-card.json:1: no valid card: it holds a path",
+            remedy,
+        ),
+        (
+            "another device's name",
+            |f| send(f, "A card", "B card"),
+            "docs/devices/a-card.json:1: no valid card: the card of this device is b-card.json",
+            remedy,
+        ),
+    ];
+    expect(&cases, &[]);
+}

@@ -1,0 +1,188 @@
+//! What shaders compute, where Vulkan promises less than a reader may think: "Precision and Operation of
+//! SPIR-V Instructions" in the specification's appendix "Vulkan Environment for SPIR-V".
+//!
+//! The functions run on the device, as they stand in the book.
+
+use std::fs;
+
+use common::gpu::shader::compile_with;
+use common::gpu::{Gpu, GpuOptions, Requirements};
+
+use super::files;
+
+/// Half of the distance from 1 to the next float: the error of one rounding, relative.
+const U: f64 = 1.0 / 16777216.0;
+
+/// Every line of code of every shader, with its place.
+fn lines() -> impl Iterator<Item = (String, String)> {
+    files().into_iter().flat_map(|file| {
+        let text = fs::read_to_string(run::root().join("shaders").join(&file)).expect("a shader");
+        let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned();
+        let lines: Vec<String> = text.lines().map(code).collect();
+        lines.into_iter().enumerate().map(move |(i, line)| (format!("{file}:{}", i + 1), line))
+    })
+}
+
+/// Where a function is called: files, each once.
+fn callers(function: &str) -> Vec<String> {
+    let calls = |line: &str| {
+        line.match_indices(&format!("{function}("))
+            .any(|(at, _)| !line[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_'))
+    };
+    let places = lines().filter(|(_, line)| calls(line)).map(|(place, _)| place);
+    let mut files: Vec<String> =
+        places.map(|place| place.split(':').next().expect("a file").to_owned()).collect();
+    files.dedup();
+    files
+}
+
+#[test]
+fn no_shader_raises_to_a_power_whose_base_may_be_zero() {
+    // pow(0, 0) is undefined, and pow() inherits log2's error: where the base is near 1, that is
+    // 2^-21 times the exponent.
+    assert_eq!(callers("pow"), [""; 0]);
+}
+
+/// The exponents that are tried: no highlight at all, those of materials, roughness 0.05, and beyond.
+const EXPONENTS: [f64; 8] = [0.0, 0.5, 1.0, 10.0, 200.0, 5e3, 319_998.0, 3e6];
+
+#[test]
+fn highlights_are_as_exact_as_their_bound_says() {
+    // One column an angle between the normal and the vector half-way from eye to light, one row an
+    // exponent. What comes back is the sum of 02_basic for a white highlight, and the vector.
+    let exponents = EXPONENTS.map(|n| format!("{n:.1}")).join(", ");
+    let body = format!(
+        "float n = float[]({exponents})[at.y];\n\
+         float angle = 1.5707963 * exp2(-float(at.x) / 8.0);\n\
+         vec3 half_way = at.x == 0 ? vec3(1.0, 0.0, 0.0) : vec3(sin(angle), 0.0, cos(angle));\n\
+         vec3 color = reflect_light(vec3(0.0), vec3(1.0), n, vec3(0.0, 0.0, 1.0), half_way, half_way);\n\
+         answer = vec4(color.r, half_way);"
+    );
+    let picture = run::evaluate("", &body, &format!("128x{}", EXPONENTS.len()));
+    let mut worst = [0.0f64; EXPONENTS.len()];
+    for (at, pixel) in picture.pixels.iter().enumerate() {
+        let row = at / 128;
+        let n = EXPONENTS[row];
+        let [color, x, _, z] = pixel.map(f64::from);
+        assert!(color.is_finite(), "exponent {n}, cosine {z}: {color}");
+        let lambert = z / std::f64::consts::PI;
+        // What is E below the peak as a power of e; beyond 20 nobody sees it.
+        let e = n * 0.5 * (x / z).powi(2).ln_1p();
+        if lambert == 0.0 || e > 20.0 {
+            continue;
+        }
+        let highlight = color / lambert * 8.0 / (n + 8.0);
+        let error = (highlight / (-e).exp() - 1.0).abs();
+        // As shade.glsl derives it.
+        let bound = 4.0 * U * (2.0 * e * n).sqrt() + e / 2f64.powi(18) + 64.0 * U;
+        assert!(error <= bound, "exponent {n}, cosine {z}: off by {error:e}, above {bound:e}");
+        worst[row] = worst[row].max(error);
+    }
+    println!("largest relative errors for {EXPONENTS:?}: {worst:?}");
+}
+
+#[test]
+fn eye_and_light_on_opposite_sides_have_a_finite_middle() {
+    // Their sum is 0, which has no direction: 0 / 0.
+    let noting = "float least = 1.0;\n\
+                  vec3 noted(vec3 v) { least = min(least, dot(v, v)); return v; }\n\
+                  float noted(float square) { least = min(least, square); return square; }\n\
+                  #define normalize(v) normalize(noted(v))\n\
+                  #define inversesqrt(x) inversesqrt(noted(x))\n";
+    let body = "vec3 up = vec3(0.0, 0.0, 1.0);\n\
+                answer = vec4(reflect_light(vec3(0.5), vec3(0.5), 20.0, up, -up, up), least);";
+    let picture = run::evaluate(noting, body, "1x1");
+    let [red, _, _, least] = picture.pixels[0];
+    assert!(red.is_finite() && least > 0.0, "{red} of a vector whose square is {least}");
+}
+
+#[test]
+fn no_angle_is_beyond_pi() {
+    // Beyond, Vulkan promises nothing of sin() and cos(). Whoever calls them is tried below.
+    for function in ["sin", "cos"] {
+        assert_eq!(callers(function), ["05_shadow_miss/light.glsl", "common/light.glsl"]);
+    }
+    for function in ["tan", "asin", "acos", "atan"] {
+        assert_eq!(callers(function), [""; 0]);
+    }
+    let noting = "float widest = 0.0;\n\
+                  float noted(float angle) { widest = max(widest, abs(angle)); return angle; }\n\
+                  #define cos(angle) cos(noted(angle))\n\
+                  #define sin(angle) sin(noted(angle))\n\
+                  #include \"common/light.glsl\"\n";
+    // All starts that end a turn, and some between; of 64 points, every one.
+    let body = "float start = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
+                vec2 point = disk_point(at.x, 64, vec2(0.5, start));\n\
+                answer = vec4(widest, point, 0.0);";
+    let picture = run::evaluate(noting, body, "64x128");
+    let widest = picture.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
+    println!("widest angle: {widest}");
+    assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{widest}");
+    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.0));
+}
+
+#[test]
+fn no_shadow_ray_ends_before_it_begins() {
+    // tmin > tmax is no valid ray (VUID-RuntimeSpirv-tMin of OpTraceRayKHR): near a lamp, whose end is
+    // at 1, a tmin that is a length is far beyond.
+    let noting = "const uint SHADOW_RAYS = 0;\n\
+                  const uint SHADOW_FIRST_HIT = 0;\n\
+                  struct Start { vec3 origin; float tmin; };\n\
+                  vec2 asked = vec2(-1.0);\n\
+                  #define traceRayEXT(a, f, m, o, s, i, origin, tmin, d, tmax, p) asked = vec2(tmin, tmax)\n\
+                  #include \"26_leaving_a_surface/shadow.glsl\"\n";
+    let body = "float away = exp2(-2.0 * float(at.x));\n\
+                Start start = Start(vec3(0.0), at.y == 0 ? 0.0 : 1e-4);\n\
+                is_lit(start, away * vec3(0.6, 0.0, 0.8), 1.0);\n\
+                answer = vec4(asked, away, start.tmin);";
+    let picture = run::evaluate(noting, body, "40x2");
+    for [tmin, tmax, away, start] in &picture.pixels {
+        assert!(
+            (0.0..=*tmax).contains(tmin) && *tmax == 1.0,
+            "a lamp at {away}: from {tmin} to {tmax}"
+        );
+        // What can be promised is: the start's length, where the lamp is farther.
+        if away > start {
+            assert!((tmin * away - start).abs() <= 1e-6 * start, "{tmin} {away} {start}");
+        }
+    }
+}
+
+#[test]
+fn error_free_sums_demand_rounding_to_nearest() {
+    for function in ["two_sum", "two_product", "quick_two_sum", "dot_compensated"] {
+        for file in callers(function) {
+            // 24 declares the mode itself, in exact.glsl; 25 takes the plane from common.
+            let known = ["12_infinite_plane", "22_solids", "24_accuracy", "common"];
+            let folder = file.split('/').next().expect("a folder");
+            assert!(known.contains(&folder), "{file} calls {function}");
+        }
+    }
+    let requirements = Requirements::ray_tracing();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
+    for name in ["12_infinite_plane", "22_solids", "25_scene_effects"] {
+        // A copy that does not compile once the mode is demanded.
+        let shaders = run::copy_of_shaders();
+        for folder in ["common", "12_infinite_plane"] {
+            let file = shaders.path().join(folder).join("error_free.glsl");
+            let text = fs::read_to_string(&file).expect("a shader");
+            let told = text.replace("spirv_execution_mode(", "#error demanded\n");
+            assert_ne!(told, text);
+            fs::write(file, told).expect("a copy can be written");
+        }
+        let mut command = run::command(name);
+        command.env("SHADERS", shaders.path()).args(["--headless", "--size", "8x8"]);
+        let output = command.output().expect("the sample starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let demanded = errors.contains("demanded");
+        assert_eq!(demanded, gpu.limits.rounding_to_nearest_even, "{name}: {errors}");
+    }
+    // And the compiler has put it into the module: OpExecutionMode, RoundingModeRTE, 32 bits.
+    let define = [("ROUNDING_MODE_RTE", "1".to_owned())];
+    let stages =
+        ["12_infinite_plane/camera.rgen", "22_solids/solid.rint", "25_scene_effects/camera.rgen"];
+    for stage in stages {
+        let words = compile_with(stage, &define).expect("it compiles").spirv;
+        assert!(words.windows(4).any(|w| w[0] == 4 << 16 | 16 && w[2..] == [4462, 32]), "{stage}");
+    }
+}
