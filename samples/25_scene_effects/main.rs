@@ -15,7 +15,7 @@ mod world;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use ash::vk;
 use common::app::output;
 use common::gpu::{
@@ -144,6 +144,11 @@ impl Sample for Demo {
     // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
+        if self.measure && !frame.gpu.limits.has_timestamps() {
+            self.measure = false;
+            let queue = format!("{}, whose queue has no timestamps", frame.gpu.name);
+            self.trouble = Some(anyhow!("costs cannot be measured on {queue}"));
+        }
         if let Some(error) = self.trouble.take() {
             // A window goes on with the scene that it has, and tells.
             if !frame.gpu.is_watched {

@@ -71,6 +71,8 @@ pub struct GpuContext {
     pub is_watched: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
+    /// What the sample has asked for.
+    pub requirements: Requirements,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     /// How many pipelines are being made by other threads.
@@ -178,6 +180,7 @@ impl Gpu {
                 .contains(&khr::pipeline_executable_properties::NAME)
                 .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
             limits: Limits::of(&instance, physical_device, queue_family),
+            requirements: requirements.clone(),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             software: chosen.kind == vk::PhysicalDeviceType::CPU,

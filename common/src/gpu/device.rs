@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use ash::{Device, Entry, Instance, khr, vk};
 
 use super::instance::{self, WindowHandles};
+use super::limits::Limits;
 use super::requirements::{Features, Requirements};
 use crate::usage::Usage;
 
@@ -115,7 +116,6 @@ fn judge(
         // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
         unsafe { instance.get_physical_device_features2(handle, features) }
     });
-    candidate.missing = wanted.missing(has, &offered);
     candidate.offered = offered;
 
     // SAFETY: as above.
@@ -126,6 +126,12 @@ fn judge(
     let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
     candidate.graphics = graphics.is_some();
     candidate.queue_family = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
+    let carried = [khr::acceleration_structure::NAME, khr::ray_tracing_pipeline::NAME];
+    let limits = candidate
+        .queue_family
+        .filter(|_| carried.iter().all(|name| has(name)))
+        .map(|family| Limits::of(instance, handle, family));
+    candidate.missing = wanted.missing(has, &offered, limits.as_ref());
     if candidate.queue_family.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }

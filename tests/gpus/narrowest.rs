@@ -1,0 +1,206 @@
+//! Every sample on the narrowest device that Vulkan allows: a layer hides what need not be there.
+
+use std::process::Output;
+
+use common::gpu::{Gpu, GpuOptions, Requirements, device_lines};
+use run::narrow::Narrow;
+
+use ash::vk;
+
+/// The samples for which the narrowest device will not do, and the limits that they ask for.
+const UNSUITABLE: [(&str, &str); 1] = [
+    // Its picture shows how far a rung is off from error-free sums, which need their rounding declared.
+    ("24_accuracy", "lacks shaderRoundingModeRTEFloat32, shaderSignedZeroInfNanPreserveFloat32"),
+];
+
+/// What a suitable sample can be asked for that the narrowest device refuses: the arguments, the limit, and
+/// words of the line that says so.
+const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
+    (
+        "06_reflection",
+        ["--set", "method=recursive"],
+        "maxRayRecursionDepth 1",
+        "needs a recursion depth of 2",
+    ),
+    (
+        "25_scene_effects",
+        ["--set", "measure costs=on"],
+        "timestampValidBits 0",
+        "whose queue has no timestamps",
+    ),
+    ("02_basic", ["--size", "5000x4"], "maxImageDimension2D 4096", "at most 4096 a side"),
+];
+
+/// The features without which no device is suitable, and the samples that do without.
+const FEATURES: [(&str, &[&str]); 8] = [
+    ("accelerationStructure", &[]),
+    ("rayTracingPipeline", &[]),
+    ("bufferDeviceAddress", &[]),
+    ("synchronization2", &[]),
+    ("scalarBlockLayout", &["01_foundation"]),
+    ("runtimeDescriptorArray", &["01_foundation", "24_accuracy"]),
+    ("shaderSampledImageArrayNonUniformIndexing", &["01_foundation", "24_accuracy"]),
+    ("descriptorBindingSampledImageUpdateAfterBind", &["01_foundation", "24_accuracy"]),
+];
+
+/// All chapters, 01 too.
+fn samples() -> Vec<String> {
+    std::iter::once("01_foundation".to_owned()).chain(crate::chapters()).collect()
+}
+
+/// Standard output of a run that succeeded in silence, and so without a validation message.
+#[track_caller]
+fn quiet(what: &str, output: Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && errors.is_empty(), "{what}: {errors:.2000}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The report of a small headless run.
+#[track_caller]
+fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value {
+    let mut command = narrow.command(sample);
+    command.args(["--headless", "--validate", "--size", "24x16", "--report", "-"]).args(arguments);
+    let report = quiet(sample, command.output().expect("the sample starts"));
+    serde_json::from_str(&report).expect("the report is JSON")
+}
+
+#[test]
+fn every_sample_runs_on_the_narrowest_device() {
+    let narrow = Narrow::new("");
+    for sample in samples() {
+        if let Some((_, lacks)) = UNSUITABLE.iter().find(|(name, _)| *name == sample) {
+            let mut command = narrow.command(&sample);
+            let (code, line) = run::refusal(command.arg("--headless").output().expect("it starts"));
+            assert_eq!(code, 1);
+            assert!(line.contains("no device can run this: 0: narrow "), "{line}");
+            assert!(line.contains(lacks), "{line}");
+            continue;
+        }
+        let report = runs(&narrow, &sample, &[]);
+        assert!(report["device"].as_str().unwrap().starts_with("narrow "), "{sample}");
+        // There are no timestamps: the host's clock serves.
+        assert!(report["gpu_milliseconds"]["median"].as_f64().unwrap() > 0.0, "{sample}");
+        let mut list = narrow.command(&sample);
+        let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
+        assert!(list.trim_end().ends_with(": suitable"), "{sample}: {list}");
+    }
+}
+
+#[test]
+fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
+    let narrow = Narrow::new("");
+    for (sample, arguments, limit, words) in REFUSED {
+        let mut command = narrow.command(sample);
+        command.args(["--headless", "--validate"]).args(arguments);
+        let (_, line) = run::refusal(command.output().expect("the sample starts"));
+        assert!(line.contains(words), "{sample}, {limit}: {line}");
+    }
+}
+
+#[test]
+fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
+    for (feature, without) in FEATURES {
+        let narrow = Narrow::new(&format!("without={feature}"));
+        for sample in samples() {
+            let mut list = narrow.command(&sample);
+            let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
+            let lacks = list.contains(&format!(": lacks feature {feature}"));
+            assert_eq!(!lacks, without.contains(&sample.as_str()), "{sample}: {list}");
+        }
+    }
+}
+
+/// The laboratory needs no more than the others, and says of a rung what it lacks.
+#[test]
+fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
+    let narrow = Narrow::new("");
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = narrow.command("24_accuracy");
+    command.args(["--headless", "--validate", "--only", "sphere", "--rays", "8", "--rounds", "1"]);
+    let output = command.arg("--measure").arg(folder.path()).output().expect("it starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    assert!(!errors.contains("validation"), "{errors}");
+    let measured = std::fs::read_to_string(folder.path().join("accuracy.json")).unwrap();
+    assert!(measured.contains("does not offer shaderRoundingModeRTEFloat32"), "{measured:.1000}");
+}
+
+#[test]
+fn a_card_without_graphics_traces_without_a_window() {
+    let narrow = Narrow::new("compute-only");
+    for sample in ["01_foundation", "02_basic"] {
+        runs(&narrow, sample, &[]);
+    }
+}
+
+/// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
+/// is run again in a child with `--ignored`.
+fn in_child(test: &str, faults: &str) {
+    let narrow = Narrow::new(faults);
+    let this = std::env::current_exe().expect("a running program has a file");
+    let name = format!("narrowest::{test}");
+    let output = std::process::Command::new(this)
+        .args(["--exact", &name, "--ignored", "--nocapture"])
+        .envs(narrow.environment())
+        .output()
+        .expect("it starts");
+    let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success() && told.contains("1 passed"), "{told:.3000}{errors:.3000}");
+}
+
+#[test]
+fn validation_holds_programs_to_the_narrow_limits() {
+    in_child("violate_the_narrow_limits", "");
+}
+
+#[test]
+#[ignore = "run by validation_holds_programs_to_the_narrow_limits"]
+fn violate_the_narrow_limits() {
+    let requirements = Requirements::ray_tracing();
+    let options = GpuOptions { requirements, validate: true, ..GpuOptions::default() };
+    let gpu = Gpu::new(&options).expect("a device");
+    assert_eq!(gpu.validation().all(), [""; 0]);
+    assert_eq!((gpu.limits.max_ray_recursion_depth, gpu.limits.has_timestamps()), (1, false));
+    let device = &gpu.device;
+    let stage = vk::ShaderStageFlags::RAYGEN_KHR;
+    let said = |id: &str| gpu.validation().all().iter().any(|message| message.contains(id));
+    // SAFETY: the device below offers all of this, and what is made is destroyed.
+    unsafe {
+        let ranges = [vk::PushConstantRange::default().stage_flags(stage).size(132)];
+        let info = vk::PipelineLayoutCreateInfo::default().push_constant_ranges(&ranges);
+        let layout = device.create_pipeline_layout(&info, None).expect("a layout");
+        device.destroy_pipeline_layout(layout, None);
+        assert!(said("VUID-VkPushConstantRange-size-00298"), "{:?}", gpu.validation().all());
+
+        let slots = [vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_count(17)
+            .stage_flags(vk::ShaderStageFlags::ALL)];
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&slots);
+        let set = device.create_descriptor_set_layout(&info, None).expect("a set layout");
+        let sets = [set];
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+        let layout = device.create_pipeline_layout(&info, None).expect("a layout");
+        device.destroy_pipeline_layout(layout, None);
+        device.destroy_descriptor_set_layout(set, None);
+        let id = "VUID-VkPipelineLayoutCreateInfo-descriptorType-03016";
+        assert!(said(id), "{:?}", gpu.validation().all());
+    }
+}
+
+#[test]
+fn a_limit_that_is_too_low_refuses_a_device_when_devices_are_chosen() {
+    in_child("ask_for_more_than_is_promised", "");
+}
+
+#[test]
+#[ignore = "run by a_limit_that_is_too_low_refuses_a_device_when_devices_are_chosen"]
+fn ask_for_more_than_is_promised() {
+    let line = |wanted: Requirements| device_lines(&wanted).expect("a device").remove(0);
+    let promised = line(Requirements::ray_tracing());
+    assert!(promised.ends_with(": suitable"), "{promised}");
+    let more = line(Requirements::ray_tracing().recursion(2).push_constants(144));
+    let lacks = ": lacks maxRayRecursionDepth 2 (it has 1), maxPushConstantsSize 144 (it has 128)";
+    assert!(more.ends_with(lacks), "{more}");
+}
