@@ -2,7 +2,8 @@
 
 use std::process::Output;
 
-use common::gpu::{Gpu, GpuOptions, Requirements, device_lines};
+use common::gpu::{ADDRESS_ALIGNMENT, Buffer, Gpu, GpuOptions, Requirements, device_lines};
+use common::scene::input_usage;
 use run::narrow::Narrow;
 
 use ash::vk;
@@ -203,4 +204,27 @@ fn ask_for_more_than_is_promised() {
     let more = line(Requirements::ray_tracing().recursion(2).push_constants(144));
     let lacks = ": lacks maxRayRecursionDepth 2 (it has 1), maxPushConstantsSize 144 (it has 128)";
     assert!(more.ends_with(lacks), "{more}");
+}
+
+/// Shaders promise alignments of addresses, and builds ask for some, that a driver gives no buffer by itself.
+#[test]
+fn addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it() {
+    in_child("address_buffers_of_odd_sizes", "loose-buffers");
+}
+
+#[test]
+#[ignore = "run by addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it"]
+fn address_buffers_of_odd_sizes() {
+    let requirements = Requirements::ray_tracing();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
+    let buffers: Vec<_> = [4u32, 12, 20, 8, 36, 4]
+        .map(|bytes| {
+            let data = vec![0u8; bytes as usize];
+            Buffer::with_data(&gpu, "odd", &data, input_usage()).expect("a buffer")
+        })
+        .into();
+    for buffer in &buffers {
+        let (address, size) = (buffer.address, buffer.size);
+        assert_eq!(address % ADDRESS_ALIGNMENT, 0, "{size} bytes at {address:#x}");
+    }
 }

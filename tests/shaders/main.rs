@@ -1,5 +1,7 @@
 //! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
 
+mod audit;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -11,6 +11,11 @@ use super::{Gpu, barrier};
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
 const MOST_UPDATED: u64 = 65_536;
 
+/// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
+/// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
+/// ask of their input, 16 for instances and 8 for boxes.
+pub const ADDRESS_ALIGNMENT: u64 = 16;
+
 /// A `VkBuffer` bound to memory of its own, freed on drop.
 pub struct Buffer {
     /// The Vulkan handle.
@@ -94,6 +99,8 @@ impl Buffer {
         let mut buffer = Self { handle, size, address: 0, allocation: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        let addressed = usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS);
+        let alignment = alignment.max(if addressed { ADDRESS_ALIGNMENT } else { 1 });
         requirements.alignment = requirements.alignment.max(alignment);
         let allocation = gpu
             .allocator
@@ -112,7 +119,7 @@ impl Buffer {
             gpu.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset())?;
         }
         buffer.allocation = Some(allocation);
-        if usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS) {
+        if addressed {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };

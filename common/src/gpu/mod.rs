@@ -32,7 +32,7 @@ mod variants;
 
 pub use accel::{AccelerationStructure, BuildOptions};
 pub use blueprint::{Blueprint, Group, Stage};
-pub use buffer::Buffer;
+pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions};
 pub use device::device_lines;
