@@ -171,6 +171,14 @@ pub fn require_presentation(
                 surfaces.get_physical_device_surface_support(candidate.handle, family, surface);
             if !candidate.graphics || !presents.unwrap_or(false) {
                 candidate.missing.push("a queue that draws to this window".to_owned());
+                continue;
+            }
+            // Pictures are copied to the window's images, which a device must let them be drawn to alone.
+            let usage = surfaces
+                .get_physical_device_surface_capabilities(candidate.handle, surface)
+                .map(|capabilities| capabilities.supported_usage_flags);
+            if usage.is_ok_and(|usage| !usage.contains(vk::ImageUsageFlags::TRANSFER_DST)) {
+                candidate.missing.push("copies to this window's images (TRANSFER_DST)".to_owned());
             }
         }
         surfaces.destroy_surface(surface, None);
