@@ -222,7 +222,14 @@ impl<'a> PipelineBuilder<'a> {
         let name_module = |module, path: &str| gpu.name_object(module, path);
         pipeline.handle = pipeline
             .blueprint
-            .create(&gpu.device, &gpu.ray_tracing_pipeline, pipeline.layout, flags, name_module)
+            .create(
+                &gpu.device,
+                &gpu.ray_tracing_pipeline,
+                pipeline.layout,
+                gpu.pipeline_cache.handle,
+                flags,
+                name_module,
+            )
             .with_context(|| format!("cannot make the pipeline '{}'", self.name))?;
         gpu.name_object(pipeline.handle, self.name);
         gpu.name_object(pipeline.layout, self.name);
