@@ -354,7 +354,11 @@ fn render(
         let image = device.create_image(&info, None)?;
         gpu.own(device, image, Device::destroy_image);
         let needs = device.get_image_memory_requirements(image);
-        device.bind_image_memory(image, gpu.allocate("the image", needs, false, false)?, 0)?;
+        device.bind_image_memory(
+            image,
+            gpu.allocate("the image", needs, Place::Device, false)?,
+            0,
+        )?;
         let info = vk::ImageViewCreateInfo::default()
             .image(image)
             .view_type(vk::ImageViewType::TYPE_2D)
@@ -364,7 +368,7 @@ fn render(
         (image, gpu.own(device, view, Device::destroy_image_view))
     };
     let copy_target = vk::BufferUsageFlags::TRANSFER_DST;
-    let readback = gpu.buffer("the readback", 16 * pixels, copy_target, true, 1)?;
+    let readback = gpu.buffer("the readback", 16 * pixels, copy_target, Place::ToHost, 1)?;
     story.tell("image", format!("{width}x{height}, 16 bytes a pixel: {} bytes", readback.size));
 
     // ---- 7. The pipeline: three shaders, each in a group of its own
@@ -605,6 +609,17 @@ impl std::fmt::Display for Structure {
     }
 }
 
+/// Who writes memory, and who reads it.
+#[derive(Clone, Copy)]
+enum Place {
+    /// The device alone.
+    Device,
+    /// The host writes once; the device reads.
+    ToDevice,
+    /// The device writes; the host reads.
+    ToHost,
+}
+
 /// What the helpers share, and every object made, to be destroyed in reverse order.
 struct Gpu<'a> {
     device: &'a Device,
@@ -639,19 +654,24 @@ impl<'a> Gpu<'a> {
         handle
     }
 
-    /// Memory in the device, or memory that the host can map; with addresses for what lies in it or not.
+    /// Memory of the best kind for its place; with addresses for what lies in it or not.
     fn allocate(
         &mut self,
         what: &str,
         needs: vk::MemoryRequirements,
-        on_host: bool,
+        place: Place,
         addressed: bool,
     ) -> Result<vk::DeviceMemory> {
         use vk::MemoryPropertyFlags as Kind;
-        // Coherent memory needs no flushes; cached memory, where there is some, is faster to read.
+        // Coherent memory needs no flushes.
         let mapped = Kind::HOST_VISIBLE | Kind::HOST_COHERENT;
-        let wanted =
-            if on_host { [mapped | Kind::HOST_CACHED, mapped] } else { [Kind::DEVICE_LOCAL; 2] };
+        let wanted = match place {
+            Place::Device => [Kind::DEVICE_LOCAL; 2],
+            // A card reads its own memory faster than the host's, and most let the host write there.
+            Place::ToDevice => [mapped | Kind::DEVICE_LOCAL, mapped],
+            // Cached memory, where there is some, is faster for the host to read.
+            Place::ToHost => [mapped | Kind::HOST_CACHED, mapped],
+        };
         let types = self.memory.memory_types_as_slice();
         let find = |kind: Kind| {
             let allowed = |i: usize| needs.memory_type_bits & (1 << i) != 0;
@@ -685,7 +705,7 @@ impl<'a> Gpu<'a> {
         what: &str,
         size: u64,
         usage: vk::BufferUsageFlags,
-        on_host: bool,
+        place: Place,
         alignment: u64,
     ) -> Result<Buffer> {
         // Vulkan aligns memory for the buffer, not its address for its use: with room to spare it can
@@ -697,7 +717,7 @@ impl<'a> Gpu<'a> {
             let handle = self.device.create_buffer(&info, None)?;
             self.own(self.device, handle, Device::destroy_buffer);
             let needs = self.device.get_buffer_memory_requirements(handle);
-            let memory = self.allocate(what, needs, on_host, addressed)?;
+            let memory = self.allocate(what, needs, place, addressed)?;
             self.device.bind_buffer_memory(handle, memory, 0)?;
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             let start = if addressed { self.device.get_buffer_device_address(&info) } else { 0 };
@@ -717,7 +737,7 @@ impl<'a> Gpu<'a> {
     ) -> Result<Buffer> {
         let usage = usage | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let size = size_of_val(data);
-        let buffer = self.buffer(what, size as u64, usage, true, alignment)?;
+        let buffer = self.buffer(what, size as u64, usage, Place::ToDevice, alignment)?;
         let all = vk::MemoryMapFlags::empty();
         // SAFETY: the memory is visible to the host, not mapped, and has `size` bytes after `offset`.
         // A submission makes what the host wrote before it visible to the device.
@@ -773,9 +793,9 @@ impl<'a> Gpu<'a> {
         use vk::BufferUsageFlags as Usage;
         let addressed = Usage::SHADER_DEVICE_ADDRESS;
         let storage = Usage::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
-        let storage = self.buffer("an acceleration structure", size, storage, false, 1)?;
+        let storage = self.buffer("an acceleration structure", size, storage, Place::Device, 1)?;
         let usage = Usage::STORAGE_BUFFER | addressed;
-        let space = self.buffer("scratch", scratch, usage, false, scratch_alignment)?;
+        let space = self.buffer("scratch", scratch, usage, Place::Device, scratch_alignment)?;
         let create = vk::AccelerationStructureCreateInfoKHR::default()
             .ty(level)
             .buffer(storage.handle)

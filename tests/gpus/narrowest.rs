@@ -63,7 +63,9 @@ fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value 
     let mut command = narrow.command(sample);
     command.args(["--headless", "--validate", "--size", "24x16", "--report", "-"]).args(arguments);
     let report = quiet(sample, command.output().expect("the sample starts"));
-    serde_json::from_str(&report).expect("the report is JSON")
+    let report: serde_json::Value = serde_json::from_str(&report).expect("the report is JSON");
+    assert!(report["device"].as_str().unwrap().starts_with("narrow "), "{sample}: {report}");
+    report
 }
 
 #[test]
@@ -79,7 +81,6 @@ fn every_sample_runs_on_the_narrowest_device() {
             continue;
         }
         let report = runs(&narrow, &sample, &[]);
-        assert!(report["device"].as_str().unwrap().starts_with("narrow "), "{sample}");
         // There are no timestamps: the host's clock serves.
         assert!(report["gpu_milliseconds"]["median"].as_f64().unwrap() > 0.0, "{sample}");
         let mut list = narrow.command(&sample);
@@ -133,6 +134,70 @@ fn a_card_without_graphics_traces_without_a_window() {
     for sample in ["01_foundation", "02_basic"] {
         runs(&narrow, sample, &[]);
     }
+}
+
+/// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and
+/// in the device where the host can map it.
+#[track_caller]
+fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("told");
+    runs(&Narrow::new(&format!("{faults},tell={}", file.display())), sample, arguments);
+    let told = std::fs::read_to_string(&file).expect("the layer tells");
+    let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
+    numbers.try_into().expect("four numbers")
+}
+
+/// 01 has vertices, instances and a table that the host writes, and the picture that it reads.
+#[test]
+fn the_foundation_s_uploads_lie_in_the_device_where_the_host_can_write_there() {
+    let [_, device, host, both] = counted("", "01_foundation", &[]);
+    assert_eq!([host, both], [4, 0], "memory of the host must do");
+    let [_, same, host, both] = counted("bar", "01_foundation", &[]);
+    assert_eq!([host, both], [1, 3], "only the picture is read by the host");
+    assert_eq!(device, same);
+}
+
+#[test]
+fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
+    let refused = |faults: &str, size: &str, words: [&str; 2]| {
+        let narrow = Narrow::new(faults);
+        let mut command = narrow.command("03_any_hit");
+        let mode = ["--set", "mode=all hits"];
+        let output = command.args(["--headless", "--validate", "--size", size]).args(mode).output();
+        let (code, line) = run::refusal(output.expect("the sample starts"));
+        assert_eq!(code, 1);
+        assert!(words.iter().all(|word| line.contains(word)), "{line}");
+    };
+    // By maxBufferSize and maxMemoryAllocationSize, 2^30 bytes.
+    let words =
+        ["a list of all hits takes 384 bytes a pixel", "room for 2796202 pixels, not for 3000000"];
+    refused("", "3000x1000", words);
+    // By the memory that there is.
+    refused("heap=268435456", "1000x700", [words[0], "room for 699050 pixels, not for 700000"]);
+}
+
+/// Of textures in a table that is written before it is bound, a device may take no more than 16.
+#[test]
+fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
+    const TEXTURES: usize = 40;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (mut model, mut materials) = ("mtllib a.mtl\n".to_owned(), String::new());
+    for i in 0..TEXTURES {
+        let (x, next) = (i as f32 / 10.0, 3 * i + 1);
+        model += &format!("v {x} 0 0\nv {x} 1 0\nv {} 0 0\nvt 0 0\nvt 0 1\nvt 1 0\n", x + 0.1);
+        let corner = |k: usize| format!("{0}/{0}", next + k);
+        model += &format!("usemtl m{i}\nf {} {} {}\n", corner(0), corner(1), corner(2));
+        materials += &format!("newmtl m{i}\nmap_Kd {i}.png\n");
+        let color = image::Rgb([255 - i as u8, i as u8, 0]);
+        image::RgbImage::from_pixel(1, 1, color)
+            .save(folder.path().join(format!("{i}.png")))
+            .unwrap();
+    }
+    std::fs::write(folder.path().join("a.obj"), model).unwrap();
+    std::fs::write(folder.path().join("a.mtl"), materials).unwrap();
+    let model = folder.path().join("a.obj");
+    runs(&Narrow::new(""), "02_basic", &["--scene", model.to_str().expect("a plain path")]);
 }
 
 /// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each

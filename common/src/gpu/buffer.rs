@@ -1,6 +1,6 @@
 //! A buffer and its memory: uploaded once, addressed from shaders, read back for tests.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use ash::vk;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
@@ -92,6 +92,12 @@ impl Buffer {
     ) -> Result<Self> {
         // Vulkan has no empty buffers; an empty mesh or table still wants an address.
         let size = size.max(1);
+        let most = gpu.limits.max_buffer_size;
+        ensure!(
+            size <= most,
+            "the buffer '{name}' takes {size} bytes, and {} has room for {most} in one",
+            gpu.name
+        );
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         // SAFETY: the device is alive; the buffer is destroyed on every path below.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }
@@ -124,7 +130,7 @@ impl Buffer {
             // SAFETY: the buffer is bound and was made for addressing.
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
             // The offset in memory is aligned; that the memory's own address is, no rule promises.
-            anyhow::ensure!(
+            ensure!(
                 buffer.address.is_multiple_of(alignment),
                 "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
                 buffer.address
@@ -143,7 +149,7 @@ impl Buffer {
         if bytes.is_empty() {
             return Ok(());
         }
-        anyhow::ensure!(
+        ensure!(
             offset + bytes.len() as u64 <= self.size,
             "{} bytes at {offset} do not fit a buffer of {} bytes",
             bytes.len(),
@@ -178,7 +184,7 @@ impl Buffer {
     pub fn update<T: Pod>(&self, cmd: vk::CommandBuffer, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let size = bytes.len() as u64;
-        anyhow::ensure!(
+        ensure!(
             size > 0 && size <= MOST_UPDATED.min(self.size) && size.is_multiple_of(4),
             "{size} bytes cannot be recorded for a buffer of {} bytes",
             self.size

@@ -31,7 +31,8 @@ pub struct Limits {
     pub max_textures: u32,
     /// The most bytes of a buffer that is bound as a descriptor.
     pub max_storage_buffer_range: u64,
-    /// The most bytes of a buffer, and of an allocation: the smaller of the two.
+    /// The most bytes of a buffer in device memory: by the limits of buffers and of allocations, and by the
+    /// memory that there is.
     pub max_buffer_size: u64,
     /// Nanoseconds a tick of a timestamp.
     pub timestamp_period: f32,
@@ -78,6 +79,11 @@ impl Limits {
         let families =
             unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
         let bits = families[family as usize].timestamp_valid_bits;
+        // SAFETY: as above.
+        let memory = unsafe { instance.get_physical_device_memory_properties(physical_device) };
+        let heaps = memory.memory_heaps_as_slice().iter();
+        let heaps = heaps.filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL));
+        let heap = heaps.map(|heap| heap.size).max().unwrap_or(u64::MAX);
         Self {
             shader_group_handle_size: pipeline.shader_group_handle_size.into(),
             shader_group_handle_alignment: pipeline.shader_group_handle_alignment.into(),
@@ -104,7 +110,10 @@ impl Limits {
             .into_iter()
             .fold(u32::MAX, u32::min),
             max_storage_buffer_range: core.max_storage_buffer_range.into(),
-            max_buffer_size: vulkan13.max_buffer_size.min(vulkan11.max_memory_allocation_size),
+            max_buffer_size: vulkan13
+                .max_buffer_size
+                .min(vulkan11.max_memory_allocation_size)
+                .min(heap),
             timestamp_period: core.timestamp_period,
             timestamp_mask: u64::MAX.checked_shr(64 - bits).unwrap_or(0),
             float64: features.shader_float64 == vk::TRUE,

@@ -71,7 +71,7 @@ pub unsafe extern "system" fn destroy(
         return;
     }
     memory::forget_all();
-    queues::tell_submits();
+    faults::tell();
     if let Some(below) = below::remove_device(device) {
         // SAFETY: the caller destroys a device of its own.
         unsafe { (below.core.fp_v1_0().destroy_device)(device, allocator) };

@@ -1,7 +1,9 @@
 //! What the variable `NARROW` asks for beyond narrow limits.
 
-use std::path::PathBuf;
+use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::{memory, queues};
 
 /// Whether the variable holds a word.
 pub fn has(word: &str) -> bool {
@@ -13,9 +15,12 @@ pub fn value(word: &str) -> Option<String> {
     words().iter().find_map(|own| Some(own.strip_prefix(word)?.strip_prefix('=')?.to_owned()))
 }
 
-/// Where the count of submissions goes.
-pub fn submits() -> Option<PathBuf> {
-    value("submits").map(PathBuf::from)
+/// Writes what was counted, if someone wants to know.
+pub fn tell() {
+    let Some(file) = value("tell") else { return };
+    let [device, host, both] = memory::counts();
+    let told = format!("{} {device} {host} {both}", queues::submits());
+    fs::write(&file, told).unwrap_or_else(|error| panic!("{file}: {error}"));
 }
 
 /// Whether the swapchain that is being made fails: the first, with `out-of-date`.

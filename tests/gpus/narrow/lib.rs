@@ -13,7 +13,9 @@
 //! - `no-transfer-dst`: images of a window cannot be copied to.
 //! - `out-of-date`: the first swapchain is out of date before it is made.
 //! - `without=FEATURE`: that feature is missing too.
-//! - `submits=FILE`: when the device is destroyed, the count of submissions is written to the file.
+//! - `bar`: the host can map device memory too, as with a resizable BAR.
+//! - `tell=FILE`: when the device is destroyed, the file gets four numbers: how often was submitted, and how
+//!   many allocations there were of memory in the device, in the host, and in the device but mapped.
 
 mod below;
 mod device;

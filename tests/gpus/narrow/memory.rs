@@ -1,6 +1,7 @@
 //! Memory as on a discrete card: what the device is fast with the host cannot map, and the reverse.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use ash::vk;
@@ -12,25 +13,27 @@ use crate::{below, faults, limits};
 const DEVICE: u32 = 0;
 /// The type that the host maps.
 const HOST: u32 = 1;
+/// With `bar`: the type that lies in the device, and the host maps all the same.
+const BOTH: u32 = 2;
 /// The bytes of each heap, unless the variable says otherwise. The specification promises no size.
 const HEAP: u64 = 1 << 30;
 
-/// The sizes of what is allocated in the device's heap.
+/// What is allocated in the device's heap, and its size.
 static ALLOCATED: Mutex<BTreeMap<u64, u64>> = Mutex::new(BTreeMap::new());
+/// How many allocations there were of each type.
+static COUNTS: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
 fn heap() -> u64 {
     faults::value("heap").map_or(HEAP, |bytes| bytes.parse().expect("heap= is followed by bytes"))
 }
 
-/// The types below that stand for the two.
-fn types_below(physical: vk::PhysicalDevice) -> [u32; 2] {
+/// The types below that stand for those shown.
+fn types_below(physical: vk::PhysicalDevice) -> [u32; 3] {
     // SAFETY: the physical device is alive.
     let all =
         unsafe { below::instance(physical).core.get_physical_device_memory_properties(physical) };
-    let wanted = [
-        vk::MemoryPropertyFlags::DEVICE_LOCAL,
-        vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT,
-    ];
+    let mapped = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+    let wanted = [vk::MemoryPropertyFlags::DEVICE_LOCAL, mapped, mapped];
     wanted.map(|flags| {
         let types = all.memory_types_as_slice();
         let found = types.iter().position(|own| own.property_flags.contains(flags));
@@ -40,7 +43,7 @@ fn types_below(physical: vk::PhysicalDevice) -> [u32; 2] {
 
 fn shown() -> vk::PhysicalDeviceMemoryProperties {
     let mut shown = vk::PhysicalDeviceMemoryProperties {
-        memory_type_count: 2,
+        memory_type_count: if faults::has("bar") { 3 } else { 2 },
         memory_heap_count: 2,
         ..Default::default()
     };
@@ -54,6 +57,11 @@ fn shown() -> vk::PhysicalDeviceMemoryProperties {
             | vk::MemoryPropertyFlags::HOST_COHERENT,
         heap_index: 1,
     };
+    shown.memory_types[BOTH as usize] = vk::MemoryType {
+        property_flags: vk::MemoryPropertyFlags::DEVICE_LOCAL
+            | shown.memory_types[HOST as usize].property_flags,
+        heap_index: 0,
+    };
     shown
 }
 
@@ -64,12 +72,13 @@ fn loosen(requirements: &mut vk::MemoryRequirements) {
     }
 }
 
-/// The types of the two that a resource may lie in, by those below that it may lie in.
+/// The types shown that a resource may lie in, by those below that it may lie in.
 fn narrow(device: vk::Device, requirements: &mut vk::MemoryRequirements) {
     let types = types_below(below::device(device).physical);
     let bits = requirements.memory_type_bits;
-    let shown = [DEVICE, HOST].into_iter().filter(|&own| bits & 1 << types[own as usize] != 0);
-    requirements.memory_type_bits = shown.map(|own| 1 << own).sum();
+    let suits = |&own: &u32| bits & 1 << types[own as usize] != 0;
+    requirements.memory_type_bits =
+        (0..shown().memory_type_count).filter(suits).map(|own| 1 << own).sum();
 }
 
 /// # Safety
@@ -156,14 +165,16 @@ pub unsafe extern "system" fn allocate(
         let own = (*info).memory_type_index;
         let mut allocated = ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner);
         let size = (*info).allocation_size;
-        if own == DEVICE && allocated.values().sum::<u64>() + size > heap() {
+        let is_on_device = own != HOST;
+        COUNTS[own as usize].fetch_add(1, Ordering::Relaxed);
+        if is_on_device && allocated.values().sum::<u64>() + size > heap() {
             return vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
         }
         let memory_type_index = types_below(below.physical)[own as usize];
         let info = vk::MemoryAllocateInfo { memory_type_index, ..*info };
         let allocate = below.core.fp_v1_0().allocate_memory;
         let result = allocate(device, &raw const info, allocator, memory);
-        if own == DEVICE && result == vk::Result::SUCCESS {
+        if is_on_device && result == vk::Result::SUCCESS {
             allocated.insert((*memory).as_raw(), size);
         }
         result
@@ -178,6 +189,11 @@ pub unsafe extern "system" fn free(
     ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner).remove(&memory.as_raw());
     // SAFETY: as above.
     unsafe { (below::device(device).core.fp_v1_0().free_memory)(device, memory, allocator) };
+}
+
+/// How many allocations there were: that the host cannot map, of the host's memory, of both.
+pub fn counts() -> [u32; 3] {
+    COUNTS.each_ref().map(|count| count.load(Ordering::Relaxed))
 }
 
 /// What a device that is destroyed had allocated goes with it.
