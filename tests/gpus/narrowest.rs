@@ -8,12 +8,15 @@ use run::narrow::Narrow;
 
 use ash::vk;
 
+// ANCHOR: unsuitable
 /// The samples for which the narrowest device will not do, and the limits that they ask for.
 const UNSUITABLE: [(&str, &str); 1] = [
     // Its picture shows how far a rung is off from error-free sums, which need their rounding declared.
     ("24_accuracy", "lacks shaderRoundingModeRTEFloat32, shaderSignedZeroInfNanPreserveFloat32"),
 ];
+// ANCHOR_END: unsuitable
 
+// ANCHOR: refused
 /// What a suitable sample can be asked for that the narrowest device refuses: the arguments, the limit, and
 /// words of the line that says so.
 const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
@@ -31,7 +34,9 @@ const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
     ),
     ("02_basic", ["--size", "5000x4"], "maxImageDimension2D 4096", "at most 4096 a side"),
 ];
+// ANCHOR_END: refused
 
+// ANCHOR: features
 /// The features without which no device is suitable, and the samples that do without.
 const FEATURES: [(&str, &[&str]); 8] = [
     ("accelerationStructure", &[]),
@@ -43,6 +48,7 @@ const FEATURES: [(&str, &[&str]); 8] = [
     ("shaderSampledImageArrayNonUniformIndexing", &["01_foundation", "24_accuracy"]),
     ("descriptorBindingSampledImageUpdateAfterBind", &["01_foundation", "24_accuracy"]),
 ];
+// ANCHOR_END: features
 
 /// All chapters, 01 too.
 fn samples() -> Vec<String> {
