@@ -67,7 +67,10 @@ fn quiet(what: &str, output: Output) -> String {
 #[track_caller]
 fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value {
     let mut command = narrow.command(sample);
-    command.args(["--headless", "--validate", "--size", "24x16", "--report", "-"]).args(arguments);
+    command.args(["--headless", "--validate", "--report", "-"]).args(arguments);
+    if !arguments.contains(&"--size") {
+        command.args(["--size", "24x16"]);
+    }
     let report = quiet(sample, command.output().expect("the sample starts"));
     let report: serde_json::Value = serde_json::from_str(&report).expect("the report is JSON");
     assert!(report["device"].as_str().unwrap().starts_with("narrow "), "{sample}: {report}");
@@ -152,6 +155,23 @@ fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
     let told = std::fs::read_to_string(&file).expect("the layer tells");
     let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
     numbers.try_into().expect("four numbers")
+}
+
+/// A picture of one row is one band, and a band is one submission. What a camera that moves brings to the
+/// device goes with it: nothing else is submitted and waited for.
+#[test]
+fn a_frame_from_elsewhere_is_one_submission() {
+    let moving =
+        ["--compare", "camera eye=-5.6,2.7,8.2|-5.5,2.7,8.2", "--size", "24x1", "--frames"];
+    for sample in crate::chapters().into_iter().filter(|name| name != "24_accuracy") {
+        let submissions = |frames: &str| {
+            let told = counted("", &sample, &[&moving[..], &[frames]].concat());
+            told[0]
+        };
+        // Each value is shown so many times, and the first of them once more in every turn.
+        let more = submissions("3") - submissions("1");
+        assert_eq!(more, 2 * 3, "{sample} submits more often than it draws");
+    }
 }
 
 /// 01 has vertices, instances and a table that the host writes, and the picture that it reads.

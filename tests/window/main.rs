@@ -341,6 +341,7 @@ fn a_device_that_cannot_draw_to_the_window_is_refused_when_devices_are_chosen() 
     let _alone = alone();
     let refusals = [
         ("compute-only", "lacks a queue that draws to this window"),
+        ("without=dynamicRendering", "lacks feature dynamicRendering"),
         ("no-transfer-dst", "lacks copies to this window's images (TRANSFER_DST)"),
     ];
     for (faults, words) in refusals {

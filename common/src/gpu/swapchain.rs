@@ -241,12 +241,11 @@ impl Swapchain {
             // The old one is retired even if there is no new one.
             self.destroy_images()?;
             self.stale = true;
-            if let Err(vk::Result::ERROR_OUT_OF_DATE_KHR) = made {
-                return Ok(false);
-            }
-            self.handle =
-                made.with_context(|| format!("no images of {}x{}", extent.width, extent.height))?;
-            let handle = self.handle;
+            let handle = match made {
+                Ok(handle) => handle,
+                Err(error) => return self.outdated(error).map(|()| false),
+            };
+            self.handle = handle;
             self.images = self.swapchains.get_swapchain_images(handle)?;
             for _ in &self.images {
                 let semaphore = self.gpu.device.create_semaphore(&Default::default(), None)?;
