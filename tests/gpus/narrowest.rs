@@ -50,6 +50,19 @@ const FEATURES: [(&str, &[&str]); 8] = [
 ];
 // ANCHOR_END: features
 
+/// What else a sample makes of a device than with its own settings: other stages, larger tables, more memory.
+const ALSO: [(&str, &[&str]); 9] = [
+    ("03_any_hit", &["--set", "mode=all hits"]),
+    ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
+    ("04_jitter_camera", &["--frames", "3"]),
+    ("07_multi_closest_hit", &["--set", "scale=2"]),
+    ("08_intersection", &["--set", "sphere rung=host c"]),
+    ("21_heightfield", &["--set", "rung=relaxed"]),
+    ("22_solids", &["--set", "show=normal"]),
+    ("25_scene_effects", &["--set", "scene=everything", "--set", "pipeline=everything"]),
+    ("25_scene_effects", &["--set", "scene=lake"]),
+];
+
 /// All chapters, 01 too.
 fn samples() -> Vec<String> {
     std::iter::once("01_foundation".to_owned()).chain(crate::chapters()).collect()
@@ -95,6 +108,14 @@ fn every_sample_runs_on_the_narrowest_device() {
         let mut list = narrow.command(&sample);
         let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
         assert!(list.trim_end().ends_with(": suitable"), "{sample}: {list}");
+    }
+}
+
+#[test]
+fn whatever_else_a_sample_shows_runs_there_too() {
+    let narrow = Narrow::new("");
+    for (sample, settings) in ALSO {
+        runs(&narrow, sample, settings);
     }
 }
 
