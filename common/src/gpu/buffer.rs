@@ -9,7 +9,7 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use super::{Gpu, barrier};
 
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
-const MOST_UPDATED: u64 = 65_536;
+const MOST_UPDATED: usize = 65_536;
 
 /// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
 /// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
@@ -176,8 +176,8 @@ impl Buffer {
 
     /// Records that the buffer begins with `data` for the traces that follow in `cmd`; nothing waits.
     ///
-    /// For what changes from frame to frame and is small: at most 65,536 bytes, a multiple of 4, into a
-    /// buffer made with `TRANSFER_DST`.
+    /// For what changes from frame to frame and is small, as the commands hold a copy of it: a multiple of
+    /// 4 bytes, into a buffer made with `TRANSFER_DST`.
     ///
     /// # Errors
     /// If the data is none of that, or does not fit.
@@ -185,13 +185,16 @@ impl Buffer {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let size = bytes.len() as u64;
         ensure!(
-            size > 0 && size <= MOST_UPDATED.min(self.size) && size.is_multiple_of(4),
+            size <= self.size && size.is_multiple_of(4),
             "{size} bytes cannot be recorded for a buffer of {} bytes",
             self.size
         );
         barrier::trace_to_update(&self.gpu, cmd);
-        // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
-        unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, 0, bytes) };
+        for (number, part) in bytes.chunks(MOST_UPDATED).enumerate() {
+            let offset = (number * MOST_UPDATED) as u64;
+            // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
+            unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, offset, part) };
+        }
         barrier::update_to_trace(&self.gpu, cmd);
         Ok(())
     }
