@@ -1,6 +1,8 @@
 //! Files that are written whole or not at all.
 
+use std::collections::hash_map::DefaultHasher;
 use std::fs::{self, Metadata};
+use std::hash::{Hash, Hasher};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -19,6 +21,24 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     file.write_all(bytes).with_context(failed)?;
     file.persist(target).map_err(|error| error.error).with_context(failed)?;
     Ok(())
+}
+
+/// What a cache keeps of `bytes`: them, then a hash of them, by which damage is noticed: a full disk's, or
+/// another program's.
+pub fn sealed(bytes: &[u8]) -> Vec<u8> {
+    [bytes, &seal(bytes)].concat()
+}
+
+/// The bytes of a cache's file; `None` if it is damaged.
+pub fn unsealed(file: &[u8]) -> Option<&[u8]> {
+    let (bytes, end) = file.split_last_chunk()?;
+    (seal(bytes) == *end).then_some(bytes)
+}
+
+fn seal(bytes: &[u8]) -> [u8; 8] {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    hasher.finish().to_le_bytes()
 }
 
 /// Fails if [`write_whole`] could not write `path`, so that it can be said before the work.

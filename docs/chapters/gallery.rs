@@ -10,6 +10,7 @@ const BEFORE: (&str, &str) = ("reading.md", "How to read this book");
 const AFTER: [(&str, &str); 4] = [
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
+    ("needs.md", "What a device must offer"),
     ("wrong-pictures.md", "When the picture is wrong"),
     ("devices.md", "What was tested"),
 ];

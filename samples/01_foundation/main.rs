@@ -354,7 +354,11 @@ fn render(
         let image = device.create_image(&info, None)?;
         gpu.own(device, image, Device::destroy_image);
         let needs = device.get_image_memory_requirements(image);
-        device.bind_image_memory(image, gpu.allocate("the image", needs, false, false)?, 0)?;
+        device.bind_image_memory(
+            image,
+            gpu.allocate("the image", needs, Place::Device, false)?,
+            0,
+        )?;
         let info = vk::ImageViewCreateInfo::default()
             .image(image)
             .view_type(vk::ImageViewType::TYPE_2D)
@@ -364,7 +368,7 @@ fn render(
         (image, gpu.own(device, view, Device::destroy_image_view))
     };
     let copy_target = vk::BufferUsageFlags::TRANSFER_DST;
-    let readback = gpu.buffer("the readback", 16 * pixels, copy_target, true, 1)?;
+    let readback = gpu.buffer("the readback", 16 * pixels, copy_target, Place::ToHost, 1)?;
     story.tell("image", format!("{width}x{height}, 16 bytes a pixel: {} bytes", readback.size));
 
     // ---- 7. The pipeline: three shaders, each in a group of its own
@@ -483,6 +487,7 @@ fn render(
     let layers = vk::ImageSubresourceLayers::default().aspect_mask(color).layer_count(1);
     let pixel_copy =
         [vk::BufferImageCopy::default().image_subresource(layers).image_extent(extent)];
+    let has_clock = chosen.timestamp_bits > 0;
     let stamps =
         vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
     // SAFETY: the command buffer is new. All that is recorded lives until `gpu` goes, after the last
@@ -502,10 +507,14 @@ fn render(
         let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
         device.cmd_bind_pipeline(trace, point, pipeline);
         push_descriptor.cmd_push_descriptor_set(trace, point, layout, 0, &descriptors);
-        device.cmd_reset_query_pool(trace, clock, 0, 2);
-        device.cmd_write_timestamp2(trace, Stage::ALL_COMMANDS, clock, 0);
+        if has_clock {
+            device.cmd_reset_query_pool(trace, clock, 0, 2);
+            device.cmd_write_timestamp2(trace, Stage::ALL_COMMANDS, clock, 0);
+        }
         ray_tracing.cmd_trace_rays(trace, &raygen, &miss, &hit, &callable, width, height, 1);
-        device.cmd_write_timestamp2(trace, Stage::ALL_COMMANDS, clock, 1);
+        if has_clock {
+            device.cmd_write_timestamp2(trace, Stage::ALL_COMMANDS, clock, 1);
+        }
         // The copy reads what the shaders stored.
         gpu.change_layout(
             trace,
@@ -527,18 +536,25 @@ fn render(
     let mut times = Vec::new();
     let mut first_frame_milliseconds = 0.0;
     for frame in 1..=args.frames {
+        let submitted = Instant::now();
         gpu.submit(trace)?;
+        // The host's clock does where the queue has none; it also counts the copy.
+        let mut time = milliseconds(submitted);
         if frame == 1 {
             first_frame_milliseconds = milliseconds(start);
         }
-        let mut ticks = [0u64; 2];
-        // SAFETY: both timestamps were written by the submission that is done.
-        unsafe {
-            let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-            device.get_query_pool_results(clock, 0, &mut ticks, flags)?;
+        if has_clock {
+            let mut ticks = [0u64; 2];
+            // SAFETY: both timestamps were written by the submission that is done.
+            unsafe {
+                let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+                device.get_query_pool_results(clock, 0, &mut ticks, flags)?;
+            }
+            // Some queues count in fewer than 64 bits, and start again from 0.
+            let passed =
+                ticks[1].wrapping_sub(ticks[0]) & (u64::MAX >> (64 - chosen.timestamp_bits));
+            time = passed as f64 * f64::from(limits.timestamp_period) * 1e-6;
         }
-        let passed = ticks[1].wrapping_sub(ticks[0]) & (u64::MAX >> (64 - chosen.timestamp_bits));
-        let time = passed as f64 * f64::from(limits.timestamp_period) * 1e-6;
         story.tell("frame", format!("{frame}: {pixels} rays in {time:.3} ms"));
         times.push(time);
     }
@@ -593,6 +609,17 @@ impl std::fmt::Display for Structure {
     }
 }
 
+/// Who writes memory, and who reads it.
+#[derive(Clone, Copy)]
+enum Place {
+    /// The device alone.
+    Device,
+    /// The host writes once; the device reads.
+    ToDevice,
+    /// The device writes; the host reads.
+    ToHost,
+}
+
 /// What the helpers share, and every object made, to be destroyed in reverse order.
 struct Gpu<'a> {
     device: &'a Device,
@@ -627,19 +654,24 @@ impl<'a> Gpu<'a> {
         handle
     }
 
-    /// Memory in the device, or memory that the host can map; with addresses for what lies in it or not.
+    /// Memory of the best kind for its place; with addresses for what lies in it or not.
     fn allocate(
         &mut self,
         what: &str,
         needs: vk::MemoryRequirements,
-        on_host: bool,
+        place: Place,
         addressed: bool,
     ) -> Result<vk::DeviceMemory> {
         use vk::MemoryPropertyFlags as Kind;
-        // Coherent memory needs no flushes; cached memory, where there is some, is faster to read.
+        // Coherent memory needs no flushes.
         let mapped = Kind::HOST_VISIBLE | Kind::HOST_COHERENT;
-        let wanted =
-            if on_host { [mapped | Kind::HOST_CACHED, mapped] } else { [Kind::DEVICE_LOCAL; 2] };
+        let wanted = match place {
+            Place::Device => [Kind::DEVICE_LOCAL; 2],
+            // A card reads its own memory faster than the host's, and most let the host write there.
+            Place::ToDevice => [mapped | Kind::DEVICE_LOCAL, mapped],
+            // Cached memory, where there is some, is faster for the host to read.
+            Place::ToHost => [mapped | Kind::HOST_CACHED, mapped],
+        };
         let types = self.memory.memory_types_as_slice();
         let find = |kind: Kind| {
             let allowed = |i: usize| needs.memory_type_bits & (1 << i) != 0;
@@ -673,7 +705,7 @@ impl<'a> Gpu<'a> {
         what: &str,
         size: u64,
         usage: vk::BufferUsageFlags,
-        on_host: bool,
+        place: Place,
         alignment: u64,
     ) -> Result<Buffer> {
         // Vulkan aligns memory for the buffer, not its address for its use: with room to spare it can
@@ -685,7 +717,7 @@ impl<'a> Gpu<'a> {
             let handle = self.device.create_buffer(&info, None)?;
             self.own(self.device, handle, Device::destroy_buffer);
             let needs = self.device.get_buffer_memory_requirements(handle);
-            let memory = self.allocate(what, needs, on_host, addressed)?;
+            let memory = self.allocate(what, needs, place, addressed)?;
             self.device.bind_buffer_memory(handle, memory, 0)?;
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             let start = if addressed { self.device.get_buffer_device_address(&info) } else { 0 };
@@ -705,7 +737,7 @@ impl<'a> Gpu<'a> {
     ) -> Result<Buffer> {
         let usage = usage | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let size = size_of_val(data);
-        let buffer = self.buffer(what, size as u64, usage, true, alignment)?;
+        let buffer = self.buffer(what, size as u64, usage, Place::ToDevice, alignment)?;
         let all = vk::MemoryMapFlags::empty();
         // SAFETY: the memory is visible to the host, not mapped, and has `size` bytes after `offset`.
         // A submission makes what the host wrote before it visible to the device.
@@ -761,9 +793,9 @@ impl<'a> Gpu<'a> {
         use vk::BufferUsageFlags as Usage;
         let addressed = Usage::SHADER_DEVICE_ADDRESS;
         let storage = Usage::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
-        let storage = self.buffer("an acceleration structure", size, storage, false, 1)?;
+        let storage = self.buffer("an acceleration structure", size, storage, Place::Device, 1)?;
         let usage = Usage::STORAGE_BUFFER | addressed;
-        let space = self.buffer("scratch", scratch, usage, false, scratch_alignment)?;
+        let space = self.buffer("scratch", scratch, usage, Place::Device, scratch_alignment)?;
         let create = vk::AccelerationStructureCreateInfoKHR::default()
             .ty(level)
             .buffer(storage.handle)
@@ -890,12 +922,11 @@ fn judge(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Resul
     if properties.api_version < vk::API_VERSION_1_3 {
         missing.push("Vulkan 1.3".to_owned());
     }
-    // Every queue with compute can trace rays; this one shall also tell the time.
-    let suits = |family: &vk::QueueFamilyProperties| {
-        family.queue_flags.contains(vk::QueueFlags::COMPUTE) && family.timestamp_valid_bits > 0
-    };
-    let family = families.iter().position(suits).unwrap_or_else(|| {
-        missing.push("a compute queue with timestamps".to_owned());
+    // Every queue with compute can trace rays.
+    let computes =
+        |family: &vk::QueueFamilyProperties| family.queue_flags.contains(vk::QueueFlags::COMPUTE);
+    let family = families.iter().position(computes).unwrap_or_else(|| {
+        missing.push("a compute queue".to_owned());
         0
     });
     let mut driver = vk::PhysicalDeviceDriverProperties::default();

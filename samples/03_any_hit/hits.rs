@@ -1,6 +1,6 @@
 //! The list of every surface that a ray crosses: so many hits for each ray, in device memory.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use ash::vk;
 use common::gpu::{Buffer, Gpu};
 
@@ -13,7 +13,18 @@ common::shader_struct! {
 }
 
 /// A list for so many rays.
+///
+/// # Errors
+/// If the device has no room for it in one buffer.
 pub fn list(gpu: &Gpu, rays: u64) -> Result<Buffer> {
+    let most = gpu.limits.max_buffer_size / size(1);
+    ensure!(
+        rays <= most,
+        "a list of all hits takes {} bytes a pixel: {} has room for {most} pixels, not for {rays}; a \
+         smaller picture fits",
+        size(1),
+        gpu.name
+    );
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
     Buffer::new(gpu, "hits", size(rays), usage)
 }

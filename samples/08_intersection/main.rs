@@ -146,7 +146,7 @@ impl Sample for Demo {
         let Variant { key, pipeline, sbt } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
         if key.sphere_rung == SphereRung::HostC {
-            self.shapes.compute_host_c(frame.gpu, self.camera.eye.as_vec3())?;
+            self.shapes.compute_host_c(frame, self.camera.eye.as_vec3())?;
         }
         // ANCHOR: trace
         let push = Push {

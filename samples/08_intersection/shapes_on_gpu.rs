@@ -1,6 +1,8 @@
 //! The shapes on the device: a bottom level of spheres and one of boxes, in order and with a margin.
 
 use anyhow::Result;
+use ash::vk;
+use common::Frame;
 use common::gpu::{
     AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order, padded,
 };
@@ -114,7 +116,7 @@ impl ShapesOnGpu {
 
     // ANCHOR: host_c
     /// c of the quadratic for rays from the eye: products and sums of f32 numbers, in f64.
-    pub fn compute_host_c(&mut self, gpu: &Gpu, eye: Vec3) -> Result<()> {
+    pub fn compute_host_c(&mut self, frame: &Frame, eye: Vec3) -> Result<()> {
         if self.host_c.as_ref().is_some_and(|(known, _)| *known == eye) {
             return Ok(());
         }
@@ -124,7 +126,15 @@ impl ShapesOnGpu {
             ((distance - radius) * (distance + radius)) as f32
         });
         let c: Vec<f32> = c.collect();
-        self.host_c = Some((eye, Buffer::with_data(gpu, "c of spheres", &c, input_usage())?));
+        let buffer = match self.host_c.take() {
+            Some((_, buffer)) => buffer,
+            None => {
+                let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+                Buffer::new(frame.gpu, "c of spheres", 4 * c.len() as u64, usage)?
+            }
+        };
+        buffer.update(frame.cmd, &c)?;
+        self.host_c = Some((eye, buffer));
         Ok(())
     }
     // ANCHOR_END: host_c

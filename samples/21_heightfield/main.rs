@@ -127,14 +127,14 @@ impl Sample for Demo {
         if self.land.is_outdated(self.landscape, eye) {
             self.land = Land::new(gpu, &self.source, &self.scene, self.landscape, eye)?;
         }
-        // The last material is the ground's.
-        let material = self.source.model.materials.len() as u32 - 1;
-        self.ground.write(0, &[self.land.ground(material)])?;
         Ok(())
     }
     // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
+        // The last material is the ground's.
+        let material = self.source.model.materials.len() as u32 - 1;
+        self.ground.update(frame.cmd, &[self.land.ground(material)])?;
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use common::Sample;
 use common::app::{self, Args, check_validation, output};
 use common::files::{self, write_whole};
-use common::gpu::{Gpu, GpuOptions};
+use common::gpu::{Gpu, GpuOptions, Requirements};
 use common::usage::Usage;
 
 use crate::disagreement::Disagreement;
@@ -79,7 +78,8 @@ impl Lab {
             prepare(folder)?;
         }
         let gpu = Gpu::new(&GpuOptions {
-            requirements: Demo::requirements(),
+            // A rung that the device cannot do is told of, and the others are asked.
+            requirements: Requirements::ray_tracing().float64_where_offered(),
             device: args.device.as_deref(),
             validate: args.validate,
             window: None,

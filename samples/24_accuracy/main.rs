@@ -64,8 +64,9 @@ common::shader_struct! {
 }
 
 impl Sample for Demo {
+    /// The picture's shaders declare what two-floats need, whichever rung they show.
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().float64_where_offered()
+        Requirements::ray_tracing().float64_where_offered().exact_floats()
     }
 
     fn new(gpu: &Gpu, _: &Setup) -> Result<Self> {
@@ -154,10 +155,6 @@ impl Demo {
         let rung = self.rung()?;
         let top =
             primitive.ladder().iter().find(|rung| rung.is_top).context("every ladder has a top")?;
-        // The picture's shaders declare what two-floats need, whichever rung they show.
-        if let Some(why) = Code::Exact.unavailable(gpu) {
-            bail!("the picture is not available: {why}");
-        }
         for needed in [rung, top] {
             if let Some(why) = needed.unavailable(gpu) {
                 bail!("rung {} {} is not available: {why}", needed.label, needed.name);

@@ -15,7 +15,7 @@ mod world;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use ash::vk;
 use common::app::output;
 use common::gpu::{
@@ -34,7 +34,7 @@ use ground::{Ground, HeightfieldShape};
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
-use world::{Board, Shapes, World};
+use world::{Board, World};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -143,16 +143,25 @@ impl Sample for Demo {
     }
     // ANCHOR_END: controls
 
-    fn render(&mut self, frame: &Frame) -> Result<()> {
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        if self.measure && !gpu.limits.has_timestamps() {
+            self.measure = false;
+            let queue = format!("{}, whose queue has no timestamps", gpu.name);
+            self.trouble = Some(anyhow!("costs cannot be measured on {queue}"));
+        }
         if let Some(error) = self.trouble.take() {
             // A window goes on with the scene that it has, and tells.
-            if !frame.gpu.is_watched {
+            if !gpu.is_watched {
                 return Err(error);
             }
-            frame.gpu.complain(format!("{error:#}"));
+            gpu.complain(format!("{error:#}"));
         }
+        self.upload(gpu, self.camera.eye.as_vec3())
+    }
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
         let camera = self.camera.basis(frame.aspect());
-        let shapes = self.upload(frame.gpu, camera.origin)?;
+        let shapes = self.geometry.as_ref().context("no scene")?.shapes;
         self.world.update(frame.cmd, &[World::new(&self.scene, shapes, camera.origin)])?;
         let recipe = self.recipe();
         if !self.measure {
@@ -210,12 +219,12 @@ impl Demo {
     // ANCHOR_END: recipe
 
     /// Brings the scene to the device, if it is not there, and tells where its shapes are.
-    fn upload(&mut self, gpu: &Gpu, eye: Vec3) -> Result<Shapes> {
+    fn upload(&mut self, gpu: &Gpu, eye: Vec3) -> Result<()> {
         if let Some(geometry) = &self.geometry
             && geometry.reaches(&self.scene, eye)
             && !self.repainted
         {
-            return Ok(geometry.shapes);
+            return Ok(());
         }
         // Pipelines know the texture table; top levels know everything else.
         let textures = self.geometry.take().map(|geometry| geometry.scene.textures);
@@ -224,9 +233,8 @@ impl Demo {
         }
         let scene = SceneOnGpu::with_textures(gpu, &self.scene.scene, self.options, textures)?;
         let geometry = SceneGeometry::new(gpu, &self.scene, scene, eye)?;
-        let shapes = geometry.shapes;
         (self.geometry, self.repainted, self.costs) = (Some(geometry), false, None);
-        Ok(shapes)
+        Ok(())
     }
 
     /// Records a trace by the pipeline of a recipe; in a window, by the last one for as long as that is

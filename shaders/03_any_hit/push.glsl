@@ -12,7 +12,8 @@ struct ListedHit {
     float t;
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Hits { ListedHit at[]; };
+// The any-hit shader writes to it and the raygen shader reads, within one trace: it has to be coherent.
+layout(buffer_reference, scalar, buffer_reference_align = 4) coherent buffer Hits { ListedHit at[]; };
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -22,8 +22,8 @@ struct Answer {
 layout(buffer_reference, scalar) readonly buffer Numbers { float at[]; };
 layout(buffer_reference, scalar) readonly buffer Queries { Query at[]; };
 // Raygen and intersection shader of one ray write to the same answer: for both to see it in order, it has to
-// be coherent among the shaders that a trace calls.
-layout(buffer_reference, scalar) shadercallcoherent buffer Answers { Answer at[]; };
+// be coherent. For that `shadercallcoherent` is meant, but it counts in another memory model alone.
+layout(buffer_reference, scalar) coherent buffer Answers { Answer at[]; };
 
 #ifndef VIEW
 layout(push_constant, scalar) uniform Push {

@@ -1,6 +1,7 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
 pub mod leaving;
+pub mod narrow;
 pub mod plot;
 pub mod primary_hits;
 

@@ -1,5 +1,6 @@
 //! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
 
+mod audit;
 mod promises;
 
 use std::collections::BTreeSet;

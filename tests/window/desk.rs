@@ -1,5 +1,6 @@
 //! An X server without a screen, a sample's window on it, and a hand that types and drags.
 
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader, IoSlice, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -215,6 +216,19 @@ impl Desk {
         let sample = self.sample.take().expect("the sample runs");
         sample.wait_with_output().expect("its words can be read")
     }
+}
+
+/// The one line with which a sample refuses to open a window.
+pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> String {
+    let (mut server, display) = server();
+    let mut command: Command = run::command(name);
+    command.args(arguments).env("DISPLAY", &display);
+    command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    command.envs(environment.iter().map(|(name, value)| (name, value)));
+    let output = command.output().expect("the sample starts");
+    let _ = server.kill();
+    let _ = server.wait();
+    run::refusal(output).1
 }
 
 impl Drop for Desk {

@@ -12,6 +12,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use image::{Rgb, RgbImage};
 
+use run::narrow::Narrow;
+
 use desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_TAB, wait};
 
 /// The slider "sun azimuth" in the panel, from end to end.
@@ -298,4 +300,54 @@ fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
     }
     desk.key(KEY_ESCAPE);
     ended_well(desk.end());
+}
+
+/// The narrowest device's environment, with what else is wrong with it.
+fn narrow(faults: &str) -> (Narrow, Vec<(&'static str, std::ffi::OsString)>) {
+    let narrow = Narrow::new(faults);
+    let environment = narrow.environment().into();
+    (narrow, environment)
+}
+
+/// Opens a window on the narrowest device, draws and closes it.
+fn opens_on(faults: &str) {
+    let _alone = alone();
+    let (_narrow, environment) = narrow(faults);
+    let environment: Vec<_> =
+        environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
+    let desk = Desk::open("02_basic", &["--validate", "--size", "480x300"], &environment);
+    let (first, _) = desk.picture();
+    desk.drag((440, 150), (470, 250), 8);
+    assert!(!same(&desk.picture().0, &first), "a drag on the picture turns nothing");
+    desk.resize(400, 360);
+    let sized = || Some(desk.picture().0).filter(|image| image.dimensions() == (400, 360));
+    wait("a picture of the new size", sized);
+    desk.close();
+    ended_well(desk.end());
+}
+
+#[test]
+fn a_window_opens_on_the_narrowest_device() {
+    opens_on("");
+}
+
+#[test]
+fn a_swapchain_that_is_out_of_date_before_it_is_made_is_made_at_the_next_event() {
+    opens_on("out-of-date");
+}
+
+#[test]
+fn a_device_that_cannot_draw_to_the_window_is_refused_when_devices_are_chosen() {
+    let _alone = alone();
+    let refusals = [
+        ("compute-only", "lacks a queue that draws to this window"),
+        ("without=dynamicRendering", "lacks feature dynamicRendering"),
+        ("no-transfer-dst", "lacks copies to this window's images (TRANSFER_DST)"),
+    ];
+    for (faults, words) in refusals {
+        let (_narrow, environment) = narrow(faults);
+        let line = desk::refusal("02_basic", &["--validate"], &environment);
+        assert!(line.contains("no device can run this: 0: narrow "), "{line}");
+        assert!(line.contains(words), "{line}");
+    }
 }

@@ -4,8 +4,6 @@
 //! a picture answers nobody. So a picture is traced in bands, each submitted and waited for alone. How
 //! many rows a band has follows what the rows before have cost.
 
-use std::time::Instant;
-
 use anyhow::Result;
 use ash::vk;
 
@@ -98,7 +96,6 @@ impl Bands {
         (image, index): (&Image, u32),
     ) -> Result<Option<f64>> {
         let Some(area) = self.next() else { return Ok(None) };
-        let start = Instant::now();
         gpu.submit(|cmd| {
             timer.start(cmd);
             sample.render(&Frame { gpu, cmd, image, area, index })?;
@@ -106,11 +103,7 @@ impl Bands {
             barrier::trace_to_trace(gpu, cmd);
             Ok(())
         })?;
-        // Where the queue has no timestamps, the host's clock must do.
-        let milliseconds = match timer.milliseconds()? {
-            0.0 => start.elapsed().as_secs_f64() * 1e3,
-            milliseconds => milliseconds,
-        };
+        let milliseconds = timer.milliseconds()?;
         tracing::trace!("{} rows: {milliseconds:.1} ms", area.extent.height);
         self.took(area, milliseconds);
         Ok(Some(milliseconds))

@@ -165,7 +165,7 @@ fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
 }
 
 /// RADV's manifest, by which the loader finds it.
-fn manifest() -> Result<PathBuf> {
+pub(crate) fn manifest() -> Result<PathBuf> {
     // Where the loader itself looks: the variable takes the place of the usual folders.
     let shared = std::env::var("XDG_DATA_DIRS").unwrap_or_default();
     let shared = if shared.is_empty() { "/usr/local/share:/usr/share" } else { &shared };

@@ -106,7 +106,8 @@ impl Blueprint {
         Ok(unsafe { device.create_pipeline_layout(&info, None)? })
     }
 
-    /// Makes the pipeline, with further flags; `name` hears of each module and its path.
+    /// Makes the pipeline, with further flags; `name` hears of each module and its path. The cache may be
+    /// null.
     ///
     /// # Errors
     /// If the driver cannot compile it.
@@ -115,6 +116,7 @@ impl Blueprint {
         device: &Device,
         ray_tracing_pipeline: &khr::ray_tracing_pipeline::Device,
         layout: vk::PipelineLayout,
+        cache: vk::PipelineCache,
         flags: vk::PipelineCreateFlags,
         name: impl Fn(vk::ShaderModule, &str),
     ) -> Result<vk::Pipeline> {
@@ -158,7 +160,7 @@ impl Blueprint {
             let pipelines = unsafe {
                 ray_tracing_pipeline.create_ray_tracing_pipelines(
                     vk::DeferredOperationKHR::null(),
-                    vk::PipelineCache::null(),
+                    cache,
                     &info,
                     None,
                 )

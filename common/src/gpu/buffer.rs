@@ -1,6 +1,6 @@
 //! A buffer and its memory: uploaded once, addressed from shaders, read back for tests.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use ash::vk;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
@@ -9,7 +9,12 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use super::{Gpu, barrier};
 
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
-const MOST_UPDATED: u64 = 65_536;
+const MOST_UPDATED: usize = 65_536;
+
+/// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
+/// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
+/// ask of their input, 16 for instances and 8 for boxes.
+pub const ADDRESS_ALIGNMENT: u64 = 16;
 
 /// A `VkBuffer` bound to memory of its own, freed on drop.
 pub struct Buffer {
@@ -87,6 +92,12 @@ impl Buffer {
     ) -> Result<Self> {
         // Vulkan has no empty buffers; an empty mesh or table still wants an address.
         let size = size.max(1);
+        let most = gpu.limits.max_buffer_size;
+        ensure!(
+            size <= most,
+            "the buffer '{name}' takes {size} bytes, and {} has room for {most} in one",
+            gpu.name
+        );
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         // SAFETY: the device is alive; the buffer is destroyed on every path below.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }
@@ -94,6 +105,8 @@ impl Buffer {
         let mut buffer = Self { handle, size, address: 0, allocation: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        let addressed = usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS);
+        let alignment = alignment.max(if addressed { ADDRESS_ALIGNMENT } else { 1 });
         requirements.alignment = requirements.alignment.max(alignment);
         let allocation = gpu
             .allocator
@@ -112,12 +125,12 @@ impl Buffer {
             gpu.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset())?;
         }
         buffer.allocation = Some(allocation);
-        if usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS) {
+        if addressed {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
             // The offset in memory is aligned; that the memory's own address is, no rule promises.
-            anyhow::ensure!(
+            ensure!(
                 buffer.address.is_multiple_of(alignment),
                 "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
                 buffer.address
@@ -136,7 +149,7 @@ impl Buffer {
         if bytes.is_empty() {
             return Ok(());
         }
-        anyhow::ensure!(
+        ensure!(
             offset + bytes.len() as u64 <= self.size,
             "{} bytes at {offset} do not fit a buffer of {} bytes",
             bytes.len(),
@@ -163,22 +176,25 @@ impl Buffer {
 
     /// Records that the buffer begins with `data` for the traces that follow in `cmd`; nothing waits.
     ///
-    /// For what changes from frame to frame and is small: at most 65,536 bytes, a multiple of 4, into a
-    /// buffer made with `TRANSFER_DST`.
+    /// For what changes from frame to frame and is small, as the commands hold a copy of it: a multiple of
+    /// 4 bytes, into a buffer made with `TRANSFER_DST`.
     ///
     /// # Errors
     /// If the data is none of that, or does not fit.
     pub fn update<T: Pod>(&self, cmd: vk::CommandBuffer, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let size = bytes.len() as u64;
-        anyhow::ensure!(
-            size > 0 && size <= MOST_UPDATED.min(self.size) && size.is_multiple_of(4),
+        ensure!(
+            size <= self.size && size.is_multiple_of(4),
             "{size} bytes cannot be recorded for a buffer of {} bytes",
             self.size
         );
         barrier::trace_to_update(&self.gpu, cmd);
-        // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
-        unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, 0, bytes) };
+        for (number, part) in bytes.chunks(MOST_UPDATED).enumerate() {
+            let offset = (number * MOST_UPDATED) as u64;
+            // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
+            unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, offset, part) };
+        }
         barrier::update_to_trace(&self.gpu, cmd);
         Ok(())
     }

@@ -18,6 +18,7 @@ use super::device::{self, Candidate};
 use super::instance::{self, WindowHandles};
 use super::layout::StructLayout;
 use super::limits::Limits;
+use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::validation::Messages;
@@ -71,6 +72,10 @@ pub struct GpuContext {
     pub is_watched: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
+    /// What the driver has compiled in earlier runs, and in this one.
+    pub pipeline_cache: PipelineCache,
+    /// What the sample has asked for.
+    pub requirements: Requirements,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     /// How many pipelines are being made by other threads.
@@ -149,6 +154,8 @@ impl Gpu {
             buffer_device_address: true,
             allocation_sizes: Default::default(),
         })?;
+        // SAFETY: the physical device belongs to the live instance.
+        let properties = unsafe { instance.get_physical_device_properties(physical_device) };
         let pool = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)
             .queue_family_index(queue_family);
@@ -178,6 +185,8 @@ impl Gpu {
                 .contains(&khr::pipeline_executable_properties::NAME)
                 .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
             limits: Limits::of(&instance, physical_device, queue_family),
+            pipeline_cache: PipelineCache::open(&device, &properties),
+            requirements: requirements.clone(),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             software: chosen.kind == vk::PhysicalDeviceType::CPU,
@@ -272,6 +281,7 @@ impl Drop for GpuContext {
         unsafe {
             let _ = self.device.device_wait_idle();
             ManuallyDrop::drop(&mut self.allocator);
+            self.pipeline_cache.close(&self.device);
             if let Ok(pool) = self.command_pool.lock() {
                 self.device.destroy_command_pool(*pool, None);
             }

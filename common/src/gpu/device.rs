@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use ash::{Device, Entry, Instance, khr, vk};
 
 use super::instance::{self, WindowHandles};
+use super::limits::Limits;
 use super::requirements::{Features, Requirements};
 use crate::usage::Usage;
 
@@ -115,7 +116,6 @@ fn judge(
         // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
         unsafe { instance.get_physical_device_features2(handle, features) }
     });
-    candidate.missing = wanted.missing(has, &offered);
     candidate.offered = offered;
 
     // SAFETY: as above.
@@ -126,6 +126,12 @@ fn judge(
     let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
     candidate.graphics = graphics.is_some();
     candidate.queue_family = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
+    let carried = [khr::acceleration_structure::NAME, khr::ray_tracing_pipeline::NAME];
+    let limits = candidate
+        .queue_family
+        .filter(|_| carried.iter().all(|name| has(name)))
+        .map(|family| Limits::of(instance, handle, family));
+    candidate.missing = wanted.missing(has, &offered, limits.as_ref());
     if candidate.queue_family.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }
@@ -165,6 +171,14 @@ pub fn require_presentation(
                 surfaces.get_physical_device_surface_support(candidate.handle, family, surface);
             if !candidate.graphics || !presents.unwrap_or(false) {
                 candidate.missing.push("a queue that draws to this window".to_owned());
+                continue;
+            }
+            // Pictures are copied to the window's images, which a device must let them be drawn to alone.
+            let usage = surfaces
+                .get_physical_device_surface_capabilities(candidate.handle, surface)
+                .map(|capabilities| capabilities.supported_usage_flags);
+            if usage.is_ok_and(|usage| !usage.contains(vk::ImageUsageFlags::TRANSFER_DST)) {
+                candidate.missing.push("copies to this window's images (TRANSFER_DST)".to_owned());
             }
         }
         surfaces.destroy_surface(surface, None);

@@ -30,9 +30,16 @@ pub struct Limits {
     pub max_image_dimension: u32,
     /// The most bytes of push constants.
     pub max_push_constants_size: u32,
-    /// Nanoseconds a tick of a timestamp; 0 where the queue has none.
+    /// The most textures of a table: descriptors that may be written after they are bound.
+    pub max_textures: u32,
+    /// The most bytes of a buffer that is bound as a descriptor.
+    pub max_storage_buffer_range: u64,
+    /// The most bytes of a buffer in device memory: by the limits of buffers and of allocations, and by the
+    /// memory that there is.
+    pub max_buffer_size: u64,
+    /// Nanoseconds a tick of a timestamp.
     pub timestamp_period: f32,
-    /// The bits of a timestamp that count.
+    /// The bits of a timestamp that count; none where the queue has no timestamps.
     pub timestamp_mask: u64,
     /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
     pub float64: bool,
@@ -45,14 +52,23 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Whether the queue can write timestamps.
+    pub fn has_timestamps(&self) -> bool {
+        self.timestamp_mask != 0
+    }
+
     /// Reads the limits of a device that has the ray tracing extensions, and of a queue family.
     pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice, family: u32) -> Self {
         let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
         let mut acceleration = vk::PhysicalDeviceAccelerationStructurePropertiesKHR::default();
-        let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
+        let mut vulkan11 = vk::PhysicalDeviceVulkan11Properties::default();
+        let mut vulkan12 = vk::PhysicalDeviceVulkan12Properties::default();
+        let mut vulkan13 = vk::PhysicalDeviceVulkan13Properties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default()
             .push_next(&mut pipeline)
-            .push_next(&mut floats)
+            .push_next(&mut vulkan11)
+            .push_next(&mut vulkan12)
+            .push_next(&mut vulkan13)
             .push_next(&mut acceleration);
         // SAFETY: the device belongs to the live instance and has both extensions.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
@@ -67,6 +83,11 @@ impl Limits {
             unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
         let bits = families[family as usize].timestamp_valid_bits;
         let version = properties.properties.api_version;
+        // SAFETY: as above.
+        let memory = unsafe { instance.get_physical_device_memory_properties(physical_device) };
+        let heaps = memory.memory_heaps_as_slice().iter();
+        let heaps = heaps.filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL));
+        let heap = heaps.map(|heap| heap.size).max().unwrap_or(u64::MAX);
         Self {
             vulkan: [
                 vk::api_version_major(version),
@@ -86,12 +107,28 @@ impl Limits {
             max_primitive_count: acceleration.max_primitive_count,
             max_image_dimension: core.max_image_dimension2_d,
             max_push_constants_size: core.max_push_constants_size,
-            timestamp_period: if bits > 0 { core.timestamp_period } else { 0.0 },
+            // Set 0 has resources, too: at most as many as there are push descriptors.
+            max_textures: [
+                vulkan12.max_per_stage_descriptor_update_after_bind_samplers,
+                vulkan12.max_per_stage_descriptor_update_after_bind_sampled_images,
+                vulkan12.max_per_stage_update_after_bind_resources.saturating_sub(32),
+                vulkan12.max_descriptor_set_update_after_bind_samplers,
+                vulkan12.max_descriptor_set_update_after_bind_sampled_images,
+                vulkan12.max_update_after_bind_descriptors_in_all_pools,
+            ]
+            .into_iter()
+            .fold(u32::MAX, u32::min),
+            max_storage_buffer_range: core.max_storage_buffer_range.into(),
+            max_buffer_size: vulkan13
+                .max_buffer_size
+                .min(vulkan11.max_memory_allocation_size)
+                .min(heap),
+            timestamp_period: core.timestamp_period,
             timestamp_mask: u64::MAX.checked_shr(64 - bits).unwrap_or(0),
             float64: features.shader_float64 == vk::TRUE,
             primitive_culling: culling.ray_traversal_primitive_culling == vk::TRUE,
-            rounding_to_nearest_even: floats.shader_rounding_mode_rte_float32 == vk::TRUE,
-            signed_zero_inf_nan: floats.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
+            rounding_to_nearest_even: vulkan12.shader_rounding_mode_rte_float32 == vk::TRUE,
+            signed_zero_inf_nan: vulkan12.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
         }
     }
 }

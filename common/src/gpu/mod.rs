@@ -19,6 +19,7 @@ mod margin;
 pub mod null;
 pub mod order;
 mod pipeline;
+mod pipeline_cache;
 mod reflection;
 mod requirements;
 pub mod sbt;
@@ -33,7 +34,7 @@ mod variants;
 
 pub use accel::{AccelerationStructure, BuildOptions};
 pub use blueprint::{Blueprint, Group, Stage};
-pub use buffer::Buffer;
+pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions};
 pub use device::device_lines;
@@ -46,6 +47,7 @@ pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLay
 pub use limits::Limits;
 pub use margin::{margin, padded};
 pub use pipeline::{Binding, Descriptor, HitGroup, PipelineBuilder, RayTracingPipeline};
+pub use pipeline_cache::PipelineCache;
 pub use reflection::{Bound, Reflection};
 pub use requirements::{Features, Requirement, Requirements};
 pub use sbt::{Record, ShaderBindingTable};

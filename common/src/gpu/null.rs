@@ -66,7 +66,8 @@ fn one(
         }
         let layout = blueprint.layout(device, &sets)?;
         let flags = vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR;
-        let made = blueprint.create(device, ray_tracing_pipeline, layout, flags, |_, _| {});
+        let cache = vk::PipelineCache::null();
+        let made = blueprint.create(device, ray_tracing_pipeline, layout, cache, flags, |_, _| {});
         let made = made.with_context(|| format!("cannot make the pipeline '{}'", blueprint.name));
         let executables = made.and_then(|pipeline| {
             let executables = Executable::all(properties, pipeline);

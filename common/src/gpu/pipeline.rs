@@ -97,6 +97,17 @@ impl RayTracingPipeline {
             self.blueprint.push_size,
             bytes.len()
         );
+        for descriptor in descriptors {
+            let Descriptor::StorageBuffer(buffer) = descriptor else { continue };
+            let most = self.gpu.limits.max_storage_buffer_range;
+            ensure!(
+                buffer.size <= most,
+                "pipeline '{}' binds a buffer of {} bytes, and {} takes {most}",
+                self.blueprint.name,
+                buffer.size,
+                self.gpu.name
+            );
+        }
         let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
         // SAFETY: cmd is being recorded; the pipeline and its descriptors outlive the submission.
         unsafe {

@@ -7,6 +7,8 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::Limits;
+
 /// One feature bit, the extension that carries it, and how to read and set it.
 #[derive(Clone, Copy)]
 pub struct Requirement {
@@ -87,6 +89,11 @@ macro_rules! requirement {
 /// A list of requirements, begun with [`Requirements::ray_tracing`] and extended by the chapter.
 #[derive(Clone, Default)]
 pub struct Requirements {
+    /// How deep `traceRayEXT` has to nest in every pipeline of the sample.
+    pub recursion: u32,
+    /// The most bytes of push constants that a pipeline of the sample has.
+    pub push_constants: u32,
+    exact_floats: bool,
     list: Vec<Requirement>,
     wishes: Vec<Requirement>,
     extensions: Vec<&'static CStr>,
@@ -94,11 +101,15 @@ pub struct Requirements {
 
 impl Requirements {
     /// The baseline of every chapter: a ray tracing pipeline, acceleration structures, scalar block
-    /// layout, buffer addresses, `synchronization2` and push descriptors.
+    /// layout, buffer addresses, `synchronization2` and push descriptors; and of the limits, what Vulkan
+    /// promises of each device: a recursion depth of 1, and 128 bytes of push constants.
     pub fn ray_tracing() -> Self {
         let acceleration = Some(khr::acceleration_structure::NAME);
         let pipeline = Some(khr::ray_tracing_pipeline::NAME);
         Self {
+            recursion: 1,
+            push_constants: 128,
+            exact_floats: false,
             list: vec![
                 requirement!(
                     acceleration,
@@ -120,10 +131,34 @@ impl Requirements {
         }
     }
 
-    /// The bindless texture table: one array of sampled images, indexed differently by each ray.
+    /// Hit shaders that trace rays in turn: a recursion depth beyond the 1 that is promised.
+    pub fn recursion(mut self, depth: u32) -> Self {
+        self.recursion = depth;
+        self
+    }
+
+    /// More push constants than the 128 bytes that are promised.
+    pub fn push_constants(mut self, bytes: u32) -> Self {
+        self.push_constants = bytes;
+        self
+    }
+
+    /// Shaders that declare how 32-bit floats are rounded, and that zeros keep their signs.
+    pub fn exact_floats(mut self) -> Self {
+        self.exact_floats = true;
+        self
+    }
+
+    /// The bindless texture table: one array of sampled images, indexed differently by each ray. Of those
+    /// that may be written after they are bound, a device has to take far more.
     pub fn textures(mut self) -> Self {
         self.list.extend([
             requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
+            requirement!(
+                None,
+                "descriptorBindingSampledImageUpdateAfterBind",
+                vulkan12.descriptor_binding_sampled_image_update_after_bind
+            ),
             requirement!(
                 None,
                 "shaderSampledImageArrayNonUniformIndexing",
@@ -193,11 +228,14 @@ impl Requirements {
         self.list.iter().chain(wishes)
     }
 
-    /// What a device with these extensions and features lacks, by name; empty if it is suitable.
+    /// What a device with these extensions, features and limits lacks, by name; empty if it is suitable.
+    ///
+    /// The limits are those of the device, if it has the extensions that bring them.
     pub fn missing(
         &self,
         has_extension: impl Fn(&CStr) -> bool,
         offered: &Features,
+        limits: Option<&Limits>,
     ) -> Vec<String> {
         let mut offered = *offered;
         let extensions = self.extensions(&Features::default());
@@ -210,6 +248,23 @@ impl Requirements {
                 missing.push(format!("feature {}", requirement.name));
             }
         }
+        let Some(limits) = limits else { return missing };
+        for (name, needed, has) in [
+            ("maxRayRecursionDepth", self.recursion, limits.max_ray_recursion_depth),
+            ("maxPushConstantsSize", self.push_constants, limits.max_push_constants_size),
+        ] {
+            if needed > has {
+                missing.push(format!("{name} {needed} (it has {has})"));
+            }
+        }
+        for (name, has) in [
+            ("shaderRoundingModeRTEFloat32", limits.rounding_to_nearest_even),
+            ("shaderSignedZeroInfNanPreserveFloat32", limits.signed_zero_inf_nan),
+        ] {
+            if self.exact_floats && !has {
+                missing.push(name.to_owned());
+            }
+        }
         missing
     }
 }
@@ -220,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_device_without_ray_tracing_is_told_what_it_lacks() {
-        let missing = Requirements::ray_tracing().missing(|_| false, &Features::default());
+        let missing = Requirements::ray_tracing().missing(|_| false, &Features::default(), None);
         assert!(missing.contains(&"VK_KHR_ray_tracing_pipeline".to_owned()), "{missing:?}");
         assert!(missing.contains(&"feature scalarBlockLayout".to_owned()), "{missing:?}");
         assert!(
@@ -234,7 +289,28 @@ mod tests {
         let wanted = Requirements::ray_tracing();
         let mut offered = wanted.features(&Features::default());
         offered.ray_tracing_pipeline.ray_tracing_pipeline = vk::FALSE;
-        assert_eq!(wanted.missing(|_| true, &offered), ["feature rayTracingPipeline"]);
+        assert_eq!(wanted.missing(|_| true, &offered, None), ["feature rayTracingPipeline"]);
+    }
+
+    #[test]
+    fn limits_are_judged_with_features() {
+        let limits = Limits {
+            max_ray_recursion_depth: 1,
+            max_push_constants_size: 128,
+            ..Limits::default()
+        };
+        let missing = |wanted: Requirements| {
+            wanted.missing(|_| true, &wanted.features(&Features::default()), Some(&limits))
+        };
+        assert_eq!(missing(Requirements::ray_tracing()), [""; 0]);
+        assert_eq!(
+            missing(Requirements::ray_tracing().recursion(2).push_constants(144)),
+            ["maxRayRecursionDepth 2 (it has 1)", "maxPushConstantsSize 144 (it has 128)"]
+        );
+        assert_eq!(
+            missing(Requirements::ray_tracing().exact_floats()),
+            ["shaderRoundingModeRTEFloat32", "shaderSignedZeroInfNanPreserveFloat32"]
+        );
     }
 
     #[test]
@@ -251,7 +327,7 @@ mod tests {
         let wishing = Requirements::ray_tracing().float64_where_offered();
         let mut offered = wishing.features(&Features::default());
         assert_eq!(offered.core.shader_float64, vk::FALSE);
-        assert!(wishing.missing(|_| true, &offered).is_empty());
+        assert!(wishing.missing(|_| true, &offered, None).is_empty());
         offered.core.shader_float64 = vk::TRUE;
         assert_eq!(wishing.features(&offered).core.shader_float64, vk::TRUE);
         let wishing = wishing.compiler_figures_where_offered();

@@ -16,6 +16,8 @@ use glslang::{
     SourceLanguage, SpirvVersion, Target, VulkanVersion, error::GlslangError,
 };
 
+use crate::files;
+
 /// How deep `#include` may nest; more is taken for a circle.
 const MAX_INCLUDE_DEPTH: usize = 16;
 
@@ -75,7 +77,7 @@ pub fn compile_with(path: &str, defines: &[(&str, String)]) -> Result<Shader> {
             let words = to_spirv(path, &source.text, glslang_stage, defines)?;
             // A cache that cannot be written costs time at the next start, nothing else.
             let _ = cached.parent().map(fs::create_dir_all);
-            let _ = crate::files::write_whole(&cached, &sealed(&words));
+            let _ = files::write_whole(&cached, &sealed(&words));
             words
         }
     };
@@ -250,24 +252,15 @@ fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> PathBuf {
     folder.join(format!("{:016x}.words", hasher.finish()))
 }
 
-/// A module as the cache keeps it: its words, then a hash of them, for a driver may crash on words
-/// that a full disk or another program has damaged.
+/// A module as the cache keeps it; sealed, for a driver may crash on damaged words.
 fn sealed(words: &[u32]) -> Vec<u8> {
-    let bytes: &[u8] = bytemuck::cast_slice(words);
-    [bytes, &seal(bytes)].concat()
+    files::sealed(bytemuck::cast_slice(words))
 }
 
 /// The words of a file of the cache; `None` if it is missing or damaged.
 fn unsealed(bytes: &[u8]) -> Option<Vec<u32>> {
-    let (words, end) = bytes.split_last_chunk()?;
-    (words.len().is_multiple_of(4) && seal(words) == *end)
-        .then(|| bytemuck::pod_collect_to_vec(words))
-}
-
-fn seal(bytes: &[u8]) -> [u8; 8] {
-    let mut hasher = DefaultHasher::new();
-    bytes.hash(&mut hasher);
-    hasher.finish().to_le_bytes()
+    let words = files::unsealed(bytes)?;
+    words.len().is_multiple_of(4).then(|| bytemuck::pod_collect_to_vec(words))
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ impl Swapchain {
     /// Makes the images as large as the window, if they are not, and returns their size.
     ///
     /// `wanted` counts where the window system leaves the size to the program. `None` while the window
-    /// has no area, as when it is minimised.
+    /// has no area, as when it is minimised, and if it has changed just now: an event tells of either.
     ///
     /// # Errors
     /// If the window system or the device fails.
@@ -103,8 +103,8 @@ impl Swapchain {
         if extent.width == 0 || extent.height == 0 {
             return Ok(None);
         }
-        if self.stale || extent != self.extent {
-            self.make(&capabilities, extent)?;
+        if (self.stale || extent != self.extent) && !self.make(&capabilities, extent)? {
+            return Ok(None);
         }
         Ok(Some(extent))
     }
@@ -204,11 +204,12 @@ impl Swapchain {
         Ok(())
     }
 
+    /// Makes the images; `false` if the window has changed since its capabilities were asked for.
     fn make(
         &mut self,
         capabilities: &vk::SurfaceCapabilitiesKHR,
         extent: vk::Extent2D,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         // A count of 0 as the most means any number.
         let most = match capabilities.max_image_count {
             0 => u32::MAX,
@@ -236,11 +237,14 @@ impl Swapchain {
         // SAFETY: the surface is alive; the old swapchain is retired here and destroyed below, once the
         // queue has presented its last image.
         unsafe {
-            let handle = self
-                .swapchains
-                .create_swapchain(&info, None)
-                .with_context(|| format!("no images of {}x{}", extent.width, extent.height))?;
+            let made = self.swapchains.create_swapchain(&info, None);
+            // The old one is retired even if there is no new one.
             self.destroy_images()?;
+            self.stale = true;
+            let handle = match made {
+                Ok(handle) => handle,
+                Err(error) => return self.outdated(error).map(|()| false),
+            };
             self.handle = handle;
             self.images = self.swapchains.get_swapchain_images(handle)?;
             for _ in &self.images {
@@ -250,7 +254,7 @@ impl Swapchain {
         }
         self.extent = extent;
         self.stale = false;
-        Ok(())
+        Ok(true)
     }
 
     fn destroy_images(&mut self) -> Result<()> {

@@ -1,6 +1,6 @@
 //! The texture table: every texture of a scene in one array, which any shader indexes by number.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use ash::{Device, vk};
 
 use super::{Gpu, Image};
@@ -29,10 +29,14 @@ impl TextureTable {
             images.push(Image::texture(gpu, "no texture", texel, &[255; 4], false)?);
         }
         let count = images.len() as u32;
+        fits(count, gpu.limits.max_textures, &gpu.name)?;
         let sizes = [vk::DescriptorPoolSize::default()
             .ty(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
             .descriptor_count(count)];
-        let pool_info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        let pool_info = vk::DescriptorPoolCreateInfo::default()
+            .flags(vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND)
+            .max_sets(1)
+            .pool_sizes(&sizes);
         let sampler_info = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR);
@@ -89,10 +93,26 @@ impl TextureTable {
             .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
             .descriptor_count(count)
             .stage_flags(vk::ShaderStageFlags::ALL)];
-        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        // Nothing is written after it is bound. But of descriptors that may be, a device must take
+        // 500,000, and of others no more than 16 (`maxPerStageDescriptorSamplers`).
+        let flags = [vk::DescriptorBindingFlags::UPDATE_AFTER_BIND];
+        let mut flags =
+            vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
+        let info = vk::DescriptorSetLayoutCreateInfo::default()
+            .flags(vk::DescriptorSetLayoutCreateFlags::UPDATE_AFTER_BIND_POOL)
+            .bindings(&bindings)
+            .push_next(&mut flags);
         // SAFETY: the device is alive; the layout is the caller's.
         Ok(unsafe { device.create_descriptor_set_layout(&info, None)? })
     }
+}
+
+fn fits(count: u32, most: u32, device: &str) -> Result<()> {
+    ensure!(
+        count <= most,
+        "the scene has {count} textures, and {device} takes {most}: leave out some, or join them"
+    );
+    Ok(())
 }
 
 impl Drop for TextureTable {
@@ -103,5 +123,20 @@ impl Drop for TextureTable {
             self.gpu.device.destroy_descriptor_set_layout(self.layout, None);
             self.gpu.device.destroy_sampler(self.sampler, None);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_textures_than_a_device_takes_are_refused_by_number() {
+        fits(500_000, 500_000, "a GPU").unwrap();
+        let error = fits(500_001, 500_000, "a GPU").unwrap_err().to_string();
+        assert!(
+            error.starts_with("the scene has 500001 textures, and a GPU takes 500000"),
+            "{error}"
+        );
     }
 }

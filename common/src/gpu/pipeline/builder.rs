@@ -150,8 +150,8 @@ impl<'a> PipelineBuilder<'a> {
     ///
     /// # Errors
     /// If a shader does not compile, a structure or an enumeration differs between Rust and GLSL, Rust
-    /// has not declared what lies at an address, or the device allows
-    /// less recursion or fewer push constants.
+    /// has not declared what lies at an address, the device allows less recursion, or there are more push
+    /// constants than the sample's requirements say.
     pub fn build(self, gpu: &Gpu) -> Result<RayTracingPipeline> {
         let start = Instant::now();
         let limit = gpu.limits.max_ray_recursion_depth;
@@ -163,12 +163,12 @@ impl<'a> PipelineBuilder<'a> {
             gpu.name
         );
         let push_size = self.push.map_or(0, |push| push.size);
+        let most = gpu.requirements.push_constants;
         ensure!(
-            push_size <= gpu.limits.max_push_constants_size as usize,
-            "pipeline '{}' has {push_size} bytes of push constants; {} allows {}",
-            self.name,
-            gpu.name,
-            gpu.limits.max_push_constants_size
+            push_size <= most as usize,
+            "pipeline '{}' has {push_size} bytes of push constants, and its sample asks for {most}: more \
+             is to be said in requirements(), so that devices are chosen by it",
+            self.name
         );
         let defines = self.defines.as_slice();
         let mut stages =
@@ -231,7 +231,14 @@ impl<'a> PipelineBuilder<'a> {
         let name_module = |module, path: &str| gpu.name_object(module, path);
         pipeline.handle = pipeline
             .blueprint
-            .create(&gpu.device, &gpu.ray_tracing_pipeline, pipeline.layout, flags, name_module)
+            .create(
+                &gpu.device,
+                &gpu.ray_tracing_pipeline,
+                pipeline.layout,
+                gpu.pipeline_cache.handle,
+                flags,
+                name_module,
+            )
             .with_context(|| format!("cannot make the pipeline '{}'", self.name))?;
         gpu.name_object(pipeline.handle, self.name);
         gpu.name_object(pipeline.layout, self.name);

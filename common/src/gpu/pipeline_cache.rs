@@ -1,0 +1,82 @@
+//! The pipeline cache: what the driver has compiled, kept from one run to the next.
+//!
+//! There is a file for each device and driver below `target/pipelines`, written whole when the device is
+//! closed. A driver must refuse data that is not its own, but may trust what looks like it (Vulkan
+//! specification, "Pipeline Cache Header"): so a file that is damaged, or another device's, is not shown to
+//! it. Without a cache a pipeline takes longer, nothing else.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ash::{Device, vk};
+
+use crate::files::{sealed, unsealed, write_whole};
+
+/// The most bytes that are kept. A driver never forgets a pipeline, and shaders change: what has grown
+/// beyond this is begun anew.
+const MOST: usize = 64 << 20;
+
+/// A `VkPipelineCache` and its file.
+pub struct PipelineCache {
+    /// The Vulkan handle; null if the driver has no memory for it, which Vulkan allows to use.
+    pub handle: vk::PipelineCache,
+    file: PathBuf,
+    most: usize,
+    /// What the file held.
+    known: Vec<u8>,
+}
+
+impl PipelineCache {
+    /// The cache of a device, with what earlier runs have left.
+    pub fn open(device: &Device, properties: &vk::PhysicalDeviceProperties) -> Self {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/pipelines"));
+        Self::open_in(folder, MOST, device, properties)
+    }
+
+    fn open_in(
+        folder: &Path,
+        most: usize,
+        device: &Device,
+        properties: &vk::PhysicalDeviceProperties,
+    ) -> Self {
+        let start = header(properties);
+        let name: String = start[8..].iter().map(|byte| format!("{byte:02x}")).collect();
+        let file = folder.join(name).with_extension("cache");
+        let known = fs::read(&file).ok().and_then(|bytes| unsealed(&bytes).map(<[u8]>::to_vec));
+        let known = known.filter(|known| known.starts_with(&start)).unwrap_or_default();
+        let info = vk::PipelineCacheCreateInfo::default().initial_data(&known);
+        // SAFETY: the device is alive; the data is what this device has given, by its header and seal.
+        let handle = unsafe { device.create_pipeline_cache(&info, None) }.unwrap_or_default();
+        Self { handle, file, most, known }
+    }
+
+    /// Writes what the driver has learned, if it has, and destroys the cache.
+    pub fn close(&mut self, device: &Device) {
+        if self.handle == vk::PipelineCache::null() {
+            return;
+        }
+        // SAFETY: the cache is the device's, and nothing uses it any more.
+        let data = unsafe { device.get_pipeline_cache_data(self.handle) }.unwrap_or_default();
+        if data.len() > self.most {
+            let _ = fs::remove_file(&self.file);
+        } else if data != self.known {
+            // A cache that cannot be written costs time at the next start, nothing else.
+            let _ = self.file.parent().map(fs::create_dir_all);
+            let _ = write_whole(&self.file, &sealed(&data));
+        }
+        // SAFETY: as above.
+        unsafe { device.destroy_pipeline_cache(self.handle, None) };
+        self.handle = vk::PipelineCache::null();
+    }
+}
+
+/// `VkPipelineCacheHeaderVersionOne`, with which the data of this device and driver begins: its size, its
+/// version, vendor, device, and the driver's mark for what it can read.
+fn header(properties: &vk::PhysicalDeviceProperties) -> Vec<u8> {
+    let version = vk::PipelineCacheHeaderVersion::ONE.as_raw() as u32;
+    let words = [32, version, properties.vendor_id, properties.device_id].map(u32::to_le_bytes);
+    [words.concat(), properties.pipeline_cache_uuid.to_vec()].concat()
+}
+
+#[cfg(test)]
+mod tests;

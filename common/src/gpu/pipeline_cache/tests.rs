@@ -1,0 +1,173 @@
+//! What is kept of a device, and what a GPU's compiler gains by it.
+
+use std::process::Command;
+use std::time::Instant;
+
+use ash::khr;
+
+use super::*;
+use crate::app::compile_for::manifest;
+use crate::gpu::blueprint::{Blueprint, Group, Stage};
+use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, load, shader};
+
+/// A device, and what it says of itself.
+fn gpu() -> (Gpu, vk::PhysicalDeviceProperties) {
+    let requirements = Requirements::ray_tracing();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap();
+    // SAFETY: the instance is alive.
+    let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical_device) };
+    (gpu, properties)
+}
+
+/// Opens the cache, closes it again, and tells how many bytes the driver was given.
+fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> usize {
+    let mut cache = PipelineCache::open_in(folder, most, &gpu.device, of);
+    assert_ne!(cache.handle, vk::PipelineCache::null());
+    cache.close(&gpu.device);
+    cache.known.len()
+}
+
+fn only_file(folder: &Path) -> PathBuf {
+    let files: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().path()).collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    files[0].clone()
+}
+
+#[test]
+fn a_second_start_has_what_the_first_has_left() {
+    let (gpu, properties) = gpu();
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path().join("made when there is something to keep");
+    assert_eq!(run(&folder, MOST, &gpu, &properties), 0);
+    let kept = run(&folder, MOST, &gpu, &properties);
+    assert!(kept >= 32, "{kept} bytes");
+    assert_eq!(fs::metadata(only_file(&folder)).unwrap().len(), kept as u64 + 8);
+}
+
+#[test]
+fn a_damaged_file_is_ignored_and_replaced() {
+    let (gpu, properties) = gpu();
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), MOST, &gpu, &properties);
+    let file = only_file(folder.path());
+    let good = fs::read(&file).unwrap();
+    let cut = good[..good.len() / 2].to_vec();
+    let mut flipped = good.clone();
+    flipped[20] ^= 1;
+    for damaged in [Vec::new(), vec![0; 40], cut, flipped] {
+        fs::write(&file, damaged).unwrap();
+        assert_eq!(run(folder.path(), MOST, &gpu, &properties), 0);
+        assert_eq!(fs::read(&file).unwrap(), good);
+    }
+}
+
+#[test]
+fn what_another_driver_has_left_is_not_shown_to_this_one() {
+    let (gpu, properties) = gpu();
+    let folder = tempfile::tempdir().unwrap();
+    // By the name of a driver that this one is not, the file holds what this one has left.
+    let mut other = properties;
+    other.pipeline_cache_uuid[0] ^= 1;
+    for _ in 0..2 {
+        assert_eq!(run(folder.path(), MOST, &gpu, &other), 0);
+        only_file(folder.path());
+    }
+}
+
+#[test]
+fn what_has_grown_too_large_is_begun_anew() {
+    let (gpu, properties) = gpu();
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), MOST, &gpu, &properties);
+    assert!(run(folder.path(), 16, &gpu, &properties) >= 32);
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+/// RADV compiles for a GPU that is not there: the second process finds what the first has made.
+#[test]
+fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = manifest().unwrap_or_else(|error| panic!("{error}: run ./setup"));
+    let milliseconds = || -> f64 {
+        let output = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "gpu::pipeline_cache::tests::make_a_pipeline_for_radv"])
+            .args(["--ignored", "--nocapture"])
+            .env("KEPT_IN", folder.path())
+            .env("RADV_FORCE_FAMILY", "navi31")
+            .env("VK_DRIVER_FILES", &manifest)
+            .env_remove("VK_ICD_FILENAMES")
+            // Mesa keeps what it has compiled, too: only what this project keeps shall count.
+            .env("MESA_SHADER_CACHE_DIR", folder.path().join("mesa"))
+            .output()
+            .unwrap();
+        let told = [output.stdout, output.stderr].map(|t| String::from_utf8_lossy(&t).into_owned());
+        let _ = fs::remove_dir_all(folder.path().join("mesa"));
+        let time = told[0].split("made in ").nth(1).and_then(|rest| rest.split(' ').next());
+        time.unwrap_or_else(|| panic!("{told:?}")).parse().unwrap()
+    };
+    let first = milliseconds();
+    let file = only_file(folder.path());
+    let kept = fs::metadata(&file).unwrap().len();
+    let second = milliseconds();
+    println!("{first:.1} ms, then {second:.1} ms with {kept} bytes");
+    assert!(second < first / 2.0, "{first} ms, then {second} ms with {kept} bytes");
+    let mut bytes = fs::read(&file).unwrap();
+    bytes[100] ^= 1;
+    fs::write(&file, bytes).unwrap();
+    let third = milliseconds();
+    assert!(second < third / 2.0, "{second} ms, then {third} ms with a damaged file");
+}
+
+#[test]
+#[ignore = "run by a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done"]
+fn make_a_pipeline_for_radv() {
+    let wanted = Requirements::ray_tracing().textures();
+    let entry = load().unwrap();
+    let (instance, _) = instance::create(&entry, None, None).unwrap();
+    let chosen = device::candidates(&instance, &wanted).unwrap().remove(0);
+    let device = device::create(&instance, &chosen, &wanted).unwrap();
+    // SAFETY: the device belongs to the live instance.
+    let properties = unsafe { instance.get_physical_device_properties(chosen.handle) };
+    let folder = std::env::var_os("KEPT_IN").unwrap();
+    let mut cache = PipelineCache::open_in(Path::new(&folder), MOST, &device, &properties);
+    let stages = ["camera.rgen", "sky.rmiss", "shade.rchit"].map(|file| {
+        let shader = shader::compile(&format!("26_leaving_a_surface/{file}")).unwrap();
+        Stage { path: shader.path, stage: shader.stage.as_raw(), words: shader.spirv }
+    });
+    let unused = vk::SHADER_UNUSED_KHR;
+    let general = |stage| Group {
+        kind: vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw(),
+        general: stage,
+        intersection: unused,
+        any_hit: unused,
+        closest_hit: unused,
+    };
+    let hit = Group {
+        kind: vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP.as_raw(),
+        general: unused,
+        closest_hit: 2,
+        ..general(unused)
+    };
+    let kinds = [vk::DescriptorType::ACCELERATION_STRUCTURE_KHR, vk::DescriptorType::STORAGE_IMAGE];
+    let blueprint = Blueprint {
+        name: "26".to_owned(),
+        stages: stages.into(),
+        groups: vec![general(0), general(1), hit],
+        bindings: kinds.map(|kind| kind.as_raw()).into(),
+        push_size: 128,
+        recursion: 1,
+        ..Blueprint::default()
+    };
+    let sets = [
+        blueprint.set_layout(&device).unwrap(),
+        crate::gpu::TextureTable::layout(&device, 1).unwrap(),
+    ];
+    let layout = blueprint.layout(&device, &sets).unwrap();
+    let ray_tracing = khr::ray_tracing_pipeline::Device::new(&instance, &device);
+    let start = Instant::now();
+    let none = vk::PipelineCreateFlags::empty();
+    blueprint.create(&device, &ray_tracing, layout, cache.handle, none, |_, _| {}).unwrap();
+    println!("made in {} ms", start.elapsed().as_secs_f64() * 1e3);
+    // The rest goes with the process: a null device has nothing to wait for.
+    cache.close(&device);
+}

@@ -1,0 +1,102 @@
+//! What lies below the layer: the next layer's or the driver's functions, for each instance and device.
+
+use std::collections::BTreeMap;
+use std::ffi::{CStr, c_void};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk::Handle;
+use ash::{khr, vk};
+
+/// An instance's functions below the layer.
+pub struct Instance {
+    /// Vulkan's own.
+    pub core: ash::Instance,
+    /// `VK_KHR_surface`; each function panics where the extension is not enabled.
+    pub surface: khr::surface::InstanceFn,
+    /// Where functions come from that the layer leaves alone.
+    pub get_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+}
+
+/// A device's functions below the layer.
+pub struct Device {
+    /// Vulkan's own.
+    pub core: ash::Device,
+    /// `VK_KHR_swapchain`; each function panics where the extension is not enabled.
+    pub swapchain: khr::swapchain::DeviceFn,
+    /// Where functions come from that the layer leaves alone.
+    pub get_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+    /// The device it was made from.
+    pub physical: vk::PhysicalDevice,
+}
+
+static INSTANCES: Mutex<BTreeMap<usize, Arc<Instance>>> = Mutex::new(BTreeMap::new());
+static DEVICES: Mutex<BTreeMap<usize, Arc<Device>>> = Mutex::new(BTreeMap::new());
+
+/// What the loader gives to an instance and its physical devices in common, and likewise to a device, its
+/// queues and its command buffers: the address of its own table, which their handles begin with.
+fn key(handle: impl Handle) -> usize {
+    // SAFETY: each of these handles points to an object that begins with that address.
+    unsafe { *(handle.as_raw() as *const usize) }
+}
+
+/// The functions below an instance or one of its physical devices.
+pub fn instance(handle: impl Handle) -> Arc<Instance> {
+    let instances = INSTANCES.lock().unwrap_or_else(PoisonError::into_inner);
+    instances.get(&key(handle)).expect("the instance was made through this layer").clone()
+}
+
+/// The functions below a device or one of its queues.
+pub fn device(handle: impl Handle) -> Arc<Device> {
+    let devices = DEVICES.lock().unwrap_or_else(PoisonError::into_inner);
+    devices.get(&key(handle)).expect("the device was made through this layer").clone()
+}
+
+/// Keeps the functions below a new instance.
+pub fn add_instance(handle: vk::Instance, get_proc_addr: vk::PFN_vkGetInstanceProcAddr) {
+    let load = |name: &CStr| {
+        // SAFETY: the instance is alive, and the name ends in a zero byte.
+        unsafe { address(get_proc_addr(handle, name.as_ptr())) }
+    };
+    let below = Instance {
+        // SAFETY: the instance is alive.
+        core: unsafe { ash::Instance::load_with(load, handle) },
+        surface: khr::surface::InstanceFn::load(load),
+        get_proc_addr,
+    };
+    INSTANCES.lock().unwrap_or_else(PoisonError::into_inner).insert(key(handle), Arc::new(below));
+}
+
+/// Keeps the functions below a new device.
+pub fn add_device(
+    physical: vk::PhysicalDevice,
+    handle: vk::Device,
+    get_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+) {
+    let load = |name: &CStr| {
+        // SAFETY: the device is alive, and the name ends in a zero byte.
+        unsafe { address(get_proc_addr(handle, name.as_ptr())) }
+    };
+    let below = Device {
+        // SAFETY: the device is alive.
+        core: unsafe { ash::Device::load_with(load, handle) },
+        swapchain: khr::swapchain::DeviceFn::load(load),
+        get_proc_addr,
+        physical,
+    };
+    DEVICES.lock().unwrap_or_else(PoisonError::into_inner).insert(key(handle), Arc::new(below));
+}
+
+/// Forgets an instance that is about to be destroyed, and returns what lies below it.
+pub fn remove_instance(handle: vk::Instance) -> Option<Arc<Instance>> {
+    INSTANCES.lock().unwrap_or_else(PoisonError::into_inner).remove(&key(handle))
+}
+
+/// Forgets a device that is about to be destroyed, and returns what lies below it.
+pub fn remove_device(handle: vk::Device) -> Option<Arc<Device>> {
+    DEVICES.lock().unwrap_or_else(PoisonError::into_inner).remove(&key(handle))
+}
+
+/// A function's address, null for none.
+pub fn address(function: vk::PFN_vkVoidFunction) -> *const c_void {
+    function.map_or(std::ptr::null(), |function| function as *const c_void)
+}

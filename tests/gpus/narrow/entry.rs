@@ -1,0 +1,188 @@
+//! Where the loader enters the layer, and the lists of the functions that the layer has of its own:
+//! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
+
+use std::ffi::{CStr, c_char, c_void};
+
+use ash::vk;
+
+use crate::{below, device, memory, physical, queues};
+
+/// `VkNegotiateLayerInterface`.
+#[repr(C)]
+pub struct Negotiation {
+    kind: u32,
+    next: *mut c_void,
+    version: u32,
+    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+    get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
+}
+
+/// Settles on version 2 of the interface, the present one.
+///
+/// # Safety
+/// `negotiation` can be written.
+#[unsafe(no_mangle)]
+#[allow(non_snake_case, reason = "the loader looks for this name")]
+pub unsafe extern "system" fn vkNegotiateLoaderLayerInterfaceVersion(
+    negotiation: *mut Negotiation,
+) -> vk::Result {
+    // SAFETY: the caller's promise.
+    let negotiation = unsafe { &mut *negotiation };
+    negotiation.version = 2;
+    negotiation.get_instance_proc_addr = get_instance_proc_addr;
+    negotiation.get_device_proc_addr = get_device_proc_addr;
+    negotiation.get_physical_device_proc_addr = None;
+    vk::Result::SUCCESS
+}
+
+/// The layer's function of this name, if it has one for instances and physical devices.
+fn instance_function(name: &str) -> Option<*const c_void> {
+    Some(match name {
+        "vkGetInstanceProcAddr" => get_instance_proc_addr as *const c_void,
+        "vkCreateInstance" => create_instance as *const c_void,
+        "vkDestroyInstance" => destroy_instance as *const c_void,
+        "vkCreateDevice" => device::create as *const c_void,
+        "vkEnumerateDeviceExtensionProperties" => physical::extensions as *const c_void,
+        "vkGetPhysicalDeviceProperties" => physical::properties as *const c_void,
+        "vkGetPhysicalDeviceProperties2" | "vkGetPhysicalDeviceProperties2KHR" => {
+            physical::properties2 as *const c_void
+        }
+        "vkGetPhysicalDeviceFeatures" => physical::features as *const c_void,
+        "vkGetPhysicalDeviceFeatures2" | "vkGetPhysicalDeviceFeatures2KHR" => {
+            physical::features2 as *const c_void
+        }
+        "vkGetPhysicalDeviceImageFormatProperties" => physical::image_format as *const c_void,
+        "vkGetPhysicalDeviceQueueFamilyProperties" => queues::families as *const c_void,
+        "vkGetPhysicalDeviceQueueFamilyProperties2"
+        | "vkGetPhysicalDeviceQueueFamilyProperties2KHR" => queues::families2 as *const c_void,
+        "vkGetPhysicalDeviceMemoryProperties" => memory::properties as *const c_void,
+        "vkGetPhysicalDeviceMemoryProperties2" | "vkGetPhysicalDeviceMemoryProperties2KHR" => {
+            memory::properties2 as *const c_void
+        }
+        "vkGetPhysicalDeviceSurfaceSupportKHR" => queues::surface_support as *const c_void,
+        "vkGetPhysicalDeviceSurfaceCapabilitiesKHR" => {
+            physical::surface_capabilities as *const c_void
+        }
+        _ => return device_function(name),
+    })
+}
+
+/// The layer's function of this name, if it has one for devices and what belongs to them.
+fn device_function(name: &str) -> Option<*const c_void> {
+    Some(match name {
+        "vkGetDeviceProcAddr" => get_device_proc_addr as *const c_void,
+        "vkDestroyDevice" => device::destroy as *const c_void,
+        "vkGetDeviceQueue" => queues::queue as *const c_void,
+        "vkGetDeviceQueue2" => queues::queue2 as *const c_void,
+        "vkCreateCommandPool" => queues::create_command_pool as *const c_void,
+        "vkQueueSubmit" => queues::submit as *const c_void,
+        "vkQueueSubmit2" | "vkQueueSubmit2KHR" => queues::submit2 as *const c_void,
+        "vkGetBufferMemoryRequirements" => memory::of_buffer as *const c_void,
+        "vkGetBufferMemoryRequirements2" | "vkGetBufferMemoryRequirements2KHR" => {
+            memory::of_buffer2 as *const c_void
+        }
+        "vkGetImageMemoryRequirements" => memory::of_image as *const c_void,
+        "vkGetImageMemoryRequirements2" | "vkGetImageMemoryRequirements2KHR" => {
+            memory::of_image2 as *const c_void
+        }
+        "vkAllocateMemory" => memory::allocate as *const c_void,
+        "vkFreeMemory" => memory::free as *const c_void,
+        "vkCreateSwapchainKHR" => device::create_swapchain as *const c_void,
+        _ => return None,
+    })
+}
+
+unsafe extern "system" fn get_instance_proc_addr(
+    instance: vk::Instance,
+    name: *const c_char,
+) -> vk::PFN_vkVoidFunction {
+    // SAFETY: names end in a zero byte, and the addresses are those of functions of Vulkan's convention.
+    unsafe {
+        let own = instance_function(CStr::from_ptr(name).to_str().unwrap_or_default());
+        match own {
+            Some(own) => std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(own),
+            None if instance == vk::Instance::null() => None,
+            None => (below::instance(instance).get_proc_addr)(instance, name),
+        }
+    }
+}
+
+unsafe extern "system" fn get_device_proc_addr(
+    device: vk::Device,
+    name: *const c_char,
+) -> vk::PFN_vkVoidFunction {
+    // SAFETY: as above.
+    unsafe {
+        let below = (below::device(device).get_proc_addr)(device, name);
+        let own = device_function(CStr::from_ptr(name).to_str().unwrap_or_default());
+        match (own, below) {
+            // A function of an extension that is not enabled is nobody's.
+            (Some(own), Some(_)) => {
+                std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(own)
+            }
+            _ => below,
+        }
+    }
+}
+
+/// `VkLayerInstanceCreateInfo`, as far as the layer reads it.
+#[repr(C)]
+struct InstanceLink {
+    kind: vk::StructureType,
+    next: *const c_void,
+    function: u32,
+    link: *mut NextInstance,
+}
+
+/// `VkLayerInstanceLink`.
+#[repr(C)]
+struct NextInstance {
+    next: *mut NextInstance,
+    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
+}
+
+/// `VK_LAYER_LINK_INFO`.
+pub const LINK: u32 = 0;
+
+unsafe extern "system" fn create_instance(
+    info: *const vk::InstanceCreateInfo,
+    allocator: *const vk::AllocationCallbacks,
+    instance: *mut vk::Instance,
+) -> vk::Result {
+    // SAFETY: the loader puts its structure, which may be written, in the chain of every layer.
+    unsafe {
+        let mut at = (*info).p_next.cast_mut().cast::<InstanceLink>();
+        while !at.is_null()
+            && ((*at).kind, (*at).function)
+                != (vk::StructureType::LOADER_INSTANCE_CREATE_INFO, LINK)
+        {
+            at = (*at).next.cast_mut().cast();
+        }
+        let Some(found) = at.as_mut() else { return vk::Result::ERROR_INITIALIZATION_FAILED };
+        let get_proc_addr = (*found.link).get_instance_proc_addr;
+        // The next layer finds its own link here.
+        found.link = (*found.link).next;
+        let create = get_proc_addr(vk::Instance::null(), c"vkCreateInstance".as_ptr());
+        let create =
+            std::mem::transmute::<vk::PFN_vkVoidFunction, vk::PFN_vkCreateInstance>(create);
+        let result = create(info, allocator, instance);
+        if result == vk::Result::SUCCESS {
+            below::add_instance(*instance, get_proc_addr);
+        }
+        result
+    }
+}
+
+unsafe extern "system" fn destroy_instance(
+    instance: vk::Instance,
+    allocator: *const vk::AllocationCallbacks,
+) {
+    if instance != vk::Instance::null()
+        && let Some(below) = below::remove_instance(instance)
+    {
+        // SAFETY: the caller destroys an instance of its own.
+        unsafe { (below.core.fp_v1_0().destroy_instance)(instance, allocator) };
+    }
+}

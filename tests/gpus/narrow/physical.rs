@@ -1,0 +1,146 @@
+//! What the device says of itself: its properties, features, extensions, and what a window offers.
+
+use std::ffi::{CStr, c_char, c_void};
+
+use ash::{khr, vk};
+
+use crate::{below, faults, features, limits};
+
+/// All that the samples ask for; what is not here, the device does not have.
+const EXTENSIONS: [&CStr; 5] = [
+    khr::acceleration_structure::NAME,
+    khr::deferred_host_operations::NAME,
+    khr::push_descriptor::NAME,
+    khr::ray_tracing_pipeline::NAME,
+    khr::swapchain::NAME,
+];
+
+/// # Safety
+/// As Vulkan's, here and below.
+pub unsafe extern "system" fn extensions(
+    physical: vk::PhysicalDevice,
+    layer: *const c_char,
+    count: *mut u32,
+    properties: *mut vk::ExtensionProperties,
+) -> vk::Result {
+    let below = below::instance(physical);
+    // SAFETY: the arguments are the caller's; `properties` is null or has room for `count`.
+    unsafe {
+        if !layer.is_null() {
+            let ask = below.core.fp_v1_0().enumerate_device_extension_properties;
+            return ask(physical, layer, count, properties);
+        }
+        let all = match below.core.enumerate_device_extension_properties(physical) {
+            Ok(all) => all,
+            Err(error) => return error,
+        };
+        let shown: Vec<_> = all
+            .into_iter()
+            .filter(|own| {
+                own.extension_name_as_c_str().is_ok_and(|name| EXTENSIONS.contains(&name))
+            })
+            .collect();
+        if properties.is_null() {
+            *count = shown.len() as u32;
+            return vk::Result::SUCCESS;
+        }
+        let is_all = *count as usize >= shown.len();
+        *count = (*count).min(shown.len() as u32);
+        properties.copy_from_nonoverlapping(shown.as_ptr(), *count as usize);
+        if is_all { vk::Result::SUCCESS } else { vk::Result::INCOMPLETE }
+    }
+}
+
+pub unsafe extern "system" fn properties(
+    physical: vk::PhysicalDevice,
+    properties: *mut vk::PhysicalDeviceProperties,
+) {
+    // SAFETY: as above.
+    unsafe {
+        let ask = below::instance(physical).core.fp_v1_0().get_physical_device_properties;
+        ask(physical, properties);
+        limits::core(&mut *properties);
+    }
+}
+
+pub unsafe extern "system" fn properties2(
+    physical: vk::PhysicalDevice,
+    properties: *mut vk::PhysicalDeviceProperties2,
+) {
+    // SAFETY: as above; a structure's type says what it is.
+    unsafe {
+        let ask = below::instance(physical).core.fp_v1_1().get_physical_device_properties2;
+        ask(physical, properties);
+        limits::core(&mut (*properties).properties);
+        each((*properties).p_next, |link| limits::narrow(link));
+    }
+}
+
+pub unsafe extern "system" fn features(
+    _: vk::PhysicalDevice,
+    features: *mut vk::PhysicalDeviceFeatures,
+) {
+    // SAFETY: as above.
+    unsafe { *features = features::core() };
+}
+
+pub unsafe extern "system" fn features2(
+    physical: vk::PhysicalDevice,
+    features: *mut vk::PhysicalDeviceFeatures2,
+) {
+    // SAFETY: as above.
+    unsafe {
+        let ask = below::instance(physical).core.fp_v1_1().get_physical_device_features2;
+        ask(physical, features);
+        (*features).features = features::core();
+        each((*features).p_next, |link| features::narrow(link));
+    }
+}
+
+/// Calls `f` with every structure of a chain.
+unsafe fn each(chain: *mut c_void, f: impl Fn(*mut vk::BaseOutStructure)) {
+    let mut at = chain.cast::<vk::BaseOutStructure>();
+    while !at.is_null() {
+        f(at);
+        // SAFETY: the chain is the caller's, and ends in null.
+        at = unsafe { (*at).p_next };
+    }
+}
+
+pub unsafe extern "system" fn image_format(
+    physical: vk::PhysicalDevice,
+    format: vk::Format,
+    kind: vk::ImageType,
+    tiling: vk::ImageTiling,
+    usage: vk::ImageUsageFlags,
+    flags: vk::ImageCreateFlags,
+    properties: *mut vk::ImageFormatProperties,
+) -> vk::Result {
+    // SAFETY: as above.
+    unsafe {
+        let ask =
+            below::instance(physical).core.fp_v1_0().get_physical_device_image_format_properties;
+        let result = ask(physical, format, kind, tiling, usage, flags, properties);
+        let most = &mut (*properties).max_extent;
+        most.width = most.width.min(limits::IMAGE_SIDE);
+        most.height = most.height.min(limits::IMAGE_SIDE);
+        result
+    }
+}
+
+pub unsafe extern "system" fn surface_capabilities(
+    physical: vk::PhysicalDevice,
+    surface: vk::SurfaceKHR,
+    capabilities: *mut vk::SurfaceCapabilitiesKHR,
+) -> vk::Result {
+    // SAFETY: as above.
+    unsafe {
+        let ask = below::instance(physical).surface.get_physical_device_surface_capabilities_khr;
+        let result = ask(physical, surface, capabilities);
+        // Drawing to it is all that the specification promises.
+        if faults::has("no-transfer-dst") {
+            (*capabilities).supported_usage_flags = vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        }
+        result
+    }
+}

@@ -1,0 +1,346 @@
+//! Every sample on the narrowest device that Vulkan allows: a layer hides what need not be there.
+
+use std::process::Output;
+
+use common::gpu::{ADDRESS_ALIGNMENT, Buffer, Gpu, GpuOptions, Requirements, device_lines};
+use common::scene::input_usage;
+use run::narrow::Narrow;
+
+use ash::vk;
+
+// ANCHOR: unsuitable
+/// The samples for which the narrowest device will not do, and the limits that they ask for.
+const UNSUITABLE: [(&str, &str); 1] = [
+    // Its picture shows how far a rung is off from error-free sums, which need their rounding declared.
+    ("24_accuracy", "lacks shaderRoundingModeRTEFloat32, shaderSignedZeroInfNanPreserveFloat32"),
+];
+// ANCHOR_END: unsuitable
+
+// ANCHOR: refused
+/// What a suitable sample can be asked for that the narrowest device refuses: the arguments, the limit, and
+/// words of the line that says so.
+const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
+    (
+        "06_reflection",
+        ["--set", "method=recursive"],
+        "maxRayRecursionDepth 1",
+        "needs a recursion depth of 2",
+    ),
+    (
+        "25_scene_effects",
+        ["--set", "measure costs=on"],
+        "timestampValidBits 0",
+        "whose queue has no timestamps",
+    ),
+    ("02_basic", ["--size", "5000x4"], "maxImageDimension2D 4096", "at most 4096 a side"),
+];
+// ANCHOR_END: refused
+
+// ANCHOR: features
+/// The features without which no device is suitable, and the samples that do without.
+const FEATURES: [(&str, &[&str]); 8] = [
+    ("accelerationStructure", &[]),
+    ("rayTracingPipeline", &[]),
+    ("bufferDeviceAddress", &[]),
+    ("synchronization2", &[]),
+    ("scalarBlockLayout", &["01_foundation"]),
+    ("runtimeDescriptorArray", &["01_foundation", "24_accuracy"]),
+    ("shaderSampledImageArrayNonUniformIndexing", &["01_foundation", "24_accuracy"]),
+    ("descriptorBindingSampledImageUpdateAfterBind", &["01_foundation", "24_accuracy"]),
+];
+// ANCHOR_END: features
+
+/// What else a sample makes of a device than with its own settings: other stages, larger tables, more memory.
+const ALSO: [(&str, &[&str]); 9] = [
+    ("03_any_hit", &["--set", "mode=all hits"]),
+    ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
+    ("04_jitter_camera", &["--frames", "3"]),
+    ("07_multi_closest_hit", &["--set", "scale=2"]),
+    ("08_intersection", &["--set", "sphere rung=host c"]),
+    ("21_heightfield", &["--set", "rung=relaxed"]),
+    ("22_solids", &["--set", "show=normal"]),
+    ("25_scene_effects", &["--set", "scene=everything", "--set", "pipeline=everything"]),
+    ("25_scene_effects", &["--set", "scene=lake"]),
+];
+
+/// All chapters, 01 too.
+fn samples() -> Vec<String> {
+    std::iter::once("01_foundation".to_owned()).chain(crate::chapters()).collect()
+}
+
+/// Standard output of a run that succeeded in silence, and so without a validation message.
+#[track_caller]
+fn quiet(what: &str, output: Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && errors.is_empty(), "{what}: {errors:.2000}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The report of a small headless run.
+#[track_caller]
+fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value {
+    let mut command = narrow.command(sample);
+    command.args(["--headless", "--validate", "--report", "-"]).args(arguments);
+    if !arguments.contains(&"--size") {
+        command.args(["--size", "24x16"]);
+    }
+    let report = quiet(sample, command.output().expect("the sample starts"));
+    let report: serde_json::Value = serde_json::from_str(&report).expect("the report is JSON");
+    assert!(report["device"].as_str().unwrap().starts_with("narrow "), "{sample}: {report}");
+    report
+}
+
+#[test]
+fn every_sample_runs_on_the_narrowest_device() {
+    let narrow = Narrow::new("");
+    for sample in samples() {
+        if let Some((_, lacks)) = UNSUITABLE.iter().find(|(name, _)| *name == sample) {
+            let mut command = narrow.command(&sample);
+            let (code, line) = run::refusal(command.arg("--headless").output().expect("it starts"));
+            assert_eq!(code, 1);
+            assert!(line.contains("no device can run this: 0: narrow "), "{line}");
+            assert!(line.contains(lacks), "{line}");
+            continue;
+        }
+        let report = runs(&narrow, &sample, &[]);
+        // There are no timestamps: the host's clock serves.
+        assert!(report["gpu_milliseconds"]["median"].as_f64().unwrap() > 0.0, "{sample}");
+        let mut list = narrow.command(&sample);
+        let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
+        assert!(list.trim_end().ends_with(": suitable"), "{sample}: {list}");
+    }
+}
+
+#[test]
+fn whatever_else_a_sample_shows_runs_there_too() {
+    let narrow = Narrow::new("");
+    for (sample, settings) in ALSO {
+        runs(&narrow, sample, settings);
+    }
+}
+
+#[test]
+fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
+    let narrow = Narrow::new("");
+    for (sample, arguments, limit, words) in REFUSED {
+        let mut command = narrow.command(sample);
+        command.args(["--headless", "--validate"]).args(arguments);
+        let (_, line) = run::refusal(command.output().expect("the sample starts"));
+        assert!(line.contains(words), "{sample}, {limit}: {line}");
+    }
+}
+
+#[test]
+fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
+    for (feature, without) in FEATURES {
+        let narrow = Narrow::new(&format!("without={feature}"));
+        for sample in samples() {
+            let mut list = narrow.command(&sample);
+            let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
+            let lacks = list.contains(&format!(": lacks feature {feature}"));
+            assert_eq!(!lacks, without.contains(&sample.as_str()), "{sample}: {list}");
+        }
+    }
+}
+
+/// The laboratory needs no more than the others, and says of a rung what it lacks.
+#[test]
+fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
+    let narrow = Narrow::new("");
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = narrow.command("24_accuracy");
+    command.args(["--headless", "--validate", "--only", "sphere", "--rays", "8", "--rounds", "1"]);
+    let output = command.arg("--measure").arg(folder.path()).output().expect("it starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    assert!(!errors.contains("validation"), "{errors}");
+    let measured = std::fs::read_to_string(folder.path().join("accuracy.json")).unwrap();
+    assert!(measured.contains("does not offer shaderRoundingModeRTEFloat32"), "{measured:.1000}");
+}
+
+#[test]
+fn a_card_without_graphics_traces_without_a_window() {
+    let narrow = Narrow::new("compute-only");
+    for sample in ["01_foundation", "02_basic"] {
+        runs(&narrow, sample, &[]);
+    }
+}
+
+/// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and
+/// in the device where the host can map it.
+#[track_caller]
+fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("told");
+    runs(&Narrow::new(&format!("{faults},tell={}", file.display())), sample, arguments);
+    let told = std::fs::read_to_string(&file).expect("the layer tells");
+    let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
+    numbers.try_into().expect("four numbers")
+}
+
+/// A picture of one row is one band, and a band is one submission. What a camera that moves brings to the
+/// device goes with it: nothing else is submitted and waited for.
+#[test]
+fn a_frame_from_elsewhere_is_one_submission() {
+    let moving =
+        ["--compare", "camera eye=-5.6,2.7,8.2|-5.5,2.7,8.2", "--size", "24x1", "--frames"];
+    let mut samples: Vec<_> = crate::chapters().into_iter().map(|name| (name, vec![])).collect();
+    samples.retain(|(name, _)| name != "24_accuracy");
+    // There the host computes a number for each sphere, by where the eye is.
+    samples.push(("08_intersection".to_owned(), vec!["--set", "sphere rung=host c"]));
+    for (sample, settings) in samples {
+        let submissions = |frames: &str| {
+            let arguments = [&moving[..], &[frames], &settings[..]].concat();
+            counted("", &sample, &arguments)[0]
+        };
+        // Each value is shown so many times, and the first of them once more in every turn.
+        let more = submissions("3") - submissions("1");
+        assert_eq!(more, 2 * 3, "{sample} submits more often than it draws");
+    }
+}
+
+/// 01 has vertices, instances and a table that the host writes, and the picture that it reads.
+#[test]
+fn the_foundation_s_uploads_lie_in_the_device_where_the_host_can_write_there() {
+    let [_, device, host, both] = counted("", "01_foundation", &[]);
+    assert_eq!([host, both], [4, 0], "memory of the host must do");
+    let [_, same, host, both] = counted("bar", "01_foundation", &[]);
+    assert_eq!([host, both], [1, 3], "only the picture is read by the host");
+    assert_eq!(device, same);
+}
+
+#[test]
+fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
+    let refused = |faults: &str, size: &str, words: [&str; 2]| {
+        let narrow = Narrow::new(faults);
+        let mut command = narrow.command("03_any_hit");
+        let mode = ["--set", "mode=all hits"];
+        let output = command.args(["--headless", "--validate", "--size", size]).args(mode).output();
+        let (code, line) = run::refusal(output.expect("the sample starts"));
+        assert_eq!(code, 1);
+        assert!(words.iter().all(|word| line.contains(word)), "{line}");
+    };
+    // By maxBufferSize and maxMemoryAllocationSize, 2^30 bytes.
+    let words =
+        ["a list of all hits takes 384 bytes a pixel", "room for 2796202 pixels, not for 3000000"];
+    refused("", "3000x1000", words);
+    // By the memory that there is.
+    refused("heap=268435456", "1000x700", [words[0], "room for 699050 pixels, not for 700000"]);
+}
+
+/// Of textures in a table that is written before it is bound, a device may take no more than 16.
+#[test]
+fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
+    const TEXTURES: usize = 40;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (mut model, mut materials) = ("mtllib a.mtl\n".to_owned(), String::new());
+    for i in 0..TEXTURES {
+        let (x, next) = (i as f32 / 10.0, 3 * i + 1);
+        model += &format!("v {x} 0 0\nv {x} 1 0\nv {} 0 0\nvt 0 0\nvt 0 1\nvt 1 0\n", x + 0.1);
+        let corner = |k: usize| format!("{0}/{0}", next + k);
+        model += &format!("usemtl m{i}\nf {} {} {}\n", corner(0), corner(1), corner(2));
+        materials += &format!("newmtl m{i}\nmap_Kd {i}.png\n");
+        let color = image::Rgb([255 - i as u8, i as u8, 0]);
+        image::RgbImage::from_pixel(1, 1, color)
+            .save(folder.path().join(format!("{i}.png")))
+            .unwrap();
+    }
+    std::fs::write(folder.path().join("a.obj"), model).unwrap();
+    std::fs::write(folder.path().join("a.mtl"), materials).unwrap();
+    let model = folder.path().join("a.obj");
+    runs(&Narrow::new(""), "02_basic", &["--scene", model.to_str().expect("a plain path")]);
+}
+
+/// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
+/// is run again in a child with `--ignored`.
+fn in_child(test: &str, faults: &str) {
+    let narrow = Narrow::new(faults);
+    let this = std::env::current_exe().expect("a running program has a file");
+    let name = format!("narrowest::{test}");
+    let output = std::process::Command::new(this)
+        .args(["--exact", &name, "--ignored", "--nocapture"])
+        .envs(narrow.environment())
+        .output()
+        .expect("it starts");
+    let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success() && told.contains("1 passed"), "{told:.3000}{errors:.3000}");
+}
+
+#[test]
+fn validation_holds_programs_to_the_narrow_limits() {
+    in_child("violate_the_narrow_limits", "");
+}
+
+#[test]
+#[ignore = "run by validation_holds_programs_to_the_narrow_limits"]
+fn violate_the_narrow_limits() {
+    let requirements = Requirements::ray_tracing();
+    let options = GpuOptions { requirements, validate: true, ..GpuOptions::default() };
+    let gpu = Gpu::new(&options).expect("a device");
+    assert_eq!(gpu.validation().all(), [""; 0]);
+    assert_eq!((gpu.limits.max_ray_recursion_depth, gpu.limits.has_timestamps()), (1, false));
+    let device = &gpu.device;
+    let stage = vk::ShaderStageFlags::RAYGEN_KHR;
+    let said = |id: &str| gpu.validation().all().iter().any(|message| message.contains(id));
+    // SAFETY: the device below offers all of this, and what is made is destroyed.
+    unsafe {
+        let ranges = [vk::PushConstantRange::default().stage_flags(stage).size(132)];
+        let info = vk::PipelineLayoutCreateInfo::default().push_constant_ranges(&ranges);
+        let layout = device.create_pipeline_layout(&info, None).expect("a layout");
+        device.destroy_pipeline_layout(layout, None);
+        assert!(said("VUID-VkPushConstantRange-size-00298"), "{:?}", gpu.validation().all());
+
+        let slots = [vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_count(17)
+            .stage_flags(vk::ShaderStageFlags::ALL)];
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&slots);
+        let set = device.create_descriptor_set_layout(&info, None).expect("a set layout");
+        let sets = [set];
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+        let layout = device.create_pipeline_layout(&info, None).expect("a layout");
+        device.destroy_pipeline_layout(layout, None);
+        device.destroy_descriptor_set_layout(set, None);
+        let id = "VUID-VkPipelineLayoutCreateInfo-descriptorType-03016";
+        assert!(said(id), "{:?}", gpu.validation().all());
+    }
+}
+
+#[test]
+fn a_limit_that_is_too_low_refuses_a_device_when_devices_are_chosen() {
+    in_child("ask_for_more_than_is_promised", "");
+}
+
+#[test]
+#[ignore = "run by a_limit_that_is_too_low_refuses_a_device_when_devices_are_chosen"]
+fn ask_for_more_than_is_promised() {
+    let line = |wanted: Requirements| device_lines(&wanted).expect("a device").remove(0);
+    let promised = line(Requirements::ray_tracing());
+    assert!(promised.ends_with(": suitable"), "{promised}");
+    let more = line(Requirements::ray_tracing().recursion(2).push_constants(144));
+    let lacks = ": lacks maxRayRecursionDepth 2 (it has 1), maxPushConstantsSize 144 (it has 128)";
+    assert!(more.ends_with(lacks), "{more}");
+}
+
+/// Shaders promise alignments of addresses, and builds ask for some, that a driver gives no buffer by itself.
+#[test]
+fn addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it() {
+    in_child("address_buffers_of_odd_sizes", "loose-buffers");
+}
+
+#[test]
+#[ignore = "run by addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it"]
+fn address_buffers_of_odd_sizes() {
+    let requirements = Requirements::ray_tracing();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
+    let buffers: Vec<_> = [4u32, 12, 20, 8, 36, 4]
+        .map(|bytes| {
+            let data = vec![0u8; bytes as usize];
+            Buffer::with_data(&gpu, "odd", &data, input_usage()).expect("a buffer")
+        })
+        .into();
+    for buffer in &buffers {
+        let (address, size) = (buffer.address, buffer.size);
+        assert_eq!(address % ADDRESS_ALIGNMENT, 0, "{size} bytes at {address:#x}");
+    }
+}
