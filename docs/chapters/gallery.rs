@@ -7,16 +7,19 @@ const COLUMNS: usize = 3;
 
 /// Pages beside the chapters, with their titles: the first before them, the others after.
 const BEFORE: (&str, &str) = ("reading.md", "How to read this book");
-const AFTER: [(&str, &str); 4] = [
+const AFTER: &[(&str, &str)] = &[
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
+    ("arithmetic.md", "The worst arithmetic that conforms"),
     ("needs.md", "What a device must offer"),
     ("wrong-pictures.md", "When the picture is wrong"),
     ("devices.md", "What was tested"),
 ];
 
-/// The pages of the book that are no chapter's.
-pub const OTHER_PAGES: [&str; 5] = [BEFORE.0, AFTER[0].0, AFTER[1].0, AFTER[2].0, AFTER[3].0];
+/// Whether a page of the book is no chapter's.
+pub fn is_other_page(file: &str) -> bool {
+    file == BEFORE.0 || AFTER.iter().any(|(name, _)| file == *name)
+}
 
 /// A table of pictures, each with its chapter's title and what that teaches, all leading to the page.
 pub fn table(project: &Project, page: &str) -> String {
@@ -60,7 +63,8 @@ pub fn summary(project: &Project) -> String {
     for chapter in &project.chapters {
         text.push_str(&format!("- [{}]({}.md)\n", chapter.heading(), chapter.name));
     }
-    let after: Vec<String> = AFTER.map(other).into_iter().filter(|line| !line.is_empty()).collect();
+    let after: Vec<String> =
+        AFTER.iter().copied().map(other).filter(|line| !line.is_empty()).collect();
     if !after.is_empty() {
         text.push_str(&format!("\n{}", after.join("\n")));
     }

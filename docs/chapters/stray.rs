@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::card;
 use crate::fault::Fault;
-use crate::gallery::OTHER_PAGES;
+use crate::gallery::is_other_page;
 use crate::project::{Project, SUMMARY};
 use crate::shader;
 
@@ -39,7 +39,7 @@ fn why(
         }
         "md" if folder == "docs" => {
             let page = project.chapters.iter().any(|chapter| chapter.page() == file);
-            (page || file == SUMMARY || OTHER_PAGES.contains(&name), "it is no chapter's page")
+            (page || file == SUMMARY || is_other_page(name), "it is no chapter's page")
         }
         "png" | "svg" if folder == "docs/images" => (linked.contains(file), "no page shows it"),
         "png" if folder == "tests/golden" => {
