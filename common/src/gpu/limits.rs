@@ -4,7 +4,10 @@ use ash::{Instance, vk};
 use serde::{Deserialize, Serialize};
 
 /// Properties of the device that decide sizes, alignments and depths.
+///
+/// As text, a limit that an older program did not know of may be left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Limits {
     /// The version of Vulkan that the device has: major, minor, patch.
     pub vulkan: [u32; 3],
