@@ -30,6 +30,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         device: args.device.as_deref(),
         validate: args.validate,
         window: None,
+        arithmetic: args.arithmetic,
     })?;
     check_size(&gpu, args.size)?;
     let setup = Setup::new(args);
@@ -110,6 +111,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             sample: name.to_owned(),
             device: gpu.name.clone(),
             driver: gpu.driver.clone(),
+            arithmetic: gpu.arithmetic.to_string(),
             width: args.size.width,
             height: args.size.height,
             frames: args.frames,

@@ -19,6 +19,8 @@ pub struct Report {
     pub device: String,
     /// Its driver, in its maker's words.
     pub driver: String,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
     /// Pixels a row.
     pub width: u32,
     /// Rows.
