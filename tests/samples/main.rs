@@ -15,3 +15,4 @@ mod reflection;
 mod settings;
 mod shadow_miss;
 mod solids;
+mod worst;
