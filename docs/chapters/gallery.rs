@@ -7,14 +7,15 @@ const COLUMNS: usize = 3;
 
 /// Pages beside the chapters, with their titles: the first before them, the others after.
 const BEFORE: (&str, &str) = ("reading.md", "How to read this book");
-const AFTER: [(&str, &str); 3] = [
+const AFTER: [(&str, &str); 4] = [
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
+    ("arithmetic.md", "The worst arithmetic that conforms"),
     ("wrong-pictures.md", "When the picture is wrong"),
 ];
 
 /// The pages of the book that are no chapter's.
-pub const OTHER_PAGES: [&str; 4] = [BEFORE.0, AFTER[0].0, AFTER[1].0, AFTER[2].0];
+pub const OTHER_PAGES: [&str; 5] = [BEFORE.0, AFTER[0].0, AFTER[1].0, AFTER[2].0, AFTER[3].0];
 
 /// A table of pictures, each with its chapter's title and what that teaches, all leading to the page.
 pub fn table(project: &Project, page: &str) -> String {
