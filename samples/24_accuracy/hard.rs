@@ -27,6 +27,8 @@ struct Findings {
     file: String,
     device: String,
     driver: String,
+    /// How the shaders computed: the value of `--arithmetic`.
+    arithmetic: String,
     /// Whether `fma()` rounds once here.
     fused: bool,
     cases: usize,
@@ -83,17 +85,18 @@ fn name(way: Way) -> &'static str {
     }
 }
 
-/// Runs every case of the file and writes what was found to `report`.
+/// Runs every case of the file through all rungs, or those that must be right, and writes what was found to `report`.
 ///
 /// # Errors
 /// If the file is wrong, the device fails, a top rung is wrong, or a case was left out.
-pub fn run(gpu: &Gpu, path: &Path, report: Option<&Path>) -> Result<()> {
+pub fn run(gpu: &Gpu, path: &Path, tops: bool, report: Option<&Path>) -> Result<()> {
     let cases = cases::read(path)?;
     let probe = Probe::new(gpu)?;
     let mut findings = Findings {
         file: path.display().to_string(),
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
+        arithmetic: gpu.arithmetic.to_string(),
         fused: probe.fused,
         cases: cases.len(),
         skipped: 0,
@@ -114,7 +117,7 @@ pub fn run(gpu: &Gpu, path: &Path, report: Option<&Path>) -> Result<()> {
         let shapes: Vec<Shape> = own.iter().map(|case| case.shape.clone()).collect();
         let asked: Vec<_> = own.iter().enumerate().map(|(i, case)| (i, case.ray)).collect();
         let batch = Batch::new(gpu, &shapes, &asked, primitive.is_traced())?;
-        for rung in primitive.ladder() {
+        for rung in primitive.ladder().iter().filter(|rung| !tops || rung.is_held(gpu)) {
             for way in [Way::Direct, Way::Traced] {
                 progress.step();
                 let has_way = match way {
@@ -158,7 +161,7 @@ impl Findings {
             rung: rung.label,
             name: rung.name,
             way: name(way),
-            top: rung.is_top,
+            top: rung.is_held(gpu),
             unavailable: rung.unavailable(gpu),
             cases: cases.len(),
             run: 0,
@@ -177,8 +180,8 @@ impl Findings {
                 let Case { shape, ray, expected, tolerance, .. } = case;
                 let judgement = judge(shape, ray, expected, tolerance, way, answer);
                 row.add(&judgement);
-                let is_held =
-                    rung.is_top && (way == Way::Direct || ray.origin.abs().max_element() <= RANGE);
+                let is_held = rung.is_held(gpu)
+                    && (way == Way::Direct || ray.origin.abs().max_element() <= RANGE);
                 if is_held && judgement.verdict != Verdict::Right {
                     self.failures.push(format!(
                         "{} {} {}: {:?} {}",
@@ -212,7 +215,8 @@ impl Findings {
     }
 
     fn table(&self) -> String {
-        let mut text = format!("{} · {} · {} cases\n\n", self.device, self.driver, self.cases);
+        let Self { device, driver, arithmetic, cases, .. } = self;
+        let mut text = format!("{device} · {driver} · {cases} cases · arithmetic {arithmetic}\n\n");
         text += "| primitive | rung | way | run | right | inexact | false hits | false misses \
                  | never offered | worst t, ULP |\n|---|---|---|---|---|---|---|---|---|---|\n";
         for row in &self.rungs {

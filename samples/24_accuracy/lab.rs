@@ -21,6 +21,10 @@ pub struct Lab {
     #[arg(long, value_name = "FILE.json", conflicts_with = "measure")]
     cases: Option<PathBuf>,
 
+    /// With --cases: only the rungs that must be right
+    #[arg(long, requires = "cases")]
+    tops: bool,
+
     /// Measure errors and time of every rung on seeded random rays, and ask a GPU's compiler about each;
     /// write accuracy.md, .json, plots as .svg and .png to a folder
     #[arg(long, value_name = "FOLDER")]
@@ -83,10 +87,11 @@ impl Lab {
             device: args.device.as_deref(),
             validate: args.validate,
             window: None,
+            arithmetic: args.arithmetic,
         })?;
         let validation = gpu.validation();
         if let Some(cases) = &self.cases {
-            hard::run(&gpu, cases, args.report.as_deref())?;
+            hard::run(&gpu, cases, self.tops, args.report.as_deref())?;
         }
         if let Some(folder) = &self.measure {
             self.measure(&gpu, folder)?;

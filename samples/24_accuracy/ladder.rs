@@ -113,6 +113,11 @@ impl Rung {
     pub fn unavailable(&self, gpu: &Gpu) -> Option<String> {
         self.code.unavailable(gpu)
     }
+
+    /// Whether every hard case must be right here: in the worst arithmetic, 64 bits are worth 32.
+    pub fn is_held(&self, gpu: &Gpu) -> bool {
+        self.is_top && !(self.code == Code::Float64 && gpu.arithmetic.is_worst())
+    }
 }
 
 const fn rung(label: &'static str, name: &'static str, constant: u32) -> Rung {
@@ -188,7 +193,7 @@ static SECONDARY_ORIGIN: [Rung; 6] = [
     rung("O2", "normal", 2),
     rung("O3", "integers", 3),
     rung("O4", "reprojected", 4),
-    top(rung("O5", "bound", 5)),
+    top(exact("O5", "bound", 5)),
 ];
 
 static ACCUMULATION: [Rung; 4] = [

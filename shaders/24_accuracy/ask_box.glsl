@@ -16,12 +16,14 @@ Answer ask_box(uint rung, Query query, Numbers numbers) {
     vec3 low = vector_at(numbers, query.first);
     vec3 high = vector_at(numbers, query.first + 3);
     Answer answer = NO_HIT;
+#ifdef EXACT
     if (rung == BOX_TWO_FLOAT) {
         bool met = box_two_float(query.origin, query.direction, query.tmin, query.tmax, low, high,
             answer.t, answer.normal);
         answer.hit = met ? 1 : 0;
         return answer;
     }
+#endif
     vec2 t;
     vec3 faces[2];
     bool enters;

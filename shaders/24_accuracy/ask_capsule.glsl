@@ -8,12 +8,14 @@ Answer ask_capsule(uint rung, Query query, Numbers numbers) {
     vec3 b = vector_at(numbers, query.first + 3);
     float radius = numbers.at[query.first + 6];
     Answer answer = NO_HIT;
+#ifdef EXACT
     if (rung == CAPSULE_TWO_FLOAT) {
         bool met = capsule_two_float(query.origin, query.direction, query.tmin, query.tmax,
             a, b, radius, answer.t, answer.normal);
         answer.hit = met ? 1 : 0;
         return answer;
     }
+#endif
     precise vec3 f = query.origin - a;
     precise vec3 axis = b - a;
     vec2 t;

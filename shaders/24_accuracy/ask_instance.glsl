@@ -33,6 +33,7 @@ Answer ask_instance(uint rung, Query query, Numbers numbers) {
     vec3 translation = last_column_at(numbers, query.first);
     mat3 inverse = matrix_at(numbers, linear_inverse, 3);
     Answer answer = NO_HIT;
+#ifdef EXACT
     if (rung == INSTANCE_TWO_FLOAT) {
         TwoFloatRows rows = TwoFloatRows(
             row_at(numbers, linear_inverse),
@@ -43,6 +44,7 @@ Answer ask_instance(uint rung, Query query, Numbers numbers) {
         answer.hit = met ? 1 : 0;
         return answer;
     }
+#endif
     vec3 origin;
     if (rung == INSTANCE_MATRIX) {
         mat3 part = matrix_at(numbers, whole_inverse, 4);

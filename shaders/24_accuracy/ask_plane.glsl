@@ -13,12 +13,14 @@ Plane plane_at(Numbers numbers, uint first) {
 Answer ask_plane(uint rung, Query query, Numbers numbers) {
     Plane plane = plane_at(numbers, query.first);
     Answer answer = NO_HIT;
+#ifdef EXACT
     if (rung == PLANE_TWO_FLOAT) {
         bool met = plane_two_float(plane, query.origin, query.direction, query.tmin, query.tmax,
             answer.t, answer.normal);
         answer.hit = met ? 1 : 0;
         return answer;
     }
+#endif
     float t;
     if (plane_by(rung, plane, query.origin, query.direction, t)
         && t > query.tmin && t <= query.tmax) {

@@ -5,6 +5,18 @@
 #include "origin_sphere.glsl"
 #include "common/sphere.glsl"
 
+// o + t·d, rounded once. Far from the eye, the product's rounding alone would be as long as many steps up.
+vec3 point_compensated(vec3 o, float t, vec3 d) {
+    vec3 point;
+    for (int i = 0; i < 3; i++) {
+        vec2 product = two_product(t, d[i]);
+        vec2 sum = two_sum(o[i], product.x);
+        precise float coordinate = sum.x + (sum.y + product.y);
+        point[i] = coordinate;
+    }
+    return point;
+}
+
 Answer ask_secondary_origin(uint rung, Query query, Numbers numbers) {
     uint first = query.first;
     bool is_self = numbers.at[first] == 0.0;
@@ -23,7 +35,11 @@ Answer ask_secondary_origin(uint rung, Query query, Numbers numbers) {
         if (!sphere_stable(f, query.direction, from.radius, t) || !first_root(t, query, enters)) {
             return answer;
         }
-        precise vec3 position = query.origin + (enters ? t.x : t.y) * query.direction;
+        float first_t = enters ? t.x : t.y;
+        precise vec3 position = query.origin + first_t * query.direction;
+        if (rung == ORIGIN_BOUND) {
+            position = point_compensated(query.origin, first_t, query.direction);
+        }
         from.position = position;
         from.normal = unit(position - from.center);
     }

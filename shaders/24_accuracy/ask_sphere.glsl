@@ -18,12 +18,14 @@ Answer ask_sphere(uint rung, Query query, Numbers numbers) {
     vec3 center = vector_at(numbers, query.first);
     float radius = numbers.at[query.first + 3];
     Answer answer = NO_HIT;
+#ifdef EXACT
     if (rung == SPHERE_TWO_FLOAT) {
         bool met = sphere_two_float(query.origin, query.direction, query.tmin, query.tmax,
             center, radius, answer.t, answer.normal);
         answer.hit = met ? 1 : 0;
         return answer;
     }
+#endif
     precise vec3 f = query.origin - center;
     vec2 t;
     bool enters;

@@ -11,6 +11,7 @@ Answer ask_triangle(uint rung, Query query, Numbers numbers) {
         vec3 c = vector_at(numbers, first + 6);
         float t;
         vec3 normal;
+#ifdef EXACT
         if (rung == TRIANGLE_TWO_FLOAT) {
             if (triangle_two_float(
                     a, b, c, query.origin, query.direction, query.tmin, answer.t, t, normal)) {
@@ -20,6 +21,7 @@ Answer ask_triangle(uint rung, Query query, Numbers numbers) {
             }
             continue;
         }
+#endif
         bool met = rung == TRIANGLE_MOELLER
             ? triangle_moeller(a, b, c, query.origin, query.direction, t)
             : triangle_woop(a, b, c, query.origin, query.direction, t);

@@ -5,6 +5,7 @@ mod bars;
 mod compiled;
 mod files;
 mod view;
+mod worst;
 
 use std::process::Output;
 
@@ -62,6 +63,6 @@ fn every_top_rung_is_right_on_every_hard_case() {
     for rung in ["S0", "B0", "P0", "C0", "I0", "H0", "O0", "A0"] {
         assert!(wrong(rung) > 0, "{rung} fails nothing");
     }
-    // H3 and O5 both ways, A3 one: what every device has.
-    assert!(tops >= 5, "only {tops} top rungs, direct and traced");
+    // H3 both ways, A3 one: what every device has.
+    assert!(tops >= 3, "only {tops} top rungs, direct and traced");
 }

@@ -16,3 +16,4 @@ mod settings;
 mod shadow_miss;
 mod slivers;
 mod solids;
+mod worst;

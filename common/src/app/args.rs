@@ -7,6 +7,7 @@ use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::compile_for::Family;
+use crate::gpu::Arithmetic;
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
@@ -81,6 +82,10 @@ pub struct Args {
     /// Compile these shaders and exit: how a window tries an edit, as a compiler may abort on one
     #[arg(long, hide = true, num_args = 1.., value_name = "PATH")]
     pub compile: Vec<String>,
+
+    /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
+    #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
+    pub arithmetic: Arithmetic,
 
     /// Build acceleration structures in the model's order instead of a spatial one
     #[arg(long)]

@@ -34,6 +34,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         device: args.device.as_deref(),
         validate: args.validate,
         window: None,
+        arithmetic: args.arithmetic,
     })?;
     check_size(&gpu, args.size)?;
     let setup = Setup::new(args);
@@ -115,6 +116,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             device: gpu.name.clone(),
             driver: gpu.driver.clone(),
             limits: gpu.limits,
+            arithmetic: gpu.arithmetic.to_string(),
             width: args.size.width,
             height: args.size.height,
             frames: args.frames,

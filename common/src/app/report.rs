@@ -22,6 +22,8 @@ pub struct Report {
     pub driver: String,
     /// What it has, and how much of it.
     pub limits: Limits,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
     /// Pixels a row.
     pub width: u32,
     /// Rows.

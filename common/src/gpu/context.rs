@@ -14,6 +14,7 @@ use anyhow::{Context as _, Result};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
+use super::arithmetic::Arithmetic;
 use super::device::{self, Candidate};
 use super::instance::{self, WindowHandles};
 use super::layout::StructLayout;
@@ -34,6 +35,8 @@ pub struct GpuOptions<'a> {
     pub validate: bool,
     /// The window to draw to, if any: the device must have a queue that can.
     pub window: Option<WindowHandles>,
+    /// How shaders compute.
+    pub arithmetic: Arithmetic,
 }
 
 /// A shared handle to the device and all that belongs to it.
@@ -76,6 +79,8 @@ pub struct GpuContext {
     pub pipeline_cache: PipelineCache,
     /// What the sample has asked for.
     pub requirements: Requirements,
+    /// How shaders compute.
+    pub arithmetic: Arithmetic,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     /// How many pipelines are being made by other threads.
@@ -108,11 +113,15 @@ impl Gpu {
     /// # Errors
     /// If there is no loader, no suitable device, or no validation layer where one is asked for.
     pub fn new(options: &GpuOptions) -> Result<Self> {
+        let mut wanted = options.requirements.clone();
+        if options.arithmetic.is_worst() {
+            wanted = wanted.float64();
+        }
         let entry = instance::load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
             instance::create(&entry, messages.as_deref(), options.window.as_ref())?;
-        let chosen = device::candidates(&instance, &options.requirements).and_then(|mut found| {
+        let chosen = device::candidates(&instance, &wanted).and_then(|mut found| {
             if let Some(window) = &options.window {
                 device::require_presentation(&entry, &instance, window, &mut found)?;
             }
@@ -126,9 +135,7 @@ impl Gpu {
                 return Err(error);
             }
         };
-        let is_watched = options.window.is_some();
-        let wanted = &options.requirements;
-        Self::open(entry, instance, &chosen, wanted, messages, has_debug_utils, is_watched)
+        Self::open(entry, instance, &chosen, &wanted, messages, has_debug_utils, options)
             .with_context(|| format!("cannot open {}", chosen.name))
     }
 
@@ -139,7 +146,7 @@ impl Gpu {
         requirements: &Requirements,
         messages: Option<Arc<Messages>>,
         has_debug_utils: bool,
-        is_watched: bool,
+        options: &GpuOptions,
     ) -> Result<Self> {
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;
@@ -190,7 +197,8 @@ impl Gpu {
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             software: chosen.kind == vk::PhysicalDeviceType::CPU,
-            is_watched,
+            is_watched: options.window.is_some(),
+            arithmetic: options.arithmetic,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             building: AtomicUsize::new(0),
             built: AtomicUsize::new(0),

@@ -1,6 +1,7 @@
 //! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
 
 mod accel;
+mod arithmetic;
 pub mod barrier;
 mod blueprint;
 mod buffer;
@@ -33,6 +34,7 @@ mod validation;
 mod variants;
 
 pub use accel::{AccelerationStructure, BuildOptions};
+pub use arithmetic::Arithmetic;
 pub use blueprint::{Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use contents::Contents;

@@ -168,6 +168,12 @@ impl Requirements {
         self
     }
 
+    /// 64-bit floats in shaders.
+    pub fn float64(mut self) -> Self {
+        self.list.push(requirement!(None, "shaderFloat64", core.shader_float64));
+        self
+    }
+
     /// 64-bit floats in shaders, where the device has them: [`Limits::float64`](super::Limits) tells.
     pub fn float64_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));

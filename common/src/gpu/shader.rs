@@ -16,6 +16,7 @@ use glslang::{
     SourceLanguage, SpirvVersion, Target, VulkanVersion, error::GlslangError,
 };
 
+use super::arithmetic::Arithmetic;
 use crate::files;
 
 /// How deep `#include` may nest; more is taken for a circle.
@@ -59,30 +60,47 @@ pub fn folder() -> PathBuf {
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
 pub fn compile(path: &str) -> Result<Shader> {
-    compile_with(path, &[])
+    compile_with(path, &[], Arithmetic::Driver)
 }
 
-/// As [`compile`], with these macros defined: names and values.
+/// As [`compile`], with these macros defined, names and values, and with what the arithmetic calls.
 ///
 /// # Errors
 /// As [`compile`].
-pub fn compile_with(path: &str, defines: &[(&str, String)]) -> Result<Shader> {
+pub fn compile_with(
+    path: &str,
+    defines: &[(&str, String)],
+    arithmetic: Arithmetic,
+) -> Result<Shader> {
     let (stage, glslang_stage) = stage(path)?;
     let mut source = Source::default();
     source.splice(path, 0)?;
-    let cached = cache_file(path, &source.text, defines);
-    let spirv = match fs::read(&cached).ok().and_then(|bytes| unsealed(&bytes)) {
-        Some(words) => words,
-        None => {
-            let words = to_spirv(path, &source.text, glslang_stage, defines)?;
-            // A cache that cannot be written costs time at the next start, nothing else.
-            let _ = cached.parent().map(fs::create_dir_all);
-            let _ = files::write_whole(&cached, &sealed(&words));
-            words
-        }
-    };
+    let mut spirv = cached(path, &source.text, glslang_stage, defines)?;
+    if arithmetic.is_worst() {
+        let text = Arithmetic::prepared(&source.text, &spirv)
+            .with_context(|| format!("shader '{path}' is not for the worst arithmetic"))?;
+        spirv = cached(path, &text, glslang_stage, defines)?;
+    }
     let Source { files, constants, .. } = source;
     Ok(Shader { path: path.to_owned(), stage, spirv, files, constants })
+}
+
+/// The words of a text, from the cache if they are there.
+fn cached(
+    path: &str,
+    text: &str,
+    stage: ShaderStage,
+    defines: &[(&str, String)],
+) -> Result<Vec<u32>> {
+    let cached = cache_file(path, text, defines);
+    if let Some(words) = fs::read(&cached).ok().and_then(|bytes| unsealed(&bytes)) {
+        return Ok(words);
+    }
+    let words = to_spirv(path, text, stage, defines)?;
+    // A cache that cannot be written costs time at the next start, nothing else.
+    let _ = cached.parent().map(fs::create_dir_all);
+    let _ = files::write_whole(&cached, &sealed(&words));
+    Ok(words)
 }
 
 fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {

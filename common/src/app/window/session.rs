@@ -74,6 +74,7 @@ impl<S: Sample> Session<S> {
             device: args.device.as_deref(),
             validate: args.validate,
             window: Some(handles),
+            arithmetic: args.arithmetic,
         })?;
         check_size(&gpu, args.size)?;
         let setup = Setup::new(args);
@@ -95,6 +96,7 @@ impl<S: Sample> Session<S> {
                 name: name.to_owned(),
                 device: gpu.name.clone(),
                 software: gpu.software,
+                arithmetic: gpu.arithmetic,
                 ..Facts::default()
             },
             reload: Reload::new(proxy),

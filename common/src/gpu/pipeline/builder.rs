@@ -171,8 +171,13 @@ impl<'a> PipelineBuilder<'a> {
             self.name
         );
         let defines = self.defines.as_slice();
-        let mut stages =
-            Stages { folder: self.name, defines, as_written: self.as_written, shaders: Vec::new() };
+        let mut stages = Stages {
+            folder: self.name,
+            defines,
+            as_written: self.as_written,
+            arithmetic: gpu.arithmetic,
+            shaders: Vec::new(),
+        };
         let mut groups = Vec::new();
         for shader in self.raygen.iter().chain(&self.miss) {
             groups.push(general(stages.add(shader)?));

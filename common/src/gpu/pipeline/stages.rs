@@ -4,8 +4,8 @@ use anyhow::Result;
 use ash::vk;
 
 use crate::gpu::blueprint::Group;
-use crate::gpu::contraction;
 use crate::gpu::shader::{self, Shader};
+use crate::gpu::{Arithmetic, contraction};
 
 /// A hit group: what happens where a ray meets one kind of geometry.
 #[derive(Clone, Copy, Default)]
@@ -42,6 +42,7 @@ pub(super) struct Stages<'a> {
     pub folder: &'a str,
     pub defines: &'a [(&'a str, String)],
     pub as_written: bool,
+    pub arithmetic: Arithmetic,
     pub shaders: Vec<Shader>,
 }
 
@@ -53,10 +54,11 @@ impl Stages<'_> {
         let index = match known {
             Some(index) => index,
             None => {
-                let mut shader = shader::compile_with(&path, self.defines)?;
+                let mut shader = shader::compile_with(&path, self.defines, self.arithmetic)?;
                 if self.as_written {
                     shader.spirv = contraction::without(&shader.spirv)?;
                 }
+                shader.spirv = self.arithmetic.applied(&path, shader.spirv)?;
                 self.shaders.push(shader);
                 self.shaders.len() - 1
             }

@@ -1,0 +1,606 @@
+//! Every operation of a module becomes a call of the function of worst.glsl that bears its name.
+//!
+//! glslang compiles those functions together with the shader, so nothing needs to be linked: an
+//! instruction keeps its result's id and turns into `OpFunctionCall`. Which overload it calls, its operands'
+//! types say, in the names that glslang gives functions: `worst_add(vf3;vf3;u1;`. As glslang leaves out
+//! what nothing calls, a first look at the module finds which functions it will need.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use anyhow::{Context, Result, bail};
+use rspirv::binary::Assemble;
+use rspirv::dr::{Function, Instruction, Module, Operand};
+use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word};
+
+/// What the names of worst.glsl's functions begin with.
+const PREFIX: &str = "worst_";
+
+/// What worst.glsl needs to know of a module.
+pub struct Needs {
+    /// The functions that it will call, each as a call in GLSL.
+    pub calls: Vec<String>,
+    /// What its entry point declares: a macro and whether it does.
+    pub declared: [(&'static str, bool); 3],
+    /// Whether it is told of the device's own triangles.
+    pub meets_triangles: bool,
+}
+
+/// Looks at a module before it is compiled with worst.glsl.
+///
+/// # Errors
+/// As [`worst`].
+pub fn needs(words: &[u32]) -> Result<Needs> {
+    let mut module = rspirv::dr::load_words(words).ok().context("not a SPIR-V module")?;
+    let declared = [
+        ("WORST_NEAREST", declares(&module, ExecutionMode::RoundingModeRTE)),
+        ("WORST_PRESERVES", declares(&module, ExecutionMode::SignedZeroInfNanPreserve)),
+        ("WORST_DENORMALS", declares(&module, ExecutionMode::DenormPreserve)),
+    ];
+    let meets_triangles = meets_triangles(&module);
+    let mut rewriter = Rewriter::new(&module, None)?;
+    for function in &mut module.functions {
+        rewriter.function(function)?;
+    }
+    let calls =
+        rewriter.needed.iter().map(|signature| glsl_call(signature)).collect::<Result<_>>()?;
+    Ok(Needs { calls, declared, meets_triangles })
+}
+
+/// The words of a module, rewritten. With a `seed`, the place of an operation changes its errors, too.
+///
+/// # Errors
+/// If the words are no SPIR-V, or an operation is not among worst.glsl's.
+pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
+    let mut module = rspirv::dr::load_words(words).ok().context("not a SPIR-V module")?;
+    let mut rewriter = Rewriter::new(&module, seed)?;
+    for function in &mut module.functions {
+        let id = function.def.as_ref().and_then(|def| def.result_id);
+        if !rewriter.own.values().any(|own| Some(*own) == id) {
+            rewriter.function(function)?;
+        }
+    }
+    if let Some(missing) = rewriter.needed.iter().find(|name| !rewriter.own.contains_key(*name)) {
+        bail!("worst.glsl has no {missing}");
+    }
+    rewriter.finish(&mut module);
+    Ok(module.assemble())
+}
+
+/// `worst_add(vf3;vf3;u1;` as a call that GLSL understands.
+fn glsl_call(signature: &str) -> Result<String> {
+    let (name, types) = signature.split_once('(').context("no parameters")?;
+    let arguments = types.split_terminator(';').map(|of| {
+        let (kind, size) = of.split_at(of.len() - if of.starts_with('m') { 2 } else { 1 });
+        let letter = kind.chars().last().context("no type")?;
+        let scalar = ["float", "double", "int", "uint", "bool"];
+        let scalar = scalar.iter().find(|name| name.starts_with(letter)).context("no such type")?;
+        let prefix = if letter == 'f' { "" } else { &scalar[..1] };
+        Ok(match kind.chars().next() {
+            Some('v') => format!("{prefix}vec{size}(0)"),
+            Some('m') => format!("{prefix}mat{}x{}(0)", &size[..1], &size[1..]),
+            _ => format!("{scalar}(0)"),
+        })
+    });
+    Ok(format!("{name}({});", arguments.collect::<Result<Vec<_>>>()?.join(", ")))
+}
+
+/// What is known of a module while it is rewritten.
+struct Rewriter {
+    /// The functions of worst.glsl, by name and parameters.
+    own: HashMap<String, Word>,
+    /// Those that are called, or may be.
+    needed: BTreeSet<String>,
+    /// The types of ids.
+    types: HashMap<Word, Word>,
+    /// A type as glslang names it.
+    names: HashMap<Word, String>,
+    /// The instructions that may not be rearranged.
+    precise: HashSet<Word>,
+    /// The variables that hold a hit's distance, and the weights of its triangle's corners.
+    distances: HashSet<Word>,
+    weights: HashSet<Word>,
+    /// RoundingModeRTE and DenormPreserve.
+    is_nearest: bool,
+    declares_denormals: bool,
+    splats: HashMap<(Word, u32), Word>,
+    uint: Word,
+    how: HashMap<u32, Word>,
+    constants: Vec<Instruction>,
+    replaced: HashSet<Word>,
+    seed: Option<u32>,
+    place: u32,
+    bound: Word,
+}
+
+impl Rewriter {
+    fn new(module: &Module, seed: Option<u32>) -> Result<Self> {
+        let mut own = HashMap::new();
+        for name in &module.debug_names {
+            if let (Op::Name, [Operand::IdRef(id), Operand::LiteralString(text)]) =
+                (name.class.opcode, &name.operands[..])
+                && text.starts_with(PREFIX)
+            {
+                own.insert(text.clone(), *id);
+            }
+        }
+        let mut names = HashMap::new();
+        for instruction in &module.types_global_values {
+            if let (Some(id), Some(name)) = (instruction.result_id, type_name(instruction, &names))
+            {
+                names.insert(id, name);
+            }
+        }
+        // A module without operations may be without numbers, too.
+        let uint = names.iter().find(|(_, name)| *name == "u1").map_or(0, |(id, _)| *id);
+        let decorated = |wanted: Decoration, builtin: Option<BuiltIn>| -> HashSet<Word> {
+            let found = module.annotations.iter().filter_map(|i| match i.operands[..] {
+                [Operand::IdRef(id), Operand::Decoration(decoration), ref rest @ ..] => {
+                    let of = builtin.is_none_or(|b| *rest == [Operand::BuiltIn(b)]);
+                    (decoration == wanted && of).then_some(id)
+                }
+                _ => None,
+            });
+            found.collect()
+        };
+        let all = module.all_inst_iter();
+        let types = all.filter_map(|i| Some((i.result_id?, i.result_type?))).collect();
+        let pointees: HashMap<Word, &String> = module
+            .types_global_values
+            .iter()
+            .filter(|i| i.class.opcode == Op::TypePointer)
+            .filter_map(|i| Some((i.result_id?, names.get(ids(&i.operands).first()?)?)))
+            .collect();
+        // The attributes of a procedural hit are no weights.
+        let attributes = module.types_global_values.iter().filter(|i| {
+            let of = i.result_type.and_then(|of| pointees.get(&of));
+            i.class.opcode == Op::Variable
+                && i.operands.first() == Some(&Operand::StorageClass(StorageClass::HitAttributeKHR))
+                && of.is_some_and(|name| *name == "vf2")
+        });
+        let weights = attributes.filter_map(|i| i.result_id).collect();
+        let meets_triangles = meets_triangles(module);
+        Ok(Self {
+            own,
+            needed: BTreeSet::new(),
+            types,
+            names,
+            precise: decorated(Decoration::NoContraction, None),
+            distances: decorated(Decoration::BuiltIn, Some(BuiltIn::RayTmaxKHR))
+                .into_iter()
+                .filter(|_| meets_triangles)
+                .collect(),
+            weights: if meets_triangles { weights } else { HashSet::new() },
+            is_nearest: declares(module, ExecutionMode::RoundingModeRTE),
+            declares_denormals: declares(module, ExecutionMode::DenormPreserve),
+            splats: HashMap::new(),
+            uint,
+            how: HashMap::new(),
+            constants: Vec::new(),
+            replaced: HashSet::new(),
+            seed,
+            place: 0,
+            bound: module.header.as_ref().context("no header")?.bound,
+        })
+    }
+
+    fn function(&mut self, function: &mut Function) -> Result<()> {
+        let known: HashMap<Word, Instruction> = function
+            .all_inst_iter()
+            .filter_map(|instruction| Some((instruction.result_id?, instruction.clone())))
+            .collect();
+        for block in &mut function.blocks {
+            let mut instructions = Vec::new();
+            for instruction in std::mem::take(&mut block.instructions) {
+                self.instruction(instruction, &known, &mut instructions)?;
+            }
+            block.instructions = instructions;
+        }
+        Ok(())
+    }
+
+    fn instruction(
+        &mut self,
+        instruction: Instruction,
+        known: &HashMap<Word, Instruction>,
+        out: &mut Vec<Instruction>,
+    ) -> Result<()> {
+        let op = instruction.class.opcode;
+        if op == Op::Load || op == Op::AccessChain {
+            return self.load(instruction, out);
+        }
+        let result = instruction.result_type.and_then(|of| self.names.get(&of));
+        let widens = op == Op::FConvert && result.is_some_and(|name| name.contains('d'));
+        let Some((name, operands)) = operation(&instruction)?.filter(|_| !widens) else {
+            out.push(instruction);
+            return Ok(());
+        };
+        if self.is_nearest && self.is_flushed_only(&instruction) {
+            return self.flushed(instruction, out);
+        }
+        if self.is_nearest && name == "worst_fma" {
+            let (of, product) = (instruction.result_type, self.fresh());
+            let [a, b, c] = operands[..] else { bail!("fma() of three") };
+            let two = |a, b| vec![Operand::IdRef(a), Operand::IdRef(b)];
+            self.flushed(Instruction::new(Op::FMul, of, Some(product), two(a, b)), out)?;
+            let sum = Instruction::new(Op::FAdd, of, instruction.result_id, two(product, c));
+            return self.flushed(sum, out);
+        }
+        let mut call = self.call(&instruction, name, &operands)?;
+        if let Some((name, operands)) = self.rearranged(&instruction, known, out) {
+            call = self.call(&instruction, name, &operands)?;
+        }
+        out.push(call);
+        Ok(())
+    }
+
+    /// What a sum may become with another that it is of, or with a product: not where NoContraction says
+    /// that either stays as it is.
+    fn rearranged(
+        &mut self,
+        sum: &Instruction,
+        known: &HashMap<Word, Instruction>,
+        out: &mut Vec<Instruction>,
+    ) -> Option<(&'static str, Vec<Word>)> {
+        let is_free = |i: &Instruction| i.result_id.is_some_and(|id| !self.precise.contains(&id));
+        let is_difference = sum.class.opcode == Op::FSub;
+        if !is_free(sum) || !(is_difference || sum.class.opcode == Op::FAdd) {
+            return None;
+        }
+        let operands = ids(&sum.operands);
+        for (inner, outer) in [(0, 1), (1, 0)] {
+            let Some(term) = known.get(&operands[inner]).filter(|term| is_free(term)) else {
+                continue;
+            };
+            let mut parts = ids(&term.operands);
+            let name = match term.class.opcode {
+                Op::FMul | Op::VectorTimesScalar => "worst_contracted",
+                Op::FAdd | Op::FSub => "worst_sum",
+                _ => continue,
+            };
+            parts.push(operands[outer]);
+            let mut negative = [false, term.class.opcode == Op::FSub, false];
+            if is_difference && inner == 0 {
+                negative[2] = true;
+            } else if is_difference {
+                negative[0] = true;
+                negative[1] = name == "worst_sum" && !negative[1];
+            }
+            for (part, is_negative) in parts.iter_mut().zip(negative) {
+                if is_negative {
+                    *part = self.negated(*part, out);
+                }
+            }
+            return Some((name, parts));
+        }
+        None
+    }
+
+    /// Whether an operation rounds to the nearest float anyway, as RoundingModeRTE is declared.
+    fn is_flushed_only(&self, instruction: &Instruction) -> bool {
+        let op = instruction.class.opcode;
+        let of = instruction.result_type.and_then(|of| self.names.get(&of));
+        let is_single = of.is_some_and(|name| matches!(&name[..], "f1" | "vf2" | "vf3" | "vf4"));
+        is_single && matches!(op, Op::FAdd | Op::FSub | Op::FMul)
+    }
+
+    /// The operation itself, and where its result is denormalized, zero: a two-float has hundreds of
+    /// operations, and a call for each would take the driver's compiler a minute.
+    fn flushed(&mut self, mut exact: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
+        let (of, result) = (exact.result_type, exact.result_id);
+        if self.declares_denormals || self.skips_a_place() {
+            out.push(exact);
+            return Ok(());
+        }
+        let name = of.and_then(|of| self.names.get(&of)).context("a float has a type")?;
+        let size = name.strip_prefix("vf").and_then(|size| size.parse().ok());
+        let like =
+            |letter: char| size.map_or(format!("{letter}1"), |n: u32| format!("v{letter}{n}"));
+        let (uints, bools) = (self.type_named(&like('u'))?, self.type_named(&like('b'))?);
+        let exponent = self.splat(uints, size, 0x7f80_0000)?;
+        let sign = self.splat(uints, size, 0x8000_0000)?;
+        let none = self.splat(uints, size, 0)?;
+        let raw = self.fresh();
+        exact.result_id = Some(raw);
+        out.push(exact);
+        let mut step = |op, of, operands: &[Word], result: Option<Word>| {
+            let result = result.unwrap_or_else(|| self.fresh());
+            let operands = operands.iter().map(|id| Operand::IdRef(*id)).collect();
+            out.push(Instruction::new(op, of, Some(result), operands));
+            result
+        };
+        let bits = step(Op::Bitcast, Some(uints), &[raw], None);
+        let scale = step(Op::BitwiseAnd, Some(uints), &[bits, exponent], None);
+        let is_small = step(Op::IEqual, Some(bools), &[scale, none], None);
+        let zero = step(Op::BitwiseAnd, Some(uints), &[bits, sign], None);
+        let flushed = step(Op::Select, Some(uints), &[is_small, zero, bits], None);
+        step(Op::Bitcast, of, &[flushed], result);
+        self.replaced.extend(result);
+        Ok(())
+    }
+
+    /// Every other place keeps denormalized results, where places differ.
+    fn skips_a_place(&mut self) -> bool {
+        self.place += 1;
+        self.seed.is_some_and(|seed| (seed ^ self.place.wrapping_mul(0x9e37_79b9)) & 1 == 1)
+    }
+
+    fn type_named(&mut self, wanted: &str) -> Result<Word> {
+        if let Some((id, _)) = self.names.iter().find(|(_, name)| *name == wanted) {
+            return Ok(*id);
+        }
+        let size = wanted.chars().last().and_then(|c| c.to_digit(10)).context("a vector's size")?;
+        let scalar = self.type_named(&format!("{}1", &wanted[1..2]))?;
+        let id = self.fresh();
+        let operands = vec![Operand::IdRef(scalar), Operand::LiteralBit32(size)];
+        self.constants.push(Instruction::new(Op::TypeVector, None, Some(id), operands));
+        self.names.insert(id, wanted.to_owned());
+        Ok(id)
+    }
+
+    /// A constant of whole numbers, the same in all components of a vector.
+    fn splat(&mut self, of: Word, size: Option<u32>, value: u32) -> Result<Word> {
+        if let Some(known) = self.splats.get(&(of, value)) {
+            return Ok(*known);
+        }
+        let (op, operands) = match size {
+            None => (Op::Constant, vec![Operand::LiteralBit32(value)]),
+            Some(size) => {
+                let one = Operand::IdRef(self.splat(self.uint, None, value)?);
+                (Op::ConstantComposite, vec![one; size as usize])
+            }
+        };
+        let id = self.fresh();
+        self.constants.push(Instruction::new(op, Some(of), Some(id), operands));
+        self.splats.insert((of, value), id);
+        Ok(id)
+    }
+
+    fn negated(&mut self, id: Word, out: &mut Vec<Instruction>) -> Word {
+        let result = self.fresh();
+        let result_type = self.types.get(&id).copied();
+        if let Some(result_type) = result_type {
+            self.types.insert(result, result_type);
+        }
+        let operands = vec![Operand::IdRef(id)];
+        out.push(Instruction::new(Op::FNegate, result_type, Some(result), operands));
+        result
+    }
+
+    /// A hit's distance and the weights of a triangle's corners, as inexact as they may be.
+    fn load(&mut self, mut load: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
+        let Some(Operand::IdRef(variable)) = load.operands.first().cloned() else {
+            bail!("a load of nothing");
+        };
+        let name = match variable {
+            id if self.distances.contains(&id) => "worst_hit_t",
+            id if self.weights.contains(&id) => "worst_weights",
+            _ => {
+                out.push(load);
+                return Ok(());
+            }
+        };
+        if load.class.opcode == Op::AccessChain {
+            bail!("a component of the weights is read by itself");
+        }
+        let original = load.clone();
+        let raw = self.fresh();
+        load.result_id = Some(raw);
+        self.types.insert(raw, load.result_type.context("a load has a type")?);
+        out.push(load);
+        out.push(self.call(&original, name, &[raw])?);
+        Ok(())
+    }
+
+    /// The call that takes an instruction's place, and its result's id.
+    fn call(
+        &mut self,
+        replaced: &Instruction,
+        name: &str,
+        operands: &[Word],
+    ) -> Result<Instruction> {
+        let named = |id: &Word| {
+            let of = self.types.get(id).and_then(|of| self.names.get(of));
+            of.cloned().with_context(|| format!("{name} of an operand without a type"))
+        };
+        let types: Vec<String> = operands.iter().map(named).collect::<Result<_>>()?;
+        let signature = format!("{name}({};u1;", types.join(";"));
+        let function = self.own.get(&signature).copied().unwrap_or_default();
+        self.needed.insert(signature);
+        let how = self.how();
+        let arguments = [&[function], operands, &[how]].concat();
+        let arguments = arguments.into_iter().map(Operand::IdRef).collect();
+        self.replaced.extend(replaced.result_id);
+        let (result_type, result) = (replaced.result_type, replaced.result_id);
+        Ok(Instruction::new(Op::FunctionCall, result_type, result, arguments))
+    }
+
+    /// The constant that tells the next operation how it is done.
+    fn how(&mut self) -> Word {
+        let how = match self.seed {
+            None => 0,
+            Some(seed) => {
+                self.place += 1;
+                seed ^ self.place.wrapping_mul(0x9e37_79b9)
+            }
+        };
+        if let Some(known) = self.how.get(&how) {
+            return *known;
+        }
+        let id = self.fresh();
+        let value = vec![Operand::LiteralBit32(how)];
+        self.constants.push(Instruction::new(Op::Constant, Some(self.uint), Some(id), value));
+        self.how.insert(how, id);
+        id
+    }
+
+    fn fresh(&mut self) -> Word {
+        self.bound += 1;
+        self.bound - 1
+    }
+
+    /// Adds the new constants, and takes off calls what decorated the instructions before.
+    fn finish(self, module: &mut Module) {
+        module.types_global_values.extend(self.constants);
+        module.annotations.retain(|annotation| match annotation.operands[..] {
+            [Operand::IdRef(id), Operand::Decoration(Decoration::NoContraction)] => {
+                !self.replaced.contains(&id)
+            }
+            _ => true,
+        });
+        if let Some(header) = &mut module.header {
+            header.bound = self.bound;
+        }
+    }
+}
+
+/// Whether the entry point declares a mode for 32-bit floats.
+fn declares(module: &Module, mode: ExecutionMode) -> bool {
+    let wanted = [Operand::ExecutionMode(mode), Operand::LiteralBit32(32)];
+    module.execution_modes.iter().any(|i| i.operands[1..] == wanted)
+}
+
+/// Whether the module is of a stage that is told of the device's own triangles.
+fn meets_triangles(module: &Module) -> bool {
+    let model = module.entry_points.first().and_then(|entry| entry.operands.first());
+    let stages = [ExecutionModel::ClosestHitKHR, ExecutionModel::AnyHitKHR];
+    stages.iter().any(|stage| model == Some(&Operand::ExecutionModel(*stage)))
+}
+
+fn ids(operands: &[Operand]) -> Vec<Word> {
+    let ids = operands.iter().filter_map(|operand| match operand {
+        Operand::IdRef(id) => Some(*id),
+        _ => None,
+    });
+    ids.collect()
+}
+
+/// A type as glslang writes it in a function's name; `None` of what no operation takes.
+fn type_name(of: &Instruction, names: &HashMap<Word, String>) -> Option<String> {
+    Some(match (of.class.opcode, &of.operands[..]) {
+        (Op::TypeBool, _) => "b1".to_owned(),
+        (Op::TypeFloat, [Operand::LiteralBit32(32), ..]) => "f1".to_owned(),
+        (Op::TypeFloat, [Operand::LiteralBit32(64), ..]) => "d1".to_owned(),
+        (Op::TypeInt, [Operand::LiteralBit32(32), Operand::LiteralBit32(0)]) => "u1".to_owned(),
+        (Op::TypeInt, [Operand::LiteralBit32(32), _]) => "i1".to_owned(),
+        (Op::TypeVector, [Operand::IdRef(of), Operand::LiteralBit32(count)]) => {
+            format!("v{}{count}", names.get(of)?.trim_end_matches('1'))
+        }
+        (Op::TypeMatrix, [Operand::IdRef(column), Operand::LiteralBit32(columns)]) => {
+            // vf3 of 4 columns: mf43.
+            let column = names.get(column)?.strip_prefix('v')?;
+            let (of, rows) = column.split_at(1);
+            format!("m{of}{columns}{rows}")
+        }
+        _ => return None,
+    })
+}
+
+/// The function for an instruction and the operands that it takes; `None` if it computes nothing that
+/// could be inexact.
+fn operation(instruction: &Instruction) -> Result<Option<(&'static str, Vec<Word>)>> {
+    let mut operands = ids(&instruction.operands);
+    let name = match instruction.class.opcode {
+        Op::FAdd => "worst_add",
+        Op::FSub => "worst_sub",
+        Op::FMul
+        | Op::VectorTimesScalar
+        | Op::MatrixTimesScalar
+        | Op::VectorTimesMatrix
+        | Op::MatrixTimesVector
+        | Op::MatrixTimesMatrix => "worst_mul",
+        Op::FDiv => "worst_div",
+        Op::FMod => "worst_mod",
+        Op::Dot => "worst_dot",
+        Op::IsNan => "worst_isnan",
+        Op::IsInf => "worst_isinf",
+        Op::FOrdEqual => "worst_equal",
+        Op::FUnordNotEqual => "worst_not_equal",
+        Op::FOrdLessThan => "worst_less",
+        Op::FOrdLessThanEqual => "worst_less_equal",
+        Op::FOrdGreaterThan => "worst_greater",
+        Op::FOrdGreaterThanEqual => "worst_greater_equal",
+        Op::ConvertSToF | Op::ConvertUToF => "worst_convert",
+        Op::ExtInst => {
+            operands.remove(0);
+            match instruction.operands.get(1) {
+                Some(Operand::LiteralExtInstInteger(number)) => match extended(*number)? {
+                    Some(name) => name,
+                    None => return Ok(None),
+                },
+                _ => bail!("an extended instruction without a number"),
+            }
+        }
+        Op::FConvert => "worst_convert",
+        op @ (Op::FRem
+        | Op::OuterProduct
+        | Op::FOrdNotEqual
+        | Op::FUnordEqual
+        | Op::FUnordLessThan
+        | Op::FUnordLessThanEqual
+        | Op::FUnordGreaterThan
+        | Op::FUnordGreaterThanEqual
+        | Op::QuantizeToF16) => bail!("worst.glsl has no {op:?}"),
+        // A change of sign is exact; so is what neither adds nor rounds.
+        _ => return Ok(None),
+    };
+    Ok(Some((name, operands)))
+}
+
+/// The function for an instruction of GLSL.std.450.
+fn extended(number: u32) -> Result<Option<&'static str>> {
+    use rspirv::spirv::GlslStd450Op as GLOp;
+    let op = GLOp::from_u32(number).with_context(|| format!("no extended instruction {number}"))?;
+    Ok(Some(match op {
+        GLOp::Round => "worst_round",
+        GLOp::RoundEven => "worst_round_even",
+        GLOp::Trunc => "worst_trunc",
+        GLOp::FAbs => "worst_abs",
+        GLOp::FSign => "worst_sign",
+        GLOp::Floor => "worst_floor",
+        GLOp::Ceil => "worst_ceil",
+        GLOp::Fract => "worst_fract",
+        GLOp::Sin => "worst_sin",
+        GLOp::Cos => "worst_cos",
+        GLOp::Tan => "worst_tan",
+        GLOp::Asin => "worst_asin",
+        GLOp::Acos => "worst_acos",
+        GLOp::Atan => "worst_atan",
+        GLOp::Atan2 => "worst_atan2",
+        GLOp::Pow => "worst_pow",
+        GLOp::Exp => "worst_exp",
+        GLOp::Log => "worst_log",
+        GLOp::Exp2 => "worst_exp2",
+        GLOp::Log2 => "worst_log2",
+        GLOp::Sqrt => "worst_sqrt",
+        GLOp::InverseSqrt => "worst_inversesqrt",
+        GLOp::FMin => "worst_min",
+        GLOp::FMax => "worst_max",
+        GLOp::FClamp => "worst_clamp",
+        GLOp::FMix => "worst_mix",
+        GLOp::Step => "worst_step",
+        GLOp::SmoothStep => "worst_smoothstep",
+        GLOp::Fma => "worst_fma",
+        GLOp::Length => "worst_length",
+        GLOp::Distance => "worst_distance",
+        GLOp::Cross => "worst_cross",
+        GLOp::Normalize => "worst_normalize",
+        GLOp::FaceForward => "worst_faceforward",
+        GLOp::Reflect => "worst_reflect",
+        GLOp::Refract => "worst_refract",
+        // Of whole numbers and of bits.
+        GLOp::SAbs
+        | GLOp::SSign
+        | GLOp::UMin
+        | GLOp::SMin
+        | GLOp::UMax
+        | GLOp::SMax
+        | GLOp::UClamp
+        | GLOp::SClamp
+        | GLOp::PackDouble2x32
+        | GLOp::UnpackDouble2x32
+        | GLOp::FindILsb
+        | GLOp::FindSMsb
+        | GLOp::FindUMsb => return Ok(None),
+        other => bail!("worst.glsl has no {other:?}"),
+    }))
+}
