@@ -6,9 +6,18 @@ pub const TOLERANCE: f32 = 0.002;
 
 /// The mean FLIP error of two pictures of one size, 8 bits sRGB a channel, row by row: 0 for the same, 1 for
 /// black and white.
-pub fn mean((width, height): (u32, u32), expected: &[u8], actual: &[u8]) -> f32 {
+pub fn mean(size: (u32, u32), expected: &[u8], actual: &[u8]) -> f32 {
+    nv_flip::FlipPool::from_image(&errors(size, expected, actual)).mean()
+}
+
+/// The share of pixels whose FLIP error is above `bound`, from 0 to 1.
+pub fn share_above(bound: f32, size: (u32, u32), expected: &[u8], actual: &[u8]) -> f32 {
+    let errors = errors(size, expected, actual).to_vec();
+    errors.iter().filter(|error| **error > bound).count() as f32 / errors.len() as f32
+}
+
+fn errors((width, height): (u32, u32), expected: &[u8], actual: &[u8]) -> nv_flip::FlipImageFloat {
     let [expected, actual] =
         [expected, actual].map(|pixels| nv_flip::FlipImageRgb8::with_data(width, height, pixels));
-    let error = nv_flip::flip(expected, actual, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    nv_flip::FlipPool::from_image(&error).mean()
+    nv_flip::flip(expected, actual, nv_flip::DEFAULT_PIXELS_PER_DEGREE)
 }

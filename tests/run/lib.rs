@@ -187,14 +187,10 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
 
 /// How far one picture is from another, by FLIP: the mean, and the share of pixels above 0.1.
 pub fn flip(reference: &Picture, picture: &Picture) -> (f32, f32) {
-    let (width, height) = (picture.width, picture.height);
-    assert_eq!((reference.width, reference.height), (width, height));
-    let image = |p: &Picture| nv_flip::FlipImageRgb8::with_data(width, height, &p.srgb());
-    let pixels = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
-    let error = nv_flip::flip(image(reference), image(picture), pixels);
-    let outliers = error.to_vec().iter().filter(|error| **error > 0.1).count();
-    let share = outliers as f32 / (width * height) as f32;
-    (nv_flip::FlipPool::from_image(&error).mean(), share)
+    let size = (picture.width, picture.height);
+    assert_eq!((reference.width, reference.height), size);
+    let (expected, actual) = (reference.srgb(), picture.srgb());
+    (flip::mean(size, &expected, &actual), flip::share_above(0.1, size, &expected, &actual))
 }
 
 /// The project's root.

@@ -6,8 +6,8 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
-use common::gpu::ADDRESS_ALIGNMENT;
 use common::gpu::shader::{Shader, compile_with};
+use common::gpu::{ADDRESS_ALIGNMENT, Arithmetic};
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Decoration, ExecutionModel, Op, StorageClass};
 
@@ -83,7 +83,7 @@ fn compiled() -> Vec<Form> {
         }
         for defines in variants {
             // Not every stage of the laboratory is there for every primitive.
-            let Ok(shader) = compile_with(&path, &defines) else {
+            let Ok(shader) = compile_with(&path, &defines, Arithmetic::Driver) else {
                 assert_ne!(defines, [], "{path} does not compile");
                 continue;
             };
@@ -166,23 +166,40 @@ fn size(module: &Module, id: u32) -> u32 {
     }
 }
 
+#[track_caller]
+fn validate(name: &str, words: &[u32]) {
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let mut child = Command::new("spirv-val")
+        .args(["--target-env", "vulkan1.3", "--scalar-block-layout", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap_or_else(|error| panic!("cannot run spirv-val ({error}): run ./setup"));
+    child.stdin.take().expect("piped").write_all(&bytes).expect("it reads the module");
+    let output = child.wait_with_output().expect("it ends");
+    let said = [output.stdout, output.stderr].concat();
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&said));
+}
+
 #[test]
 fn every_module_is_valid() {
-    let check = |form: &Form| {
-        let bytes: Vec<u8> = form.shader.spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
-        let mut child = Command::new("spirv-val")
-            .args(["--target-env", "vulkan1.3", "--scalar-block-layout", "-"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap_or_else(|error| panic!("cannot run spirv-val ({error}): run ./setup"));
-        child.stdin.take().expect("piped").write_all(&bytes).expect("it reads the module");
-        let output = child.wait_with_output().expect("it ends");
-        let said = [output.stdout, output.stderr].concat();
-        assert!(output.status.success(), "{}: {}", form.name, String::from_utf8_lossy(&said));
-    };
-    forms().iter().for_each(check);
+    for form in forms() {
+        validate(&form.name, &form.shader.spirv);
+    }
+}
+
+/// The rewrite knows every operation of every shader, and what it makes of them is SPIR-V.
+#[test]
+fn every_module_is_valid_in_the_worst_arithmetic() {
+    let worst = Arithmetic::WorstByPlace;
+    // 01 makes its pipeline itself; 24 has a form for each primitive, and all are run in its tests.
+    let apart = |file: &str| file.starts_with("01_") || file.starts_with("24_");
+    let stages = files().into_iter().filter(|file| !file.ends_with("glsl"));
+    for path in stages.filter(|file| !apart(file)) {
+        let shader = compile_with(&path, &[], worst).expect("it compiles");
+        validate(&path, &worst.applied(&path, shader.spirv).expect("it can be rewritten"));
+    }
 }
 
 #[test]

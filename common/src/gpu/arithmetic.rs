@@ -55,7 +55,7 @@ impl Arithmetic {
     ///
     /// # Errors
     /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
-    pub(super) fn applied(self, path: &str, words: Vec<u32>) -> Result<Vec<u32>> {
+    pub fn applied(self, path: &str, words: Vec<u32>) -> Result<Vec<u32>> {
         let seed = match self {
             Self::Driver => return Ok(words),
             Self::Worst => None,
