@@ -195,8 +195,24 @@ impl Card {
 /// How paths begin that say whose machine it is.
 const PRIVATE: [&str; 6] = ["/home/", "/Users/", "\\Users\\", "/root/", "/tmp/", "/mnt/"];
 
-/// A line without the paths of this machine: of each, only its last part.
+/// A line without the paths of this machine: of each, only its last part. A path with blanks stands in
+/// quotation marks, as all that errors of this project tell.
 pub fn without_paths(line: &str) -> String {
+    let mut text = String::new();
+    for (index, piece) in line.split('\'').enumerate() {
+        let quoted = index % 2 == 1;
+        let mark = if index == 0 { "" } else { "'" };
+        text.push_str(mark);
+        let is_path = quoted && (piece.starts_with(['/', '\\']) || piece.get(1..2) == Some(":"));
+        match is_path {
+            true => text.push_str(piece.rsplit(['/', '\\']).next().unwrap_or_default()),
+            false => text.push_str(&words_without_paths(piece)),
+        }
+    }
+    text
+}
+
+fn words_without_paths(line: &str) -> String {
     let part = |word: &str| -> String {
         let at = word.find(['/', '\\']);
         let absolute = at.is_some_and(|at| at == 0 && word.len() > 1 || word[..at].ends_with(':'));
@@ -205,7 +221,7 @@ pub fn without_paths(line: &str) -> String {
             false => word.to_owned(),
         }
     };
-    let marks = |c: char| [' ', '\'', '"', '(', ')', ',', ';', '`'].contains(&c);
+    let marks = |c: char| [' ', '"', '(', ')', '[', ']', '<', '>', '=', ',', ';', '`'].contains(&c);
     let mut text = String::new();
     for piece in line.split_inclusive(marks) {
         let word = piece.trim_end_matches(marks);
@@ -262,6 +278,11 @@ mod tests {
                 "02_basic/sky.rmiss:7: 'x' : undeclared; a/b",
             ),
             ("C:\\Users\\ada\\a.dll is gone", "a.dll is gone"),
+            (
+                "cannot read the shader '/srv/Jane Doe/copy/decide.rahit': no such file",
+                "cannot read the shader 'decide.rahit': no such file",
+            ),
+            ("in=/srv/jane/a.so [/srv/jane/b.so]", "in=a.so [b.so]"),
             ("1 / 2", "1 / 2"),
         ] {
             assert_eq!(without_paths(line), kept);

@@ -117,7 +117,7 @@ enum Command {
         pictures: Option<Vec<String>>,
     },
     /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
-    /// 1 if a chapter fails. Under five minutes on a GPU, some more on a software driver
+    /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
     Survey {
         /// Use this device: a number of --list-devices or a part of its name
         #[arg(long, value_name = "N|NAME")]
@@ -125,8 +125,9 @@ enum Command {
         /// Where the card goes, as Markdown and as JSON
         #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
         out: PathBuf,
-        /// Stop a program after so many seconds
-        #[arg(long, value_name = "SECONDS", default_value_t = 180)]
+        /// Stop a program after so many whole seconds, 1 to 86400
+        #[arg(long, value_name = "SECONDS", default_value_t = 180,
+            value_parser = clap::value_parser!(u64).range(1..=86400))]
         limit: u64,
         /// Only print what would be run
         #[arg(long)]

@@ -8,12 +8,17 @@ use crate::card::{Card, Chapter, Device, HardCases, Table};
 fn limits(Device { limits, .. }: &Device) -> String {
     let yes = |offered: bool| if offered { "yes" } else { "no" };
     format!(
-        "recursion {}; rays a trace {}; push constants {} bytes; primitives {}; instances {}; image side {}; \
+        "recursion {}; rays a trace {}; push constants {} bytes; shader binding table in {} bytes; scratch \
+         in {} bytes; textures {}; buffer {} bytes; primitives {}; instances {}; image side {}; \
          64-bit floats {}; rounding to nearest even {}; signed zeros, infinities and NaN {}; \
          primitive culling {}; nanoseconds a tick {}",
         limits.max_ray_recursion_depth,
         limits.max_ray_dispatch_invocation_count,
         limits.max_push_constants_size,
+        limits.shader_group_base_alignment,
+        limits.min_scratch_offset_alignment,
+        limits.max_textures,
+        limits.max_buffer_size,
         limits.max_primitive_count,
         limits.max_instance_count,
         limits.max_image_dimension,
@@ -48,7 +53,12 @@ pub fn card(card: &Card) -> String {
     }
     line("system", &card.system);
     line("date", &card.date);
-    line("validation", if card.validated { "on" } else { "not installed" });
+    let validation = match (&card.device, card.validated) {
+        (None, _) => "nothing ran",
+        (_, true) => "on",
+        (_, false) => "not installed",
+    };
+    line("validation", validation);
     line("chapters that pass", &format!("{} of {}", card.passed(), card.chapters.len()));
     line("hard cases", &top(&card.hard_cases));
     let _ = writeln!(
@@ -125,7 +135,10 @@ fn top(table: &Table<HardCases>) -> String {
 fn hard_cases(table: &Table<HardCases>) -> String {
     let mut text = "\n## Hard cases\n\n".to_owned();
     if let Some(why) = &table.failed {
-        return text + why + "\n";
+        let _ = writeln!(text, "{why}\n");
+    }
+    if table.rungs.is_empty() {
+        return text;
     }
     text.push_str("| asked of | rung | way | right |\n|---|---|---|---|\n");
     for HardCases { primitive, rung, name, way, top, cases, right, unavailable } in &table.rungs {

@@ -142,7 +142,7 @@ impl Source {
         }
         ensure!(depth <= MAX_INCLUDE_DEPTH, "shader '{path}': includes nest too deep");
         let inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
-        ensure!(inside, "shader '{path}' is not below {}", folder().display());
+        ensure!(inside, "shader '{path}' is not below '{}'", folder().display());
         let file = folder().join(path);
         let hint = match std::env::var_os("SHADERS") {
             Some(_) => {

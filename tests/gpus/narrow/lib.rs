@@ -2,9 +2,9 @@
 //!
 //! Every limit is the least, or for alignments the most, that the Vulkan 1.3 specification allows (chapter
 //! "Limits", table "Required Limits"), and every feature that it does not require is missing, except for
-//! `scalarBlockLayout`, which each chapter asks for. Memory is split as on a discrete card, and a queue
-//! that only copies comes before those that compute. Where the validation layer lies above this one, it
-//! holds programs to all of that.
+//! `scalarBlockLayout`, which each chapter from 02 on asks for. Memory is split as on a discrete card, and
+//! a queue that only copies comes before those that compute. Where the validation layer lies above this
+//! one, it holds programs to all of that.
 //!
 //! The variable `NARROW` holds words, separated by commas, for what else a machine may do:
 //! - `compute-only`: no queue family has graphics, as on data-centre cards.
