@@ -287,10 +287,11 @@ impl Mistake {
         let picture = self.picture();
         let picture = picture.trim_start_matches("docs/");
         let number = self.chapter.split('_').next().unwrap_or_default();
-        let said = self.validation.as_ref().map_or("nothing".to_owned(), |m| format!("`{m}`"));
+        let heard = |message| format!(" **Validation:** `{message}`.");
+        let heard = self.validation.as_ref().map_or_else(String::new, heard);
         format!(
-            "### {title}\n\n![{title}: right and wrong]({picture})\n\n[{number}, \
-             `{name}`](mistakes/{name}.diff). {cause} **Validation:** {said}. **Find:** {find} \
+            "### {title}\n\n![{title}]({picture})\n\n[{number}, \
+             `{name}`](mistakes/{name}.diff). {cause}{heard} **Find:** {find} \
              **Cure:** {cure}\n"
         )
     }
