@@ -32,22 +32,6 @@ fn every_mistake_in_shaders_does_what_its_file_claims() {
     assert!(out.lines().count() >= 24, "{out}");
 }
 
-/// Builds the chapter once for each patch.
-#[test]
-#[ignore = "builds patched copies, some minutes"]
-fn every_mistake_in_rust_code_does_what_its_file_claims() {
-    let (code, list, err) = tool(&["--list"]);
-    assert_eq!(code, 0, "{err}");
-    let root = ::run::root();
-    for name in list.lines().filter_map(|line| line.split_whitespace().next()) {
-        let patch = std::fs::read_to_string(root.join(format!("docs/mistakes/{name}.diff")));
-        if !patch.expect("a patch").contains("\n+++ shaders/") {
-            let (code, out, err) = tool(&[name, "--check"]);
-            assert_eq!(code, 0, "\n{out}{err}");
-        }
-    }
-}
-
 #[test]
 fn a_copy_is_made_once_and_says_how_to_run_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");
