@@ -7,6 +7,7 @@ use crate::card;
 use crate::diff::{self, FileDiff, Line, Parts, Side};
 use crate::fault::Fault;
 use crate::gallery;
+use crate::mistake;
 use crate::page::{Block, Kind, Page};
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
@@ -48,6 +49,7 @@ pub fn body(
             let (cards, _) = card::all(project);
             Ok((sheet::devices(&cards), card::FOLDER.to_owned()))
         }
+        (Kind::Mistakes, []) => Ok((mistake::gallery(project), mistake::FOLDER.to_owned())),
         (Kind::Gallery, []) => Ok((gallery::table(project, &page.path), "Cargo.toml".to_owned())),
         (kind, _) => {
             let form = match kind {
@@ -56,6 +58,7 @@ pub fn body(
                 Kind::Controls => "<!-- controls NN_name -->",
                 Kind::Gallery => "<!-- gallery -->",
                 Kind::Devices => "<!-- devices -->",
+                Kind::Mistakes => "<!-- mistakes -->",
             };
             let what = format!("<!-- {} {} --> is no marker", kind.word(), words.join(" "));
             Err(wrong(what, &format!("write {form}")))

@@ -8,11 +8,13 @@ use crate::anchor::anchors;
 use crate::body::body;
 use crate::fault::Fault;
 use crate::markdown::{Markdown, check_formulas, check_links, local};
+use crate::mistake::Mistake;
 use crate::page::{Kind, Page};
 use crate::picture::{Picture, Sources};
 use crate::program::Programs;
 use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
+use crate::trial::Trial;
 use crate::{agree, card, command, exercise, gallery, mention, placeholder, stray, taught, test};
 
 /// The book of a project.
@@ -63,6 +65,13 @@ impl<'a> Book<'a> {
             let stale = picture.stale(self.project, &mut sources);
             faults.extend(stale.map(|what| picture.fault(what)));
             linked.insert(picture.file());
+        }
+        let (mistakes, wrong) = Mistake::all(self.project);
+        faults.extend(wrong);
+        for mistake in &mistakes {
+            faults.extend(mistake.patched(self.project).err());
+            faults.extend(mistake.stale(self.project, &mut sources));
+            linked.insert(mistake.picture());
         }
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
@@ -216,16 +225,14 @@ impl<'a> Book<'a> {
     ///
     /// # Errors
     /// If a name is unknown, or a command fails.
-    pub fn render(
-        &self,
-        names: &[String],
-        mut done: impl FnMut(&Picture, &str),
-    ) -> Result<Vec<Fault>> {
+    pub fn render(&self, names: &[String], mut done: impl FnMut(&str, &str)) -> Result<Vec<Fault>> {
         let (pictures, mut faults) = self.pictures();
+        let (mistakes, wrong) = Mistake::all(self.project);
+        faults.extend(wrong);
         let mut sources = Sources::default();
-        if let Some(unknown) = names.iter().find(|name| !pictures.iter().any(|p| p.name == **name))
-        {
-            let there: Vec<&str> = pictures.iter().map(|picture| &*picture.name).collect();
+        let mut there: Vec<&str> = pictures.iter().map(|picture| &*picture.name).collect();
+        there.extend(mistakes.iter().map(|mistake| &*mistake.name));
+        if let Some(unknown) = names.iter().find(|name| !there.contains(&name.as_str())) {
             let what =
                 format!("no page makes a picture '{unknown}'; there is {}", there.join(", "));
             return Err(common::usage::Usage(what).into());
@@ -237,12 +244,29 @@ impl<'a> Book<'a> {
             };
             if wanted {
                 match picture.render(self.project, self.programs, &mut sources) {
-                    Ok(device) => done(picture, &device),
+                    Ok(device) => done(&picture.file(), &device),
                     Err(error) => faults.push(Fault::new(
                         &*picture.page,
                         picture.line,
                         format!("{} cannot be rendered: {error:#}", picture.file()),
                         "correct the command or the sample",
+                    )),
+                }
+            }
+        }
+        for mistake in &mistakes {
+            let wanted = match names {
+                [] => mistake.stale(self.project, &mut sources).is_some(),
+                _ => names.contains(&mistake.name),
+            };
+            if wanted {
+                match Trial::new(self.project, self.programs, mistake).render(&mut sources) {
+                    Ok(device) => done(&mistake.picture(), &device),
+                    Err(error) => faults.push(Fault::new(
+                        mistake.file(),
+                        1,
+                        format!("{} cannot be rendered: {error:#}", mistake.picture()),
+                        "correct the patch or what it claims",
                     )),
                 }
             }

@@ -14,9 +14,9 @@ const GLANCE: Duration = Duration::from_millis(10);
 /// How a program ended.
 pub struct Ended {
     /// `None` if it was stopped.
-    status: Option<ExitStatus>,
+    pub status: Option<ExitStatus>,
     /// What it said on standard error.
-    said: String,
+    pub said: String,
     limit: Duration,
 }
 

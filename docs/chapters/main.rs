@@ -4,6 +4,7 @@
 //! - `diff A B`: what one chapter changes in another: code, shaders and page
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
+//! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -25,9 +26,11 @@ mod gallery;
 mod laboratory;
 mod markdown;
 mod mention;
+mod mistake;
 mod moved;
 mod new;
 mod page;
+mod panels;
 mod picture;
 mod placeholder;
 mod program;
@@ -40,9 +43,10 @@ mod stray;
 mod survey;
 mod taught;
 mod test;
+mod trial;
 
 use std::io::{ErrorKind, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -53,6 +57,7 @@ use common::usage::Usage;
 use book::Book;
 use diff::Parts;
 use fault::Fault;
+use mistake::Mistake;
 use new::New;
 use program::Programs;
 use project::{Chapter, Project};
@@ -133,6 +138,20 @@ enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Make a copy of the shaders, or of all code, with a classic mistake in it, and say how to run it
+    Mistake {
+        /// Its name, as --list shows it
+        name: Option<String>,
+        /// List the mistakes
+        #[arg(long)]
+        list: bool,
+        /// Where the copy goes [default: target/mistakes/NAME]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+        /// Run it and hold it to what its file claims; without a name, every one that is in shaders alone
+        #[arg(long)]
+        check: bool,
+    },
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -149,7 +168,8 @@ fn parse() -> Result<Arguments> {
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line = line.unwrap_or("no command; there is list, diff, new, sync, survey, check");
+        let line =
+            line.unwrap_or("no command; there is list, diff, new, sync, survey, mistake, check");
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }
@@ -185,6 +205,9 @@ fn run(arguments: &Arguments) -> Result<()> {
                 true => print(&survey.list()),
                 false => survey.run(out),
             }
+        }
+        Command::Mistake { name, list, out, check } => {
+            mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {
@@ -223,12 +246,54 @@ fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
         print(&format!("{file}: renewed\n"))?;
     }
     if let Some(names) = pictures {
-        let failed = book.render(names, |picture, device| {
-            let _ = print(&format!("{}: rendered on {device}\n", picture.file()));
+        let failed = book.render(names, |file, device| {
+            let _ = print(&format!("{file}: rendered on {device}\n"));
         })?;
         faults.extend(failed);
     }
     report(&faults)
+}
+
+fn mistake(
+    project: &Project,
+    name: Option<&str>,
+    list: bool,
+    out: Option<&Path>,
+    check: bool,
+) -> Result<()> {
+    let mistakes = match name {
+        Some(name) => vec![Mistake::named(project, name)?],
+        None => Mistake::whole(project)?,
+    };
+    if list {
+        let line = |m: &Mistake| format!("{:24} {:20} {}\n", m.name, m.chapter, m.title);
+        return print(&mistakes.iter().map(line).collect::<String>());
+    }
+    if check {
+        let programs = Programs::beside_this(&project.root)?;
+        let wanted = |mistake: &Mistake| name.is_some() || mistake.is_in_shaders();
+        let mistakes: Vec<Mistake> = mistakes.into_iter().filter(wanted).collect();
+        return check_mistakes(project, &programs, &mistakes);
+    }
+    let (Some(name), [mistake]) = (name, &mistakes[..]) else {
+        let names: Vec<String> = mistakes.into_iter().map(|mistake| mistake.name).collect();
+        return Err(Usage(format!("no mistake is named; there is {}", names.join(", "))).into());
+    };
+    let folder = out.map_or_else(|| format!("target/mistakes/{name}").into(), Path::to_owned);
+    mistake.copy_to(project, &std::path::absolute(&folder)?)?;
+    print(&format!("{}: {}\n{}\n", mistake.title, mistake.cause, mistake.run(&folder)))
+}
+
+fn check_mistakes(project: &Project, programs: &Programs, mistakes: &[Mistake]) -> Result<()> {
+    let mut failed = 0;
+    for line in trial::check_all(project, programs, mistakes) {
+        failed += usize::from(line.is_err());
+        print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))?;
+    }
+    match failed {
+        0 => Ok(()),
+        _ => bail!("{failed} of {} mistakes are not what their files say", mistakes.len()),
+    }
 }
 
 /// Prints what is wrong; an error if anything is.

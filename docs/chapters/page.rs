@@ -29,11 +29,13 @@ pub enum Kind {
     Gallery,
     /// Every report card that was sent in: `devices`.
     Devices,
+    /// Every classic mistake, shown: `mistakes`.
+    Mistakes,
 }
 
 impl Kind {
-    const ALL: [Self; 5] =
-        [Self::Snippet, Self::Diff, Self::Controls, Self::Gallery, Self::Devices];
+    const ALL: [Self; 6] =
+        [Self::Snippet, Self::Diff, Self::Controls, Self::Gallery, Self::Devices, Self::Mistakes];
 
     /// The word in the marker.
     pub fn word(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Kind {
             Self::Controls => "controls",
             Self::Gallery => "gallery",
             Self::Devices => "devices",
+            Self::Mistakes => "mistakes",
         }
     }
 
@@ -51,6 +54,7 @@ impl Kind {
         match self {
             Self::Controls => "table of controls",
             Self::Devices => "table of devices",
+            Self::Mistakes => "gallery of mistakes",
             _ => self.word(),
         }
     }

@@ -79,23 +79,9 @@ impl Picture {
 
     /// What is out of date about it, if anything is.
     pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<String> {
-        let file = self.file();
-        if !project.has(&file) {
-            return Some(format!("the picture {file} is missing"));
-        }
-        let Ok(stamp) = stamp(&project.root.join(&file)) else {
-            return Some(format!("the picture {file} is no PNG"));
-        };
-        match (stamp.get(COMMAND), stamp.get(SOURCES)) {
-            (Some(command), _) if *command != self.command => {
-                Some(format!("the picture {file} was made by another command"))
-            }
-            (Some(_), Some(hash)) if *hash == sources.of(project, &self.chapter) => None,
-            (Some(_), Some(_)) => {
-                Some(format!("the picture {file} is older than what {} renders", self.chapter))
-            }
-            _ => Some(format!("the picture {file} does not say what made it")),
-        }
+        let (hash, maker) =
+            (sources.of(project, &self.chapter), format!("what {} renders", self.chapter));
+        stale(project, &self.file(), &self.command, &hash, &maker)
     }
 
     /// The fault that says that it is out of date.
@@ -132,13 +118,49 @@ impl Picture {
         let report: serde_json::Value = serde_json::from_slice(&fs::read(&report)?)?;
         let device = report["device"].as_str().unwrap_or("unknown").to_owned();
         let hash = sources.of(project, &self.chapter);
-        let texts = [(COMMAND, &*self.command), (SOURCES, &*hash), (DEVICE, &*device)];
-        let stamped = restamp(&picture, &texts)?;
+        let stamped = stamped(&picture, &self.command, &hash, &device)?;
         let file = project.root.join(self.file());
         fs::create_dir_all(project.root.join("docs/images"))?;
         common::files::write_whole(&file, &stamped)?;
         Ok(device)
     }
+}
+
+/// What is out of date about a picture that says which command and which sources made it, if anything is.
+pub fn stale(
+    project: &Project,
+    file: &str,
+    command: &str,
+    hash: &str,
+    maker: &str,
+) -> Option<String> {
+    if !project.has(file) {
+        return Some(format!("the picture {file} is missing"));
+    }
+    let Ok(stamp) = stamp(&project.root.join(file)) else {
+        return Some(format!("the picture {file} is no PNG"));
+    };
+    match (stamp.get(COMMAND), stamp.get(SOURCES)) {
+        (Some(made_by), _) if made_by != command => {
+            Some(format!("the picture {file} was made by another command"))
+        }
+        (Some(_), Some(made_from)) if made_from == hash => None,
+        (Some(_), Some(_)) => Some(format!("the picture {file} is older than {maker}")),
+        _ => Some(format!("the picture {file} does not say what made it")),
+    }
+}
+
+/// The bytes of a picture that says which command, sources and device made it.
+///
+/// # Errors
+/// If the file is no PNG.
+pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<Vec<u8>> {
+    restamp(file, &[(COMMAND, command), (SOURCES, hash), (DEVICE, device)])
+}
+
+/// A hash of several parts, as text.
+pub fn hash(parts: [&[u8]; 2]) -> String {
+    format!("{:016x}", parts.into_iter().fold(FNV_OFFSET, fnv))
 }
 
 /// Where `--out` stands among a run's arguments.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::card;
 use crate::fault::Fault;
 use crate::gallery::is_other_page;
+use crate::mistake;
 use crate::project::{Project, SUMMARY};
 use crate::shader;
 
@@ -56,6 +57,7 @@ fn why(
         }
         _ if folder == "docs" && name == "book.toml" => (true, ""),
         // Whether they are whole, their own check says.
+        "diff" if folder == mistake::FOLDER => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),
         _ if name == "Cargo.toml" => {
             let member = format!("\"{folder}\",");

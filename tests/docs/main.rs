@@ -2,6 +2,7 @@
 
 mod author;
 mod fixture;
+mod mistakes;
 mod named;
 mod new;
 mod stale;

@@ -1,0 +1,115 @@
+//! Classic mistakes: each patch fits, and does to the picture what its file claims.
+
+use std::process::Command;
+
+use crate::fixture::{Fixture, run};
+
+/// The chapters that have mistakes in their shaders.
+const PROGRAMS: [&str; 9] = [
+    "02_basic",
+    "03_any_hit",
+    "04_jitter_camera",
+    "05_shadow_miss",
+    "06_reflection",
+    "07_multi_closest_hit",
+    "08_intersection",
+    "09_instancing",
+    "22_solids",
+];
+
+fn tool(arguments: &[&str]) -> (i32, String, String) {
+    let outcome = run(Command::new(env!("CARGO_BIN_EXE_chapters")).arg("mistake").args(arguments));
+    (outcome.code, outcome.out, outcome.err)
+}
+
+#[test]
+fn every_mistake_in_shaders_does_what_its_file_claims() {
+    for program in PROGRAMS {
+        ::run::program(program);
+    }
+    let (code, out, err) = tool(&["--check"]);
+    assert_eq!(code, 0, "\n{out}{err}");
+    assert!(out.lines().count() >= 24, "{out}");
+}
+
+#[test]
+fn a_copy_is_made_once_and_says_how_to_run_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("copy");
+    let out = out.to_str().expect("a path of letters");
+    let (code, said, err) = tool(&["cull_mask_0", "--out", out]);
+    assert_eq!(code, 0, "{err}");
+    assert!(said.ends_with(&format!("SHADERS={out} cargo run --bin 02_basic\n")), "{said}");
+    let patched = std::fs::read_to_string(format!("{out}/02_basic/camera.rgen")).expect("a copy");
+    assert!(patched.contains("0x00,"), "{patched}");
+    let (code, _, err) = tool(&["cull_mask_0", "--out", out]);
+    assert_eq!(code, 1);
+    assert!(err.contains("is not empty; name another folder with --out"), "{err}");
+}
+
+#[test]
+fn a_wrong_name_gets_one_line_with_what_there_is() {
+    for (arguments, start) in [
+        (&["acme"][..], "error: no mistake 'acme'; there is acne, "),
+        (&[], "error: no mistake is named; there is acne, "),
+    ] {
+        let (code, _, err) = tool(arguments);
+        assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+        assert!(err.starts_with(start), "{err}");
+    }
+}
+
+/// A mistake of a small project.
+const PALE: &str = "Pale\n\nChapter: 02_basic\nOutcome: differs by 0.05\nValidation: nothing\n\
+                    Cause: c\nFind: f\nCure: c\n\n\
+                    --- shaders/02_basic/camera.rgen\n+++ shaders/02_basic/camera.rgen\n@@ -1 +1 @@\n\
+                    -    imageStore(picture, ivec2(id), payload);\n\
+                    +    imageStore(picture, ivec2(id), PAYLOAD);\n";
+
+fn with(payload: &str) -> Fixture {
+    let fixture = Fixture::new();
+    fixture.write("docs/mistakes/pale.diff", &PALE.replace("PAYLOAD", payload));
+    fixture
+}
+
+#[test]
+fn a_mistake_that_is_none_is_refused() {
+    let outcome = with("vec4(1.0)").run(&["mistake", "--check"]);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    let outcome = with("payload + 0.0").run(&["mistake", "--check"]);
+    assert_eq!(outcome.code, 1);
+    assert_eq!(outcome.out, "docs/mistakes/pale.diff: differs by 0.0000, not by 0.05\n");
+    let silent = with("vec4(1.0)");
+    silent.replace("docs/mistakes/pale.diff", "Validation: nothing", "Validation: SYNC-HAZARD");
+    let outcome = silent.run(&["mistake", "--check"]);
+    assert_eq!(
+        outcome.out,
+        "docs/mistakes/pale.diff: validation says nothing, not 'SYNC-HAZARD'\n"
+    );
+}
+
+#[test]
+fn a_picture_is_made_and_known_to_be_old() {
+    let fixture = with("vec4(1.0)");
+    let missing = "docs/mistakes/pale.diff:1: the picture docs/images/mistakes/pale.png is missing; \
+                   run: cargo chapters sync --pictures pale\n";
+    assert_eq!(fixture.check(), missing);
+    let outcome = fixture.run(&["sync", "--pictures"]);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    assert_eq!(fixture.check(), "");
+    fixture.replace("docs/mistakes/pale.diff", "Cause: c", "Cause: d");
+    assert!(fixture.check().contains("is older than its patch; run: "), "{}", fixture.check());
+}
+
+#[test]
+fn a_patch_that_does_not_fit_is_named_with_its_line() {
+    let fixture = with("vec4(1.0)");
+    fixture.run(&["sync", "--pictures"]);
+    fixture.replace("docs/mistakes/pale.diff", "ivec2(id), payload", "ivec2(it), payload");
+    let found = fixture.check();
+    let line = "docs/mistakes/pale.diff:12: this hunk does not fit shaders/02_basic/camera.rgen; make \
+                the patch again";
+    assert!(found.lines().any(|found| found == line), "{found}");
+    fixture.replace("docs/mistakes/pale.diff", "Outcome: differs by", "Outcome: is");
+    assert!(fixture.check().contains("docs/mistakes/pale.diff:4: 'is 0.05' is no outcome; write "));
+}
