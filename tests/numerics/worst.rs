@@ -1,4 +1,4 @@
-//! The hard cases and the families in the worst arithmetic that conforms.
+//! The hard cases in the worst arithmetic that conforms.
 
 use serde_json::Value;
 
