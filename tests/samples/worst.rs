@@ -81,3 +81,18 @@ fn a_specialised_pipeline_and_one_of_everything_agree() {
     let (mean, outliers) = flip(&own, &everything);
     assert!(mean <= BOUNDS.0 && outliers <= BOUNDS.1, "mean {mean}, outliers {outliers}");
 }
+
+/// A device may offer a triangle twice, unless that is ruled out: the list of 03 shows it.
+#[test]
+fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
+    let layer = |layer: &str, no_duplicates: &str| {
+        let sets = ["mode=all hits", "show=triangle", layer, no_duplicates];
+        let arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+        bits(&rendered("03_any_hit", "worst", &arguments).picture)
+    };
+    let [first, second, third] =
+        ["layer=0", "layer=1", "layer=2"].map(|name| layer(name, "no duplicates=off"));
+    assert!(first == second, "the first surface is not in the list twice");
+    assert!(layer("layer=0", "no duplicates=on") == first);
+    assert!(layer("layer=1", "no duplicates=on") == third, "the second surface");
+}

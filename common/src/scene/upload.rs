@@ -7,7 +7,8 @@ use ash::vk;
 
 use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
-    AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
+    AccelerationStructure, Arithmetic, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable,
+    order,
 };
 
 /// A scene in device memory, ready to be traced.
@@ -123,7 +124,11 @@ impl SceneOnGpu {
         };
         buffers.extend([records, materials]);
 
-        let placed = instance_order(scene, options.ordering).into_iter().map(|index| {
+        let mut order = instance_order(scene, options.ordering);
+        if gpu.arithmetic.is_worst() {
+            order.reverse();
+        }
+        let placed = order.into_iter().map(|index| {
             let instance = &instances[index as usize];
             // The custom index stays the scene's, whatever the order of the build.
             let blas = &blas[instance.mesh];
@@ -197,6 +202,24 @@ fn instance_order(scene: &Scene, ordering: bool) -> Vec<u32> {
     order::kd_median(&bounds.collect::<Vec<_>>())
 }
 
+/// Which triangle of a mesh each primitive of the build is.
+///
+/// A device may offer candidates in any order, and a triangle more than once unless that is ruled out. With
+/// the worst arithmetic the list is turned round, and each triangle is in it twice. Opaque ones are, too: a
+/// ray may ask any-hit shaders about them.
+fn triangle_order(mesh: &Mesh, options: SceneOptions, arithmetic: Arithmetic) -> Vec<u32> {
+    let mut order = match options.ordering {
+        true => order::kd_median(&mesh.triangle_bounds()),
+        false => (0..mesh.triangles.len() as u32).collect(),
+    };
+    if arithmetic.is_worst() {
+        order.reverse();
+        let times = if options.no_duplicate_any_hit { 1 } else { 2 };
+        order = order.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect();
+    }
+    order
+}
+
 struct MeshOnGpu {
     blas: AccelerationStructure,
     addresses: InstanceRecord,
@@ -206,11 +229,7 @@ struct MeshOnGpu {
 impl MeshOnGpu {
     fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, options: SceneOptions) -> Result<Self> {
         let name = &mesh.name;
-        let permutation = if options.ordering {
-            order::kd_median(&mesh.triangle_bounds())
-        } else {
-            (0..mesh.triangles.len() as u32).collect()
-        };
+        let permutation = triangle_order(mesh, options, gpu.arithmetic);
         let ordered: Vec<[u32; 3]> =
             permutation.iter().map(|&i| mesh.triangles[i as usize]).collect();
         let vertices = Buffer::with_data(gpu, name, &mesh.vertices, input_usage())?;
@@ -223,7 +242,7 @@ impl MeshOnGpu {
             vertex_stride: size_of::<Vertex>() as u64,
             vertex_count: mesh.vertices.len() as u32,
             indices: build_input.address,
-            count: mesh.triangles.len() as u32,
+            count: ordered.len() as u32,
             opaque,
             no_duplicate_any_hit: options.no_duplicate_any_hit,
         };

@@ -131,9 +131,9 @@ impl<'a> PipelineBuilder<'a> {
     }
 
     /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
-    /// by `#ifdef ROUNDING_MODE_RTE`.
+    /// by `#ifdef ROUNDING_MODE_RTE`. The worst device cannot be told.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
-        match gpu.limits.rounding_to_nearest_even {
+        match gpu.limits.rounding_to_nearest_even && !gpu.arithmetic.is_worst() {
             true => self.define("ROUNDING_MODE_RTE", 1),
             false => self,
         }
