@@ -63,6 +63,9 @@ fn every_top_rung_is_right_on_every_hard_case() {
     for rung in ["S0", "B0", "P0", "C0", "I0", "H0", "O0", "A0"] {
         assert!(wrong(rung) > 0, "{rung} fails nothing");
     }
-    // H3 both ways, A3 one: what every device has.
-    assert!(tops >= 3, "only {tops} top rungs, direct and traced");
+    // Direct and traced: S4, S5, B3, B4, P3, P4, T3, C2, C3, I2, H3 and O5, and A3 one way. Of these every
+    // device has H3 and A3.
+    let all_are_there = rungs.iter().all(|row| row.get("unavailable").is_none());
+    let least = if all_are_there { 2 * 12 + 1 } else { 3 };
+    assert!(tops >= least, "only {tops} top rungs, direct and traced");
 }
