@@ -20,6 +20,9 @@ pub struct Card {
     pub date: String,
     /// Operating system and processor, as `linux x86_64`.
     pub system: String,
+    /// The commit of the project, with `+` if code or shaders differ from it; `None` where Git does not tell.
+    #[serde(default)]
+    pub commit: Option<String>,
     /// The device; `None` if no chapter found one.
     pub device: Option<Device>,
     /// Whether the chapters ran under validation.

@@ -47,12 +47,15 @@ pub fn card(card: &Card) -> String {
         let _ = writeln!(text, "| {name} | {} |", what.replace('|', "\\|"));
     };
     if let Some(device) = &card.device {
+        let [vendor, id] = device.limits.vendor_and_device;
         line("driver", &device.driver);
+        line("vendor and device", &format!("{vendor:#06x}, {id:#06x}"));
         line("Vulkan", &vulkan(device));
         line("limits", &limits(device));
     }
     line("system", &card.system);
     line("date", &card.date);
+    line("commit", card.commit.as_deref().unwrap_or("unknown"));
     let validation = match (&card.device, card.validated) {
         (None, _) => "nothing ran",
         (_, true) => "on",

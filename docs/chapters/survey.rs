@@ -75,6 +75,7 @@ impl Survey<'_> {
         let mut card = Card {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            commit: self.commit(),
             validated: true,
             tolerance: flip::TOLERANCE,
             ..Card::default()
@@ -110,6 +111,19 @@ impl Survey<'_> {
             );
         }
         crate::print(&format!("{all} chapters pass; the card is {files}\n"))
+    }
+
+    /// What is surveyed: the commit, and whether code or shaders differ from it.
+    fn commit(&self) -> Option<String> {
+        let git = |arguments: &[&str]| {
+            let output =
+                Command::new("git").args(arguments).current_dir(&self.project.root).output();
+            let output = output.ok().filter(|output| output.status.success())?;
+            Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        };
+        let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+        let changed = git(&["status", "--porcelain", "--", "samples", "common", "shaders"])?;
+        Some(if changed.is_empty() { commit } else { commit + "+" })
     }
 
     /// Builds the programs if one is missing or older than its sources.

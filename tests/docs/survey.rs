@@ -106,6 +106,9 @@ fn a_card_tells_what_was_run_and_fills_the_page() {
     let device = card["device"]["name"].as_str().expect("a device");
     assert!(sheet.starts_with(&format!("# {device}\n")), "{sheet}");
     assert!(card["device"]["limits"]["vulkan"][0].as_u64() >= Some(1), "{card}");
+    assert!(card["device"]["limits"]["vendor_and_device"][0].as_u64() > Some(0), "{card}");
+    // The fixture has no history; a project that has one is named by its commit.
+    assert_eq!(card["commit"], Value::Null);
     for chapter in card["chapters"].as_array().expect("chapters") {
         assert_eq!((&chapter["failed"], &chapter["mean_flip"]), (&Value::Null, &0.0.into()));
         assert!(chapter["milliseconds"].as_f64() > Some(0.0), "{chapter}");

@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct Limits {
     /// The version of Vulkan that the device has: major, minor, patch.
     pub vulkan: [u32; 3],
+    /// Who made the device, by its number at PCI-SIG or Khronos, and its maker's number for it.
+    pub vendor_and_device: [u32; 2],
     /// Bytes of an opaque shader group handle (32 on every known device).
     pub shader_group_handle_size: u64,
     /// What the stride of a shader binding table's region is a multiple of.
@@ -97,6 +99,7 @@ impl Limits {
                 vk::api_version_minor(version),
                 vk::api_version_patch(version),
             ],
+            vendor_and_device: [properties.properties.vendor_id, properties.properties.device_id],
             shader_group_handle_size: pipeline.shader_group_handle_size.into(),
             shader_group_handle_alignment: pipeline.shader_group_handle_alignment.into(),
             shader_group_base_alignment: pipeline.shader_group_base_alignment.into(),
