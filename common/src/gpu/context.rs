@@ -150,6 +150,17 @@ impl Gpu {
     ) -> Result<Self> {
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;
+        // Before the device, so that what is said of its creation counts.
+        let messenger = match messages {
+            Some(messages) => {
+                let utils = ext::debug_utils::Instance::new(&entry, &instance);
+                let info = messages.messenger_info();
+                // SAFETY: the user data is kept beside the messenger.
+                let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
+                Some((utils, handle, messages))
+            }
+            None => None,
+        };
         let device = device::create(&instance, chosen, requirements)?;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(queue_family, 0) };
@@ -168,21 +179,8 @@ impl Gpu {
             .queue_family_index(queue_family);
         // SAFETY: the queue family belongs to this device.
         let command_pool = unsafe { device.create_command_pool(&pool, None)? };
-        let debug = if has_debug_utils {
-            let messenger = match messages {
-                Some(messages) => {
-                    let utils = ext::debug_utils::Instance::new(&entry, &instance);
-                    let info = messages.messenger_info();
-                    // SAFETY: the user data is kept beside the messenger.
-                    let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
-                    Some((utils, handle, messages))
-                }
-                None => None,
-            };
-            Some(Debug { names: ext::debug_utils::Device::new(&instance, &device), messenger })
-        } else {
-            None
-        };
+        let debug = has_debug_utils
+            .then(|| Debug { names: ext::debug_utils::Device::new(&instance, &device), messenger });
         Ok(Self(Arc::new(GpuContext {
             acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
