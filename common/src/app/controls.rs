@@ -51,7 +51,7 @@ fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool
     let mut degrees = camera.fov_y as f32;
     let moved = visitor.visit("camera eye", Value::Point(&mut camera.eye))
         | visitor.visit("camera target", Value::Point(&mut camera.target));
-    let zoomed = visitor.visit("field of view", Value::Slider(&mut degrees, 1.0..=150.0));
+    let zoomed = visitor.visit("field of view", Value::Slider(&mut degrees, Camera::FIELD_OF_VIEW));
     if zoomed {
         camera.fov_y = f64::from(degrees);
     }

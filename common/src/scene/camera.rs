@@ -1,5 +1,7 @@
 //! A pinhole camera: where rays begin and which way they go.
 
+use std::ops::RangeInclusive;
+
 use glam::{DVec3, Vec3};
 
 /// A camera in world space, in f64: the basis that shaders get is rounded once, at the end.
@@ -37,6 +39,9 @@ impl Default for Camera {
 }
 
 impl Camera {
+    /// The least and the most that `fov_y` may be: from a telescope's to a wide-angle lens's.
+    pub const FIELD_OF_VIEW: RangeInclusive<f32> = 1e-4..=150.0;
+
     /// A camera that looks from `eye` at `target`, y up, with a vertical field of view in degrees.
     pub fn new(eye: DVec3, target: DVec3, fov_y: f64) -> Self {
         Self { eye, target, up: DVec3::Y, fov_y }

@@ -54,7 +54,8 @@ impl Visit for Rows<'_> {
     fn camera(&mut self, camera: &mut Camera) -> bool {
         let moved = self.navigation.apply(camera);
         let mut degrees = camera.fov_y as f32;
-        let zoomed = self.visit("field of view", Value::Slider(&mut degrees, 1.0..=150.0));
+        let zoomed =
+            self.visit("field of view", Value::Slider(&mut degrees, Camera::FIELD_OF_VIEW));
         if zoomed {
             camera.fov_y = f64::from(degrees);
         }
