@@ -21,6 +21,8 @@ pub struct BuildOptions {
     pub updatable: bool,
     /// Copy the result into a buffer of just the size it needs.
     pub compact: bool,
+    /// Let hit shaders ask for the corners of its triangles; needs `VK_KHR_ray_tracing_position_fetch`.
+    pub data_access: bool,
 }
 
 /// A `VkAccelerationStructureKHR` of either level with its buffer, freed on drop.
@@ -142,7 +144,7 @@ impl AccelerationStructure {
         ensure!(self.updatable, "'{}' was not built to be updated", self.name);
         let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
             .ty(level)
-            .flags(flags(BuildOptions { updatable: true, compact: false }))
+            .flags(flags(BuildOptions { updatable: true, ..BuildOptions::default() }))
             .mode(vk::BuildAccelerationStructureModeKHR::UPDATE)
             .geometries(geometries)
             .src_acceleration_structure(self.handle)
@@ -248,6 +250,9 @@ fn flags(options: BuildOptions) -> vk::BuildAccelerationStructureFlagsKHR {
     }
     if options.compact {
         flags |= Flags::ALLOW_COMPACTION;
+    }
+    if options.data_access {
+        flags |= Flags::ALLOW_DATA_ACCESS;
     }
     flags
 }

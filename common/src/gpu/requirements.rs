@@ -27,6 +27,7 @@ pub struct Features {
     vulkan13: vk::PhysicalDeviceVulkan13Features<'static>,
     acceleration_structure: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
     ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
+    position_fetch: vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR<'static>,
     executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -45,11 +46,18 @@ impl Features {
             vulkan13,
             acceleration_structure,
             ray_tracing_pipeline,
+            position_fetch,
             executable,
         } = self;
         // Copies carry the chain, so that no structure keeps a pointer to its neighbour afterwards.
-        let mut links =
-            (*vulkan12, *vulkan13, *acceleration_structure, *ray_tracing_pipeline, *executable);
+        let mut links = (
+            *vulkan12,
+            *vulkan13,
+            *acceleration_structure,
+            *ray_tracing_pipeline,
+            *executable,
+            *position_fetch,
+        );
         let mut root = vk::PhysicalDeviceFeatures2::default()
             .features(*core)
             .push_next(&mut links.0)
@@ -62,6 +70,9 @@ impl Features {
         }
         if has(khr::pipeline_executable_properties::NAME) {
             root = root.push_next(&mut links.4);
+        }
+        if has(khr::ray_tracing_position_fetch::NAME) {
+            root = root.push_next(&mut links.5);
         }
         let result = f(&mut root);
         *core = root.features;
@@ -76,6 +87,8 @@ impl Features {
             p_next: unlinked,
             ..links.4
         };
+        *position_fetch =
+            vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR { p_next: unlinked, ..links.5 };
         result
     }
 }
@@ -177,6 +190,16 @@ impl Requirements {
     /// 64-bit floats in shaders, where the device has them: [`Limits::float64`](super::Limits) tells.
     pub fn float64_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
+        self
+    }
+
+    /// The corners of the triangle that was hit, from its bottom level.
+    pub fn position_fetch(mut self) -> Self {
+        self.list.push(requirement!(
+            Some(khr::ray_tracing_position_fetch::NAME),
+            "rayTracingPositionFetch",
+            position_fetch.ray_tracing_position_fetch
+        ));
         self
     }
 

@@ -7,8 +7,8 @@ use ash::vk;
 
 use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
-    AccelerationStructure, Arithmetic, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable,
-    order,
+    AccelerationStructure, Address, Arithmetic, Buffer, BuildOptions, Geometry, Gpu, Image,
+    TextureTable, order,
 };
 
 /// A scene in device memory, ready to be traced.
@@ -33,11 +33,14 @@ pub struct SceneOptions {
     pub ordering: bool,
     /// Promise that an any-hit shader runs at most once for each triangle that a ray crosses.
     pub no_duplicate_any_hit: bool,
+    /// Keep positions in the bottom levels alone: hit shaders fetch corners from there, and vertices are
+    /// freed after the build.
+    pub position_fetch: bool,
 }
 
 impl Default for SceneOptions {
     fn default() -> Self {
-        Self { ordering: true, no_duplicate_any_hit: false }
+        Self { ordering: true, no_duplicate_any_hit: false, position_fetch: false }
     }
 }
 
@@ -246,17 +249,19 @@ impl MeshOnGpu {
             opaque,
             no_duplicate_any_hit: options.no_duplicate_any_hit,
         };
-        let options = BuildOptions { compact: true, ..BuildOptions::default() };
-        Ok(Self {
-            blas: AccelerationStructure::bottom(gpu, name, &[geometry], options)?,
-            addresses: InstanceRecord {
-                vertices: vertices.address.into(),
-                triangles: triangles.address.into(),
-                original: original.address.into(),
-                material: 0,
-                mesh: 0,
-            },
-            buffers: vec![vertices, triangles, original],
-        })
+        let fetch = options.position_fetch;
+        let options = BuildOptions { compact: true, data_access: fetch, ..BuildOptions::default() };
+        let blas = AccelerationStructure::bottom(gpu, name, &[geometry], options)?;
+        let kept = (!fetch).then_some(vertices);
+        let vertices = kept.as_ref().map_or(Address::default(), |kept| kept.address.into());
+        let addresses = InstanceRecord {
+            vertices,
+            triangles: triangles.address.into(),
+            original: original.address.into(),
+            material: 0,
+            mesh: 0,
+        };
+        let buffers = [triangles, original].into_iter().chain(kept).collect();
+        Ok(Self { blas, addresses, buffers })
     }
 }
