@@ -11,6 +11,7 @@ mod intersection;
 mod jitter_camera;
 mod leaving_a_surface;
 mod multi_closest_hit;
+mod position_fetch;
 mod reflection;
 mod settings;
 mod shadow_miss;

@@ -1,0 +1,45 @@
+// A vertex without its position, which the acceleration structure keeps; and what its corners give.
+
+struct Attributes {
+    vec3 normal;
+    vec2 uv;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer AttributesOfMesh { Attributes at[]; };
+
+struct MeshRecord {
+    AttributesOfMesh vertices;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes { MeshRecord at[]; };
+
+// ANCHOR: surface
+// As 02's, with corners from elsewhere, and attributes where vertices were.
+Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 weights) {
+    Attributes a = mesh.vertices.at[index.x];
+    Attributes b = mesh.vertices.at[index.y];
+    Attributes c = mesh.vertices.at[index.z];
+    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    Surface surface;
+    surface.normal = w.x * a.normal + w.y * b.normal + w.z * c.normal;
+    surface.face = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    surface.uv = w.x * a.uv + w.y * b.uv + w.z * c.uv;
+    return surface;
+}
+// ANCHOR_END: surface
+
+// The corners of a triangle of the model, from our own vertices.
+vec3[3] corners_at(InstanceRecord instance, uint triangle) {
+    uvec3 index = instance.triangles.at[triangle];
+    return vec3[](
+        instance.vertices.at[index.x].position,
+        instance.vertices.at[index.y].position,
+        instance.vertices.at[index.z].position);
+}
+
+// ANCHOR: point
+// The point with these barycentric coordinates, in object space.
+vec3 point_at(vec3 corners[3], vec2 weights) {
+    return corners[0] + weights.x * (corners[1] - corners[0]) + weights.y * (corners[2] - corners[0]);
+}
+// ANCHOR_END: point

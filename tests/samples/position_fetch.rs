@@ -1,0 +1,186 @@
+//! 10_position_fetch: corners from the acceleration structure are those of the model, to the bit, and what a
+//! point computed from them is worth.
+
+use std::fs;
+
+use common::app::Picture;
+use common::scene::{Camera, Scene};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
+
+use run::primary_hits::{answer, rays};
+use run::{bits, golden, render};
+
+const NAME: &str = "10_position_fetch";
+
+/// A unit in the last place of numbers from 1 to 2.
+const ULP: f64 = f32::EPSILON as f64;
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
+}
+
+#[test]
+fn both_ways_give_the_same_bits() {
+    for show in ["picture", "normal", "geometric normal", "hit point"] {
+        let seen = ["acceleration structure", "buffer"].map(|positions| {
+            let sets = [format!("show={show}"), format!("positions={positions}")];
+            render(NAME, "120x75", &["--set", &sets[0], "--set", &sets[1]]).picture
+        });
+        assert_eq!(bits(&seen[0]), bits(&seen[1]), "{show}");
+    }
+    // What is left of a vertex is enough for the very picture of 02.
+    let [here, basic] = [NAME, "02_basic"].map(|name| render(name, "120x75", &[]).picture);
+    assert_eq!(bits(&here), bits(&basic));
+}
+
+#[test]
+fn positions_cost_no_memory_of_ours() {
+    let bytes = |positions: &str| {
+        let positions = format!("positions={positions}");
+        let run = render(NAME, "8x8", &["--set", &positions]);
+        run.report["bytes_allocated"].as_u64().expect("bytes")
+    };
+    let meshes = Scene::chess().expect("the chess set").model.meshes;
+    let vertices: usize = meshes.iter().map(|mesh| mesh.vertices.len()).sum();
+    let saved = bytes("buffer") - bytes("acceleration structure");
+    println!("{vertices} vertices: {saved} bytes less");
+    // Twelve bytes a vertex, less an address a mesh and what alignment takes.
+    let most = 12 * vertices as u64;
+    assert!(saved <= most && saved > most - 4096, "{saved} of {most}");
+}
+
+/// How far a point is from where its ray meets the triangle's plane exactly, in ULP of 1.
+#[derive(Clone, Copy)]
+struct Error {
+    /// The distance of both.
+    whole: f64,
+    /// The part across the plane: what a ray that starts there has to overcome.
+    off: f64,
+}
+
+/// Points by both ways, one for each ray of a picture that hits.
+#[derive(Default)]
+struct Errors {
+    by_corners: Vec<Error>,
+    along_the_ray: Vec<Error>,
+}
+
+impl Errors {
+    /// Medians and worst of both parts: by corners, then along the ray.
+    fn spread(&self) -> [[(f64, f64); 2]; 2] {
+        [&self.by_corners, &self.along_the_ray].map(|errors| {
+            [|error: &Error| error.whole, |error: &Error| error.off].map(|part| {
+                let mut parts: Vec<f64> = errors.iter().map(part).collect();
+                parts.sort_by(f64::total_cmp);
+                (parts[parts.len() / 2], parts[parts.len() - 1])
+            })
+        })
+    }
+}
+
+fn row(at: f64, [corners, ray]: &[[(f64, f64); 2]; 2]) -> String {
+    let parts = [corners[0], corners[1], ray[0], ray[1]];
+    let cells = parts.map(|(median, most)| format!("{median:.1} | {most:.1}"));
+    format!("| {at:e} | {} |", cells.join(" | "))
+}
+
+/// Renders a scene from a camera, and finds out where its rays end.
+fn errors(scene: &Scene, camera: &Camera, file: Option<&str>) -> Errors {
+    let vector = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
+    let sets = [
+        format!("camera eye={}", vector(camera.eye)),
+        format!("camera target={}", vector(camera.target)),
+        format!("field of view={}", camera.fov_y),
+    ];
+    let view = |show: &str| -> Picture {
+        let show = format!("show={show}");
+        let mut arguments = vec!["--set", &show];
+        arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+        arguments.extend(file.into_iter().flat_map(|file| ["--scene", file]));
+        render(NAME, "48x30", &arguments).picture
+    };
+    let [hits, directions] = ["hit", "ray direction"].map(view);
+    let [barycentric, along] = ["hit point", "ray point"].map(view);
+    let mut found = Errors::default();
+    let all = hits.pixels.iter().zip(rays(camera, &directions));
+    for ((pixel, ray), (here, there)) in all.zip(barycentric.pixels.iter().zip(&along.pixels)) {
+        let Some(hit) = answer(pixel) else { continue };
+        let instance = &scene.instances[hit.instance as usize];
+        let mesh = &scene.model.meshes[instance.mesh];
+        let matrix = in_f64(&instance.transform);
+        let corners = mesh.triangles[hit.primitive as usize].map(|index| {
+            matrix.transform_point3(mesh.vertices[index as usize].position.as_dvec3())
+        });
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
+        let t = normal.dot(corners[0] - origin) / normal.dot(direction);
+        let exact = origin + t * direction;
+        let normal = normal.normalize();
+        let error = |&[x, y, z, _]: &[f32; 4]| {
+            let apart = Vec3A::new(x, y, z).as_dvec3() - exact;
+            Error { whole: apart.length() / ULP, off: normal.dot(apart).abs() / ULP }
+        };
+        // A ray that grazes its triangle has no point to speak of.
+        if normal.dot(direction.normalize()).abs() > 0.1 {
+            found.by_corners.push(error(here));
+            found.along_the_ray.push(error(there));
+        }
+    }
+    assert!(found.by_corners.len() > 1000, "only {} rays hit", found.by_corners.len());
+    found
+}
+
+fn in_f64(affine: &Affine3A) -> DAffine3 {
+    let axes = affine.matrix3;
+    let matrix = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_dvec3());
+    DAffine3::from_mat3_translation(
+        DMat3::from_cols(matrix[0], matrix[1], matrix[2]),
+        affine.translation.as_dvec3(),
+    )
+}
+
+#[test]
+fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does_not() {
+    let scene = Scene::chess().expect("the chess set");
+    let towards = (scene.camera.eye - scene.camera.target).normalize();
+    for distance in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
+        // A lens so long that the board fills the picture.
+        let camera = Camera {
+            eye: scene.camera.target + distance * towards,
+            fov_y: 2.0 * (2.5 / distance).atan().to_degrees(),
+            ..scene.camera
+        };
+        let spread = errors(&scene, &camera, None).spread();
+        println!("{}", row(distance, &spread));
+        let [by_corners, along_the_ray] = spread;
+        // Coordinates reach 6, where a last place is 4 ULP of 1; the device's weights are off along the plane.
+        assert!(by_corners[1].1 < 8.0, "{distance}: {by_corners:?}");
+        // The ray's origin and direction have 24 bits, as has its t: off by so much of the distance.
+        assert!(along_the_ray[1].0 > distance / 100.0, "{distance}: {along_the_ray:?}");
+        assert!(along_the_ray[0].1 < 16.0 * distance, "{distance}: {along_the_ray:?}");
+    }
+}
+
+#[test]
+fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_not() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let camera = Camera::new(DVec3::new(0.2, 1.0, 0.3), DVec3::ZERO, 40.0);
+    for size in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
+        let file = folder.path().join("square.obj");
+        // A little crooked, so that no product is exact.
+        let corners = [[1.1, 1.0], [1.0, -1.3], [-1.2, -1.0], [-1.0, 1.4]];
+        let vertex = |[x, z]: [f64; 2]| format!("v {} 0 {}\n", x * size, z * size);
+        let text = corners.map(vertex).concat() + "f 1 2 3\nf 1 3 4\n";
+        fs::write(&file, text).expect("an OBJ file");
+        let scene = Scene::open(&file).expect("a scene");
+        let spread = errors(&scene, &camera, file.to_str()).spread();
+        println!("{}", row(size, &spread));
+        let [by_corners, along_the_ray] = spread;
+        // Weights have 24 bits of 1, which is so much of the triangle's size.
+        assert!(by_corners[0].0 > size / 10.0, "{size}: {by_corners:?}");
+        assert_eq!(by_corners[1].1, 0.0, "the ground is level: {size}: {by_corners:?}");
+        assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
+    }
+}
