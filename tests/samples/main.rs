@@ -17,4 +17,5 @@ mod settings;
 mod shadow_miss;
 mod slivers;
 mod solids;
+mod wireframe;
 mod worst;

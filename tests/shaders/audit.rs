@@ -45,7 +45,9 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // Its addresses are the host's alone.
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &floats,
-        "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
+        "10_position_fetch" | "20_wireframe" => {
+            &[textures[0], textures[1], "rayTracingPositionFetch"]
+        }
         _ => &textures,
     };
     [&["bufferDeviceAddress"], own].concat()
@@ -183,7 +185,9 @@ fn validate(name: &str, words: &[u32]) {
     let said = [output.stdout, output.stderr].concat();
     let said = String::from_utf8_lossy(&said);
     // That of Debian 12, 2023.1, is older than SPV_KHR_ray_tracing_position_fetch.
-    let fetches = name.starts_with("10_position_fetch/shade.rchit");
+    let fetches =
+        ["10_position_fetch/shade.rchit", "20_wireframe/shade.rchit", "20_wireframe/line.rahit"];
+    let fetches = fetches.iter().any(|stage| name.starts_with(stage));
     let is_too_old = fetches && said.contains("Invalid capability operand: 5336");
     assert!(output.status.success() || is_too_old, "{name}: {said}");
 }

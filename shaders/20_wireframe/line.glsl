@@ -1,0 +1,47 @@
+// How far a pixel is from the edges of the triangle that its ray met.
+
+// ANCHOR: distance
+// The distances in pixels to the three edges, each opposite its corner; inside the triangle all are
+// positive. Everything is in object space: the corners, the eye, the basis of the picture.
+//
+// The eye and an edge span a plane with the normal n. A direction lies in it if f = n·direction is 0, and a
+// pixel's direction, forward + x·right + y·up, is linear in x and y. So f is linear over the picture: a pixel
+// is f / |grad f| away from the line f = 0. No corner is projected, so corners behind the eye do no harm.
+vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 up) {
+    vec3 a = corners[0] - eye;
+    vec3 b = corners[1] - eye;
+    vec3 c = corners[2] - eye;
+    vec3 normals[3] = vec3[](cross(b, c), cross(c, a), cross(a, b));
+    // Towards the triangle's other side from each edge, whichever way its corners turn.
+    float side = dot(a, normals[0]) < 0.0 ? -1.0 : 1.0;
+    vec3 distances;
+    for (uint k = 0; k < 3; k++) {
+        vec2 gradient = vec2(dot(normals[k], right), dot(normals[k], up));
+        distances[k] = side * dot(normals[k], direction) / max(length(gradient), 1e-30);
+    }
+    return distances;
+}
+// ANCHOR_END: distance
+
+// ANCHOR: coverage
+// How much of the pixel the triangle's lines cover, 0 to 1, for closest hit and any-hit shaders. Half of a
+// line belongs to the triangle on this side of the edge.
+float line_coverage(vec2 weights) {
+    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    if (CONSTANT == CONSTANT_WEIGHT) {
+        // A hundredth of the triangle for each pixel asked for: no pixel is in this at all.
+        return min(w.x, min(w.y, w.z)) < 0.01 * push.width ? 1.0 : 0.0;
+    }
+    mat3 to_object = mat3(gl_WorldToObjectEXT);
+    // The length at which the direction reaches the picture's plane, at distance 1.
+    vec3 direction = gl_ObjectRayDirectionEXT / dot(gl_WorldRayDirectionEXT, push.camera.forward);
+    vec3 right = to_object * push.camera.right * 2.0 / push.size.x;
+    vec3 up = to_object * push.camera.up * 2.0 / push.size.y;
+    vec3 distances = edge_distances(
+        gl_HitTriangleVertexPositionsEXT, gl_ObjectRayOriginEXT, direction, right, up);
+    float nearest = min(distances.x, min(distances.y, distances.z));
+    // What the pixel, one wide, and the line have in common.
+    float half_width = 0.5 * push.width;
+    return clamp(min(nearest + 0.5, half_width) - max(nearest - 0.5, -half_width), 0.0, 1.0);
+}
+// ANCHOR_END: coverage

@@ -1,0 +1,49 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_ray_tracing_position_fetch : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "line.glsl"
+
+layout(location = 0) rayPayloadInEXT vec4 payload;
+hitAttributeEXT vec2 weights;
+
+// The nearest hit: the triangle's own normal, the material's colour, and the lines.
+void main() {
+    // ANCHOR: fetch
+    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
+    MaterialRecord material = push.scene.materials.at[instance.material];
+    vec3 corners[3] = gl_HitTriangleVertexPositionsEXT;
+    // ANCHOR_END: fetch
+    // ANCHOR: normal
+    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
+    vec3 face = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    vec3 normal = normalize(vec3(face * gl_WorldToObjectEXT));
+    vec3 view = -gl_WorldRayDirectionEXT;
+    normal = faceforward(normal, -view, normal);
+    // ANCHOR_END: normal
+
+    vec3 base = material.base_color;
+    vec3 color = material.emission + base * ambient(normal);
+    color += push.light.radiance
+        * reflect_light(base, material.specular, material.shininess, normal, view, push.light.direction);
+
+    if (SHOW == SHOW_LINES) {
+        color = vec3(1.0);
+    }
+    if (SHOW == SHOW_NORMAL) {
+        color = 0.5 + 0.5 * normal;
+    }
+    // ANCHOR: ink
+    // Darker on a light surface, lighter on a dark one. The fourth number is what the line covers.
+    float coverage = line_coverage(weights);
+    float brightness = dot(color, vec3(0.2126, 0.7152, 0.0722));
+    vec3 ink = brightness > 0.1 ? 0.15 * color : color + 0.2;
+    if (SHOW == SHOW_LINES) {
+        ink = vec3(0.0);
+    }
+    payload = vec4(mix(color, ink, coverage), coverage);
+    // ANCHOR_END: ink
+}

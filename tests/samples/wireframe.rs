@@ -1,0 +1,145 @@
+//! 20_wireframe: lines are as wide as they were asked to be, wherever the triangle is and however it is turned.
+
+use std::fs;
+
+use common::app::Picture;
+
+use run::{bits, golden, render};
+
+const NAME: &str = "20_wireframe";
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| render(NAME, "240x150", &[]).picture);
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &first, 0.002);
+}
+
+/// Two triangles that share an edge, which is upright in the middle of the picture.
+struct Diamond {
+    /// Half its diagonals.
+    size: f64,
+    /// How far the eye is.
+    distance: f64,
+    /// How far the eye has gone round it, in degrees: at 90 it would be seen from its edge.
+    turned: f64,
+    /// Half of what the picture's height shows at this distance.
+    shown: f64,
+}
+
+/// What fills the picture, seen from the front.
+const FRONT: Diamond = Diamond { size: 1.0, distance: 2.0, turned: 0.0, shown: 0.5 };
+
+impl Diamond {
+    /// The lines of its picture, drawn so wide.
+    fn picture(&self, width: f64, more: &[&str]) -> Picture {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("diamond.obj");
+        let s = self.size;
+        let text = format!("v {s} 0 0\nv 0 {s} 0\nv -{s} 0 0\nv 0 -{s} 0\nf 1 2 4\nf 3 4 2\n");
+        fs::write(&file, text).expect("an OBJ file");
+        let (sin, cos) = self.turned.to_radians().sin_cos();
+        let sets = [
+            format!("camera eye={},0,{}", self.distance * sin, self.distance * cos),
+            "camera target=0,0,0".to_owned(),
+            format!("field of view={}", 2.0 * (self.shown / self.distance).atan().to_degrees()),
+            format!("line width={width}"),
+            "show=lines".to_owned(),
+        ];
+        let mut arguments = vec!["--scene", file.to_str().expect("UTF-8")];
+        arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+        arguments.extend(more);
+        render(NAME, "97x61", &arguments).picture
+    }
+
+    /// The width of the middle line in a picture, in pixels: how much ink a row has there.
+    fn measured(&self, width: f64, more: &[&str]) -> f64 {
+        ink(&self.picture(width, more), 30, (width / 2.0 + 1.0).ceil() as usize)
+    }
+}
+
+/// The ink of a row in its middle, so many pixels to both sides.
+fn ink(picture: &Picture, row: usize, reach: usize) -> f64 {
+    let columns = picture.width as usize;
+    let middle = row * columns + columns / 2;
+    let pixels = &picture.pixels[middle - reach..=middle + reach];
+    pixels.iter().map(|pixel| 1.0 - f64::from(pixel[0])).sum()
+}
+
+#[test]
+fn a_line_is_as_wide_as_asked() {
+    for width in [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 7.0, 20.0] {
+        let measured = FRONT.measured(width, &[]);
+        assert!((measured - width).abs() < 1e-3, "{width}: {measured}");
+    }
+}
+
+#[test]
+fn its_width_does_not_depend_on_size_distance_or_slant() {
+    for turned in [0.0, 45.0, -60.0, 80.0, 85.0] {
+        let measured = Diamond { size: 3.0, distance: 6.0, turned, shown: 0.5 }.measured(3.0, &[]);
+        assert!((measured - 3.0).abs() < 1e-3, "turned by {turned} degrees: {measured}");
+    }
+    for size in [1e-3, 0.1, 10.0, 1e4] {
+        let diamond = Diamond { size, distance: 2.0 * size, turned: 30.0, shown: 0.5 * size };
+        let measured = diamond.measured(3.0, &[]);
+        assert!((measured - 3.0).abs() < 1e-3, "a diamond of {size}: {measured}");
+    }
+    for distance in [1e1, 1e2, 1e3, 1e4, 1e5] {
+        let measured = Diamond { distance, turned: 30.0, ..FRONT }.measured(3.0, &[]);
+        println!("| {distance:e} | {measured:.4} |");
+        // A pixel is 1/61 over the distance wide, seen from the eye, and each side of the line may be off by
+        // a last place of the direction, 2^-24.
+        let rounding = 2.0 * 61.0 * distance / f64::from(1 << 24);
+        assert!((measured - 3.0).abs() < 1e-3 + rounding, "from {distance}: {measured}");
+    }
+}
+
+#[test]
+fn a_line_of_constant_weight_is_as_wide_as_its_triangle_is_large() {
+    let weight = ["--set", "constant=barycentric"];
+    let width = |diamond: Diamond| diamond.measured(10.0, &weight);
+    let whole = width(FRONT);
+    let half = width(Diamond { size: 0.5, ..FRONT });
+    let turned = width(Diamond { turned: 60.0, ..FRONT });
+    // A tenth of the triangle's width on either side, in whole pixels. The whole one is 61 pixels wide.
+    for (measured, width) in [(whole, 12.2), (half, 6.1), (turned, 6.1)] {
+        assert!((measured - width).abs() < 1.0, "{measured}, not {width}");
+    }
+}
+
+/// A corner behind the eye has no place in the picture, and the edge that leads to it has.
+#[test]
+fn edges_to_corners_behind_the_eye_are_as_wide() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("ground.obj");
+    // The shared edge runs under the eye, from far ahead to far behind.
+    let text = "v -50 0 -3\nv 0 0 -50\nv 50 0 3\nv 0 0 50\nf 1 4 2\nf 3 2 4\n";
+    fs::write(&file, text).expect("an OBJ file");
+    let scene = file.to_str().expect("UTF-8");
+    let sets = ["camera eye=0,1,0", "camera target=0,0.6,-1", "line width=4", "show=lines"];
+    let mut arguments = vec!["--scene", scene];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    let picture = render(NAME, "97x61", &arguments).picture;
+    for row in [30, 40, 50, 60] {
+        let measured = ink(&picture, row, 20);
+        assert!((measured - 4.0).abs() < 1e-3, "row {row}: {measured}");
+    }
+}
+
+#[test]
+fn hidden_lines_are_fainter_and_leave_what_is_seen_as_it_is() {
+    let [seen, all] = ["off", "on"].map(|hidden| {
+        let hidden = format!("hidden lines={hidden}");
+        render(NAME, "120x75", &["--set", "show=lines", "--set", &hidden]).picture
+    });
+    let mut fainter = 0;
+    for (seen, all) in seen.pixels.iter().zip(&all.pixels) {
+        // A third of the ink that is missing, at most.
+        let ink = [seen, all].map(|pixel| 1.0 - pixel[0]);
+        assert!(ink[1] >= ink[0] - 1e-6 && ink[1] <= ink[0] + 0.34 * (1.0 - ink[0]), "{ink:?}");
+        fainter += usize::from(ink[1] > ink[0] + 0.1);
+    }
+    assert!(fainter > 100, "{fainter} pixels show what is hidden");
+}
