@@ -180,7 +180,8 @@ fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_n
         let [by_corners, along_the_ray] = spread;
         // Weights have 24 bits of 1, which is so much of the triangle's size.
         assert!(by_corners[0].0 > size / 10.0, "{size}: {by_corners:?}");
-        assert_eq!(by_corners[1].1, 0.0, "the ground is level: {size}: {by_corners:?}");
+        // The ground is level: nothing but the rounding of the exact point, in f64.
+        assert!(by_corners[1].1 < 1e-6, "{size}: {by_corners:?}");
         assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
     }
 }

@@ -45,9 +45,9 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // Its addresses are the host's alone.
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &floats,
-        "10_position_fetch" | "20_wireframe" => {
-            &[textures[0], textures[1], "rayTracingPositionFetch"]
-        }
+        "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
+        // It binds the scene's textures and reads none.
+        "20_wireframe" => &["rayTracingPositionFetch"],
         _ => &textures,
     };
     [&["bufferDeviceAddress"], own].concat()
