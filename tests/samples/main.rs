@@ -3,6 +3,7 @@
 mod any_hit;
 mod bands;
 mod basic;
+mod callable_shader;
 mod foundation;
 mod heightfield;
 mod infinite_plane;

@@ -129,7 +129,8 @@ fn every_file_is_used_by_a_chapter() {
     // Their pictures take one pipeline of many.
     let best = ("24_accuracy".to_owned(), vec!["--set", "rung=64 bits"]);
     let recursive = ("06_reflection".to_owned(), vec!["--set", "method=recursive"]);
-    for (chapter, arguments) in plain.chain([best, recursive]) {
+    let groups = ("13_callable_shader".to_owned(), vec!["--set", "choose by=hit group"]);
+    for (chapter, arguments) in plain.chain([best, recursive, groups]) {
         let output = run::command(&chapter)
             .args(["--headless", "--size", "8x8", "--report", "-"])
             .args(arguments)

@@ -1,0 +1,30 @@
+// Which pattern a surface has is in its material's data. Here it becomes code, in one of two ways.
+#include "pattern.glsl"
+#include "finish.glsl"
+
+layout(location = 0) callableDataEXT Pattern pattern;
+
+// ANCHOR: choose
+// The weight of a pattern at a place.
+float weight_at(uint kind, vec3 place, int far) {
+    if (CHOOSE == CHOOSE_CALLABLE) {
+        pattern.place = place;
+        pattern.far = far;
+        executeCallableEXT(kind - 1, 0);   // sbtRecordIndex, callable data location
+        return pattern.weight;
+    }
+    switch (kind) {
+        case PATTERN_MARBLE: return marble(place, far);
+        case PATTERN_WOOD: return wood(place, far);
+        default: return checker(place, far);
+    }
+}
+// ANCHOR_END: choose
+
+// The hit's colour becomes that of its material's pattern.
+void patterned(inout Hit hit) {
+    Finish finish = push.finishes.at[hit.material];
+    if (finish.pattern != PATTERN_PLAIN) {
+        mix_colors(hit, finish, weight_at(finish.pattern, finish.scale * hit.object, int(push.far)));
+    }
+}

@@ -1,0 +1,50 @@
+// What a light does to a surface that a ray has met. Whether it reaches the surface, a shadow ray finds
+// out: how that is traced, the including shader says.
+
+// Whether nothing lies between a point above a surface and a point of the light.
+bool is_lit(vec3 origin, vec3 to_light, float end);
+
+// What a light sends to a point.
+Arrival arrival_at(Light light, vec3 from, vec2 on_disk);
+
+// ANCHOR: start
+// Where a shadow ray starts, and which way is up there.
+struct Start {
+    vec3 origin;
+    vec3 up;
+};
+
+Start shadow_start(Hit hit) {
+    // On a round surface that is made of triangles, up is where the smooth normal points.
+    bool lifted = hit.lift != vec3(0.0);
+    return Start(hit.position + hit.height * hit.face + hit.lift, lifted ? hit.normal : hit.face);
+}
+// ANCHOR_END: start
+
+// ANCHOR: visibility
+// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else several
+// rays go to points of it, which begin at the random numbers `first`.
+float visibility(Light light, Start start, vec2 first) {
+    bool soft = light.size > 0.0;
+    uint count = soft ? light.samples : 1;
+    uint seen = 0;
+    for (uint i = 0; i < count; i++) {
+        vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
+        Arrival arrival = arrival_at(light, start.origin, point);
+        // What is below the surface, the surface itself hides; that needs no ray.
+        if (dot(start.up, arrival.to_light) > 0.0 && is_lit(start.origin, arrival.to_light, arrival.end)) {
+            seen++;
+        }
+    }
+    return float(seen) / float(count);
+}
+// ANCHOR_END: visibility
+
+// ANCHOR: light
+// What the eye in direction `view` sees of a light on a surface, of which the part `visible` arrives.
+vec3 lit_by(Light light, Hit hit, MaterialRecord material, Start start, vec3 view, float visible) {
+    Arrival arrival = arrival_at(light, start.origin, vec2(0.0));
+    return visible * arrival.strength
+        * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view, normalize(arrival.to_light));
+}
+// ANCHOR_END: light

@@ -1,0 +1,56 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/light.glsl"
+#include "common/random.glsl"
+#include "common/false_color.glsl"
+
+// How a material looks.
+struct Finish {
+    vec3 first;
+    float scale;      // cells of the lattice a unit
+    vec3 second;
+    uint pattern;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Finishes { Finish at[]; };
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    Finishes finishes;
+    Light light;
+    uint far;         // how far along x patterns are moved, in cells
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_TRIANGLE = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
+const uint SHOW_SHADOW = 5;
+const uint SHOW_ORIGIN = 6;
+const uint SHOW_WEIGHT = 7;
+const uint SHOW_OBJECT = 8;
+
+layout(constant_id = 1) const uint SHADOW_RAYS = 0;
+const uint SHADOW_FIRST_HIT = 0;
+const uint SHADOW_NEAREST_HIT = 1;
+const uint SHADOW_OFF = 2;
+
+layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
+
+layout(constant_id = 3) const uint CHOOSE = 0;
+const uint CHOOSE_CALLABLE = 0;
+const uint CHOOSE_SWITCH = 1;
+const uint CHOOSE_HIT_GROUP = 2;
+
+layout(constant_id = 4) const uint STAGE = 0;
+const uint STAGE_RAYGEN = 0;
+const uint STAGE_HIT = 1;
+
+// The first callable shader of a light: those of patterns stand before it.
+const uint LIGHTS = 3;
