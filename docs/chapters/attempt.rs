@@ -9,6 +9,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use common::app::Picture;
 
+use crate::command::quoted;
 use crate::edition::Edition;
 use crate::exercise::{Exercise, Run, Step, Takes, sized};
 use crate::expectation::{Expectation, Other};
@@ -137,7 +138,7 @@ impl Attempt<'_> {
                     let seen = Seen::of(command, arguments, LIMIT)?;
                     let missed = self.missed(edition, step, arguments, &seen)?;
                     verdict.picture = verdict.picture.or(seen.picture);
-                    (missed, shlex::try_join(arguments.iter().map(|word| &**word))?)
+                    (missed, quoted(arguments))
                 }
                 Run::Test(program, filter) => {
                     let tested = edition.test(self.project, self.programs, (program, filter))?;

@@ -8,6 +8,7 @@ use common::app::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals};
+use crate::command;
 use crate::crew;
 use crate::exercise::{Exercise, Takes};
 use crate::program::Programs;
@@ -125,7 +126,7 @@ impl Practice {
             print(&answer)?;
             return bench.window()?.closed();
         }
-        let words = quoted(&bench.settings());
+        let words = command::quoted(&bench.settings());
         let chapter = &exercise.chapter;
         let out = format!("target/exercises/{exercise}.png");
         let command = format!("cargo run --bin {chapter} -- {words} --headless --out {out}");
@@ -164,28 +165,20 @@ impl Practice {
         }
         let programs = &Programs::beside_this(&project.root)?;
         let originals = &Originals::new(project, programs);
-        let prove =
-            |exercise: &Exercise| Attempt { project, programs, originals, exercise }.prove();
-        let mut failed = 0;
-        for line in crew::each(&exercises, prove) {
-            failed += usize::from(line.is_err());
-            print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))?;
-        }
+        // Printed as they come: those that are built take minutes.
+        let prove = |exercise: &Exercise| {
+            let line = Attempt { project, programs, originals, exercise }.prove();
+            let proved = line.is_ok();
+            print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))
+                .map(|()| proved)
+        };
+        let proved = crew::each(&exercises, prove).into_iter().collect::<Result<Vec<bool>>>()?;
+        let failed = proved.iter().filter(|proved| !**proved).count();
         match failed {
             0 => Ok(()),
             _ => bail!("{failed} of {} exercises are not what their files say", exercises.len()),
         }
     }
-}
-
-/// Words as a shell takes them.
-fn quoted(words: &[String]) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
-    let word = |word: &String| match word.chars().all(plain) {
-        true => word.clone(),
-        false => format!("\"{word}\""),
-    };
-    words.iter().map(word).collect::<Vec<_>>().join(" ")
 }
 
 fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Result<()> {

@@ -1,6 +1,6 @@
 //! The section *Try it* of a chapter's page: the list of its exercises, and nothing that looks like one.
 
-use crate::exercise::Exercise;
+use crate::exercise::{Exercise, Takes};
 use crate::fault::Fault;
 use crate::page::{Kind, Page};
 use crate::project::{Chapter, Project};
@@ -66,7 +66,10 @@ pub fn texts(project: &Project, exercise: &Exercise) -> Page {
         let (key, value) = line.split_once(": ")?;
         match key {
             "Text" | "Check" | "Hint" | "Why" => Some(value.to_owned()),
-            "Run" if value.starts_with("--set ") => Some(format!("`{value}`")),
+            // Rust code may add what a program is set to.
+            "Run" if value.starts_with("--set ") && exercise.takes != Takes::Rust => {
+                Some(format!("`{value}`"))
+            }
             _ => None,
         }
     };
