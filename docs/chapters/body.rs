@@ -5,6 +5,7 @@ use similar::{DiffOp, group_diff_ops};
 use crate::anchor::{anchors, part};
 use crate::card;
 use crate::diff::{self, FileDiff, Line, Parts, Side};
+use crate::exercise;
 use crate::fault::Fault;
 use crate::gallery;
 use crate::mistake;
@@ -38,9 +39,13 @@ pub fn body(
             let text = diff_block(project, old, new, rest.first().copied());
             Ok((text.map_err(|wrong| wrong.at(page, block))?, words.join(" ")))
         }
-        (Kind::Controls, [name]) => {
-            if !project.chapters.iter().any(|chapter| chapter.name == *name) {
+        (Kind::Controls | Kind::Exercises, [name]) => {
+            let known = project.chapters.iter().find(|chapter| chapter.name == *name);
+            let Some(chapter) = known else {
                 return Err(wrong(format!("no chapter '{name}'"), "name one of `chapters list`"));
+            };
+            if block.kind == Kind::Exercises {
+                return Ok((exercise::list(project, chapter), exercise::FOLDER.to_owned()));
             }
             let controls = programs.controls(name).map_err(|what| wrong(what, BUILD))?;
             Ok((controls.table(), format!("{name} --list-controls")))
@@ -59,6 +64,7 @@ pub fn body(
                 Kind::Gallery => "<!-- gallery -->",
                 Kind::Devices => "<!-- devices -->",
                 Kind::Mistakes => "<!-- mistakes -->",
+                Kind::Exercises => "<!-- exercises NN_name -->",
             };
             let what = format!("<!-- {} {} --> is no marker", kind.word(), words.join(" "));
             Err(wrong(what, &format!("write {form}")))

@@ -17,6 +17,8 @@ pub struct Ended {
     pub status: Option<ExitStatus>,
     /// What it said on standard error.
     pub said: String,
+    /// What it said on standard output.
+    pub told: String,
     limit: Duration,
 }
 
@@ -49,13 +51,13 @@ impl Ended {
 /// # Errors
 /// If it does not start.
 pub fn run(command: &mut Command, limit: Duration) -> Result<Ended> {
-    // A file and no pipe: nobody has to read it while the program runs.
-    let mut errors = tempfile::tempfile().context("cannot make a temporary file")?;
-    let output = errors.try_clone()?;
-    let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(output).spawn()?;
-    let status = wait(&mut child, limit)?;
-    let said = read(&mut errors)?;
-    Ok(Ended { status, said, limit })
+    // Files and no pipes: nobody has to read them while the program runs.
+    let file = || tempfile::tempfile().context("cannot make a temporary file");
+    let (mut output, mut errors) = (file()?, file()?);
+    command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
+    let status = wait(&mut command.spawn()?, limit)?;
+    let (told, said) = (read(&mut output)?, read(&mut errors)?);
+    Ok(Ended { status, said, told, limit })
 }
 
 fn wait(child: &mut Child, limit: Duration) -> Result<Option<ExitStatus>> {

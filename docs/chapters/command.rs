@@ -150,6 +150,16 @@ pub fn check(project: &Project, programs: &Programs, page: &str, code: &[Code]) 
     faults
 }
 
+/// Words as a shell takes them.
+pub fn quoted(words: &[String]) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
+    let word = |word: &String| match word.chars().all(plain) {
+        true => word.clone(),
+        false => format!("\"{word}\""),
+    };
+    words.iter().map(word).collect::<Vec<_>>().join(" ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

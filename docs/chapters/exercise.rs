@@ -1,92 +1,387 @@
-//! Exercises: the numbered items of a page's section *Try it*, each with what the reader checks.
+//! An exercise: what a reader is to do, how to check it, and the patch that solves it.
+//!
+//! Each is a file `docs/exercises/NN.k.diff`, a [`Patch`]. What its fields claim is held against runs of the
+//! chapter by [`crate::attempt`]; the list on the chapter's page is made from them.
 
+use std::collections::BTreeSet;
+use std::fmt;
+
+use anyhow::Result;
+use common::usage::Usage;
+
+use crate::expectation::{Expectation, FORMS, number};
 use crate::fault::Fault;
-use crate::page::Page;
-use crate::project::Project;
+use crate::patch::{Field, Patch};
+use crate::project::{Chapter, Project};
 
-/// The section's heading.
-const HEADING: &str = "## Try it";
-/// What begins the part of an exercise by which a reader knows that it has come out right.
-const CHECK: &str = "*Check:*";
+/// Where the exercises lie.
+pub const FOLDER: &str = "docs/exercises";
 
-/// A numbered item.
-struct Exercise {
-    /// Its line, from 1.
-    line: usize,
-    /// Its number, as written.
-    number: usize,
-    /// What it says, in as many lines as it takes.
-    text: String,
+/// What a file of an exercise looks like.
+const FORM: &str = "write a title, a blank line, `Takes: shader`, `Text`, `Check`, `Hint`, `Run` with its \
+    `Expect` lines, a blank line, the diff that solves it";
+
+/// The size of pictures where a run gives none.
+const SIZE: [&str; 2] = ["--size", "160x100"];
+
+/// Arguments that the tool gives itself.
+const GIVEN: [&str; 4] = ["--headless", "--validate", "--out", "--report"];
+
+/// What an exercise takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    /// No edit: settings, eyes, and an answer.
+    Look,
+    /// Edits of shaders alone.
+    Shader,
+    /// Edits of Rust code, and a build.
+    Rust,
 }
 
-/// The number before the point that begins a numbered item.
-fn number(line: &str) -> Option<usize> {
-    line.split_once(". ").and_then(|(number, _)| number.parse().ok())
+/// What is run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Run {
+    /// The chapter's program with these arguments.
+    Program(Vec<String>),
+    /// The tests of a test program whose names hold a filter.
+    Test(String, String),
 }
 
-/// The heading's line and the exercises below it, if there is the section.
-fn section(page: &Page) -> Option<(usize, Vec<Exercise>)> {
-    let prose = page.prose();
-    let start = prose.iter().position(|(_, text)| text.trim_end() == HEADING)?;
-    let below = prose[start + 1..].iter().take_while(|(_, text)| !text.starts_with("## "));
-    let mut exercises: Vec<Exercise> = Vec::new();
-    for &(line, text) in below {
-        match (number(text), exercises.last_mut()) {
-            (Some(number), _) => exercises.push(Exercise { line, number, text: text.to_owned() }),
-            (None, Some(last)) => last.text.push_str(text),
-            (None, None) => {}
+/// A run, and what must hold of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What is run.
+    pub run: Run,
+    /// What must hold.
+    pub expectations: Vec<Expectation>,
+}
+
+/// An exercise.
+#[derive(Clone, Debug)]
+pub struct Exercise {
+    /// The name of its chapter.
+    pub chapter: String,
+    /// Its number in the chapter, from 1.
+    pub number: usize,
+    /// What it takes.
+    pub takes: Takes,
+    /// What is to be done.
+    pub text: String,
+    /// What is seen once it is done.
+    pub check: String,
+    /// What helps.
+    pub hint: String,
+    /// What the result teaches.
+    pub why: Option<String>,
+    /// What answers the question of one that takes only looking.
+    pub answers: Vec<String>,
+    /// What proves that it is solved.
+    pub steps: Vec<Step>,
+    /// Its title, and what solves it.
+    pub patch: Patch,
+}
+
+impl Exercise {
+    /// Every exercise, by chapter and number, and what is wrong with the files.
+    pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
+        let (mut exercises, mut faults) = (Vec::new(), Vec::new());
+        for file in project.files(FOLDER) {
+            let text = project.read(&file).unwrap_or_default();
+            match Self::parse(project, &file, &text) {
+                Ok(exercise) => exercises.push(exercise),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        exercises.sort_by(|a, b| (&a.chapter, a.number).cmp(&(&b.chapter, b.number)));
+        (exercises, faults)
+    }
+
+    /// Every exercise, by chapter and number.
+    ///
+    /// # Errors
+    /// If a file is wrong.
+    pub fn whole(project: &Project) -> Result<Vec<Self>> {
+        let (exercises, faults) = Self::all(project);
+        faults.into_iter().next().map_or(Ok(exercises), |fault| Err(fault.error()))
+    }
+
+    /// The exercises that `05.2` or, all of a chapter, `05` means.
+    ///
+    /// # Errors
+    /// If a file is wrong, or there is none of this name; the line lists those that there are.
+    pub fn named(project: &Project, name: &str) -> Result<Vec<Self>> {
+        let (chapter, number) = name.split_once('.').unwrap_or((name, ""));
+        let chapter = project.chapter(chapter)?;
+        let mut found = Self::whole(project)?;
+        found.retain(|exercise| exercise.chapter == chapter.name);
+        if !name.contains('.') {
+            return Ok(found);
+        }
+        let names: Vec<String> = found.iter().map(Self::to_string).collect();
+        found.retain(|exercise| number.parse() == Ok(exercise.number));
+        match found.is_empty() {
+            true => {
+                Err(Usage(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+            }
+            false => Ok(found),
         }
     }
-    Some((prose[start].0, exercises))
-}
 
-/// How many exercises a page has.
-pub fn count(page: &Page) -> usize {
-    section(page).map_or(0, |(_, exercises)| exercises.len())
-}
-
-/// What is wrong with a page's exercises; a chapter's page must have some.
-pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
-    let fault = |line, what: String, remedy: &str| Fault::new(&*page.path, line, what, remedy);
-    let example = format!("write `1. … {CHECK} …` below it");
-    let Some((line, exercises)) = section(page) else {
-        let chapter = project.chapters.iter().any(|chapter| chapter.page() == page.path);
-        let what = format!("the page has no section `{HEADING}`");
-        return chapter.then(|| fault(1, what, "add it, with exercises")).into_iter().collect();
-    };
-    if exercises.is_empty() {
-        return vec![fault(line, format!("`{HEADING}` has no numbered exercise"), &example)];
+    fn parse(project: &Project, file: &str, text: &str) -> Result<Self, Fault> {
+        let wrong = |line, what: &str, remedy: &str| Err(Fault::new(file, line, what, remedy));
+        let name = file.rsplit_once('/').map_or(file, |(_, name)| name);
+        let name = name.strip_suffix(".diff").and_then(|name| name.split_once('.'));
+        let Some((chapter, Ok(number))) = name.map(|(chapter, k)| (chapter, k.parse())) else {
+            return wrong(1, "an exercise is a file NN.k.diff", "rename it");
+        };
+        let known = |known: &&Chapter| known.number() == chapter;
+        let Some(chapter) = project.chapters.iter().find(known) else {
+            return wrong(1, &format!("there is no chapter {chapter}"), "rename it");
+        };
+        let mut patch = Patch::parse(file, text, FORM)?;
+        let Field { line, value: takes, .. } = patch.field("Takes")?;
+        let takes = match takes.trim_end_matches(", test") {
+            "look" => Takes::Look,
+            "shader" => Takes::Shader,
+            "Rust" => Takes::Rust,
+            _ => {
+                return wrong(
+                    line,
+                    &format!("an exercise takes no '{takes}'"),
+                    "write look, shader or Rust",
+                );
+            }
+        };
+        let mut text_of = |key| patch.field(key).map(|field| field.value);
+        let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
+        let why = patch.field_if_any("Why")?.map(|field| field.value);
+        let answer = patch.field_if_any("Answer")?;
+        let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
+        patch.no_other_field("an exercise")?;
+        let what = match (takes, &answer, patch.is_empty()) {
+            (Takes::Look, Some(_), true) => None,
+            (Takes::Look, None, _) => {
+                Some(("what takes only looking asks a question", "add `Answer: …`"))
+            }
+            (Takes::Look, ..) => {
+                Some(("what takes only looking has no diff", "write what it takes"))
+            }
+            (_, Some(_), _) => Some(("what is solved by a diff has no answer", "remove it")),
+            (_, _, true) => Some(("there is no diff that solves it", FORM)),
+            (Takes::Shader, ..) if !patch.is_in_shaders() => {
+                Some(("the diff changes more than shaders", "write `Takes: Rust`"))
+            }
+            (Takes::Rust, ..) if patch.is_in_shaders() => {
+                Some(("the diff changes shaders alone", "write `Takes: shader`"))
+            }
+            _ if steps.is_empty() => Some(("nothing tells when it is solved", FORM)),
+            _ => None,
+        };
+        if let Some((what, remedy)) = what {
+            return wrong(line, what, remedy);
+        }
+        let answers = answer.iter().flat_map(|field| field.value.split('|'));
+        let answers = answers.map(|answer| answer.trim().to_owned()).collect();
+        let chapter = chapter.name.clone();
+        Ok(Self { chapter, number, takes, text, check, hint, why, answers, steps, patch })
     }
-    let mut faults = Vec::new();
-    for (expected, exercise) in (1..).zip(&exercises) {
-        let Exercise { line, number, text } = exercise;
-        if *number != expected {
-            let what = format!("exercise {expected} has the number {number}");
-            faults.push(fault(*line, what, "count from 1"));
+
+    /// What it takes, in words.
+    pub fn takes(&self) -> String {
+        let word = match self.takes {
+            Takes::Look => "look",
+            Takes::Shader => "shader",
+            Takes::Rust => "Rust",
+        };
+        let test = if self.runs_tests() { ", test" } else { "" };
+        format!("{word}{test}")
+    }
+
+    /// Whether tests tell that it is solved.
+    pub fn runs_tests(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
+    }
+
+    /// Whether an answer is right: compared without case, articles and final point, numbers as numbers.
+    pub fn accepts(&self, answer: &str) -> bool {
+        let given = plain(answer);
+        self.answers.iter().map(|right| plain(right)).any(|right| {
+            let ends = right.split_once(" to ").unwrap_or((&right, &right));
+            match (number(ends.0), number(ends.1)) {
+                (Some(low), Some(high)) => {
+                    number(&given).is_some_and(|given| (low..=high).contains(&given))
+                }
+                _ => given == right,
+            }
+        })
+    }
+
+    /// Its item in the list on its page.
+    fn item(&self) -> String {
+        let Self { number, patch, text, check, .. } = self;
+        format!("{number}. **{}** ({}). {text} *Check:* {check}\n", patch.title, self.takes())
+    }
+}
+
+impl fmt::Display for Exercise {
+    /// Its name, such as `05.2`.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let chapter = self.chapter.split('_').next().unwrap_or_default();
+        write!(f, "{chapter}.{}", self.number)
+    }
+}
+
+/// The list on a chapter's page.
+pub fn list(project: &Project, chapter: &Chapter) -> String {
+    let mut own = Exercise::all(project).0;
+    own.retain(|exercise| exercise.chapter == chapter.name);
+    let items: String = own.iter().map(Exercise::item).collect();
+    let edited = own.iter().find(|exercise| exercise.takes != Takes::Look);
+    let (chapter, number) = (chapter.number(), edited.map_or(1, |exercise| exercise.number));
+    format!(
+        "`cargo chapters exercise {chapter}.{number}` sets up exercise {number}, checks it on each save, and \
+         gives `--hint` and `--solution`.\n\n{items}"
+    )
+}
+
+/// What is wrong with the files: a number left out, a diff that does not fit.
+pub fn check(project: &Project) -> Vec<Fault> {
+    let (exercises, mut faults) = Exercise::all(project);
+    let there: BTreeSet<(&str, usize)> =
+        exercises.iter().map(|exercise| (&*exercise.chapter, exercise.number)).collect();
+    for exercise in &exercises {
+        let before = exercise.number.saturating_sub(1);
+        let first = before == 0 && exercise.number == 1;
+        // A file that is no exercise has been told as that.
+        if faults.is_empty() && !first && !there.contains(&(&*exercise.chapter, before)) {
+            let what = format!("there is no exercise {before} before this one");
+            faults.push(Fault::new(&*exercise.patch.file, 1, what, "count from 1"));
         }
-        let checked = text.split_once(CHECK).is_some_and(|(_, how)| !how.trim().is_empty());
-        if !checked {
-            let what = format!("exercise {number} does not say how to check it");
-            faults.push(fault(*line, what, &format!("write `{CHECK}` and what a reader must see")));
-        }
+        faults.extend(exercise.patch.patched_in(project).err());
     }
     faults
+}
+
+/// The runs and what must hold of each.
+fn steps(file: &str, fields: Vec<Field>) -> Result<Vec<Step>, Fault> {
+    let mut steps: Vec<Step> = Vec::new();
+    for Field { line, key, value } in fields {
+        let wrong = |what: String, remedy: &str| Err(Fault::new(file, line, what, remedy));
+        if key == "Run" {
+            let Some(run) = run(&value) else {
+                let remedy = "write the program's arguments as in a shell, or (test) NAME";
+                return wrong(format!("'{value}' is no run"), remedy);
+            };
+            if let Run::Program(arguments) = &run
+                && let Some(given) = arguments.iter().find(|word| GIVEN.contains(&word.as_str()))
+            {
+                return wrong(format!("{given} is added to every run"), "remove it");
+            }
+            steps.push(Step { run, expectations: Vec::new() });
+            continue;
+        }
+        let Some(expectation) = Expectation::parse(&value) else {
+            return wrong(format!("'{value}' is no expectation"), FORMS);
+        };
+        let Some(step) = steps.last_mut() else {
+            return wrong("nothing is run above this".to_owned(), "write `Run: …` first");
+        };
+        if matches!(step.run, Run::Test(..)) != expectation.is_of_tests() {
+            let what = format!("'{value}' does not belong to this run");
+            return wrong(what, "of tests it is `passes` or `fails`, of programs anything else");
+        }
+        step.expectations.push(expectation);
+    }
+    Ok(steps)
+}
+
+fn run(text: &str) -> Option<Run> {
+    let Some((program, filter)) = text.strip_prefix("(test").and_then(|rest| rest.split_once(')'))
+    else {
+        return arguments(text).map(Run::Program);
+    };
+    let (program, filter) = (program.trim(), filter.trim());
+    let program = if program.is_empty() { "samples" } else { program };
+    let word = |text: &str| !text.is_empty() && !text.contains(char::is_whitespace);
+    (word(program) && word(filter)).then(|| Run::Test(program.to_owned(), filter.to_owned()))
+}
+
+/// The words of a run's arguments.
+fn arguments(text: &str) -> Option<Vec<String>> {
+    shlex::split(text).map(sized)
+}
+
+/// Arguments with the usual size where they give none.
+pub fn sized(mut arguments: Vec<String>) -> Vec<String> {
+    if !arguments.iter().any(|word| word == "--size" || word.starts_with("--size=")) {
+        arguments.extend(SIZE.map(str::to_owned));
+    }
+    arguments
+}
+
+/// An answer in small letters, without articles and final point.
+fn plain(answer: &str) -> String {
+    let answer = answer.trim().trim_end_matches('.').to_lowercase();
+    let words = answer.split_whitespace().filter(|word| !["a", "an", "the"].contains(word));
+    words.collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn exercise(answers: &[&str]) -> Exercise {
+        Exercise {
+            chapter: "05_x".to_owned(),
+            number: 2,
+            takes: Takes::Look,
+            text: String::new(),
+            check: String::new(),
+            hint: String::new(),
+            why: None,
+            answers: answers.iter().map(|answer| (*answer).to_owned()).collect(),
+            steps: vec![],
+            patch: Patch::parse("f", "T\n", FORM).unwrap(),
+        }
+    }
+
     #[test]
-    fn exercises_end_with_their_section_and_may_have_several_lines() {
-        let text =
-            "# T\n\n## Try it\n\nFirst this.\n\n1. a\n   *Check:* b\n2. c\n\n## Sources\n\n3. d\n";
-        let (line, exercises) = section(&Page::parse("p.md", text)).unwrap();
-        let found: Vec<(usize, usize, bool)> = exercises
-            .iter()
-            .map(|exercise| (exercise.line, exercise.number, exercise.text.contains(CHECK)))
-            .collect();
-        assert_eq!((line, &found[..]), (3, &[(7, 1, true), (9, 2, false)][..]));
-        assert_eq!(count(&Page::parse("p.md", "# T\n")), 0);
+    fn answers_are_compared_as_a_reader_means_them() {
+        let exercise = exercise(&["up", "+y", "the white king", "40 to 44", "1,600"]);
+        let right = [
+            "up",
+            "Up.",
+            "+y",
+            "White  King",
+            "a white king",
+            "40",
+            "44.0",
+            "42.5",
+            "1600",
+            "1,600",
+        ];
+        let wrong = ["", "down", "king", "39", "45", "y", "the", "40 to 44"];
+        assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 10]);
+        assert_eq!(wrong.map(|answer| exercise.accepts(answer)), [false; 8]);
+        assert_eq!(exercise.to_string(), "05.2");
+    }
+
+    #[test]
+    fn a_run_is_arguments_or_a_test() {
+        let program =
+            |words: &[&str]| Some(Run::Program(words.iter().map(|w| (*w).to_owned()).collect()));
+        let test =
+            |program: &str, filter: &str| Some(Run::Test(program.to_owned(), filter.to_owned()));
+        for (text, expected) in [
+            ("", program(&["--size", "160x100"])),
+            ("--set \"a b=c\" --size 3x2", program(&["--set", "a b=c", "--size", "3x2"])),
+            ("(test) basic::normals", test("samples", "basic::normals")),
+            ("(test numerics) hard", test("numerics", "hard")),
+            ("(test) two words", None),
+            ("(test)", None),
+            ("--set \"a", None),
+        ] {
+            assert_eq!(run(text), expected, "{text}");
+        }
     }
 }

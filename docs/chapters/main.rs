@@ -5,6 +5,7 @@
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
+//! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -14,13 +15,17 @@
 
 mod agree;
 mod anchor;
+mod attempt;
 mod body;
 mod book;
 mod card;
 mod child;
 mod command;
+mod crew;
 mod diff;
+mod edition;
 mod exercise;
+mod expectation;
 mod fault;
 mod gallery;
 mod laboratory;
@@ -31,11 +36,15 @@ mod moved;
 mod new;
 mod page;
 mod panels;
+mod patch;
 mod picture;
 mod placeholder;
+mod practice;
 mod program;
+mod progress;
 mod project;
 mod reference;
+mod seen;
 mod shader;
 mod sheet;
 mod show;
@@ -44,6 +53,8 @@ mod survey;
 mod taught;
 mod test;
 mod trial;
+mod try_it;
+mod workbench;
 
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -59,6 +70,7 @@ use diff::Parts;
 use fault::Fault;
 use mistake::Mistake;
 use new::New;
+use practice::Practice;
 use program::Programs;
 use project::{Chapter, Project};
 use survey::Survey;
@@ -152,6 +164,8 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Do an exercise of a page: `exercise 05.2` sets it up and checks it on each save until it is solved
+    Exercise(Practice),
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -168,8 +182,9 @@ fn parse() -> Result<Arguments> {
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line =
-            line.unwrap_or("no command; there is list, diff, new, sync, survey, mistake, check");
+        let line = line.unwrap_or(
+            "no command; there is list, diff, new, sync, survey, mistake, exercise, check",
+        );
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }
@@ -209,6 +224,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Mistake { name, list, out, check } => {
             mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
+        Command::Exercise(practice) => practice.run(&project),
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;

@@ -2,10 +2,10 @@
 //!
 //! A chapter that is still to come is named as `chapter 11 (planned)`, and in no other way.
 
-use crate::exercise;
 use crate::fault::Fault;
 use crate::page::Page;
 use crate::project::Project;
+use crate::try_it;
 
 /// What follows the number of a chapter that is not there yet.
 const PLANNED: &str = " (planned)";
@@ -50,7 +50,7 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
                 faults.push(fault(format!("there is no chapter '{name}'"), "correct its name"));
             }
         }
-        let count = exercise::count(page);
+        let count = try_it::count(project, page);
         for number in exercises(text).into_iter().filter(|number| own && *number > count) {
             let what = format!("there is no exercise {number}, only {count}");
             faults.push(fault(what, "correct the number"));

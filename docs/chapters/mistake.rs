@@ -1,24 +1,25 @@
 //! A classic mistake: a small patch to a chapter, and what it does to the picture.
 //!
-//! Each is a file `docs/mistakes/NAME.diff`: a title, fields, and a unified diff, which any tool applies.
+//! Each is a file `docs/mistakes/NAME.diff`, a [`Patch`].
 //! What the fields claim is held against a run of the patched chapter by [`crate::trial`].
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use common::usage::Usage;
 
 use crate::fault::Fault;
+use crate::patch::{Field, Patch};
 use crate::picture::{self, Sources};
 use crate::project::Project;
 
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";
 
-/// The parts of a project that a copy needs to be built.
-const PARTS: [&str; 6] = ["Cargo.toml", "Cargo.lock", "common", "samples", "shaders", "tests"];
+/// What a file of a mistake looks like.
+const FORM: &str =
+    "write a title, a blank line, `Chapter: NN_name` and the other fields, a blank line, a diff";
 
 /// What a mistake does.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,16 +50,6 @@ impl Outcome {
     }
 }
 
-/// Lines of a file, and what stands there instead.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Hunk {
-    /// Its line in the diff, from 1.
-    line: usize,
-    file: String,
-    old: Vec<String>,
-    new: Vec<String>,
-}
-
 /// A mistake.
 #[derive(Clone, Debug)]
 pub struct Mistake {
@@ -80,9 +71,7 @@ pub struct Mistake {
     pub find: String,
     /// What is right.
     pub cure: String,
-    /// The whole file.
-    text: String,
-    hunks: Vec<Hunk>,
+    patch: Patch,
 }
 
 impl Mistake {
@@ -122,48 +111,33 @@ impl Mistake {
 
     fn parse(project: &Project, file: &str, text: &str) -> Result<Self, Fault> {
         let wrong = |line, what: String, remedy: &str| Fault::new(file, line, what, remedy);
-        let form = "write a title, a blank line, `Chapter: NN_name` and the other fields, a diff";
         let name = file.rsplit_once('/').map_or(file, |(_, name)| name);
         let Some(name) = name.strip_suffix(".diff") else {
             return Err(wrong(1, "a mistake is a file NAME.diff".to_owned(), "rename it"));
         };
-        let end = text.lines().position(|line| line.starts_with("--- ")).unwrap_or(0);
-        let head: Vec<&str> = text.lines().take(end).collect();
-        let mut fields: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
-        for (index, line) in head.iter().enumerate().skip(1).filter(|(_, line)| !line.is_empty()) {
-            let Some((key, value)) = line.split_once(": ") else {
-                return Err(wrong(index + 1, format!("'{line}' is no field"), form));
-            };
-            fields.insert(key, (index + 1, value));
-        }
-        let mut field = |key: &str| {
-            let missing = || wrong(1, format!("there is no field '{key}'"), form);
-            fields.remove(key).map(|(line, value)| (line, value.to_owned())).ok_or_else(missing)
-        };
-        let (line, chapter) = field("Chapter")?;
+        let mut patch = Patch::parse(file, text, FORM)?;
+        let Field { line, value: chapter, .. } = patch.field("Chapter")?;
         if !project.chapters.iter().any(|known| known.name == chapter) {
             let what = format!("there is no chapter '{chapter}'");
             return Err(wrong(line, what, "name one of `chapters list`"));
         }
-        let arguments = field("Arguments").map_or(String::new(), |(_, arguments)| arguments);
-        let (line, outcome) = field("Outcome")?;
+        let arguments = patch.field_if_any("Arguments")?.map_or(String::new(), |field| field.value);
+        let Field { line, value: outcome, .. } = patch.field("Outcome")?;
         let outcome = Outcome::parse(&outcome).ok_or_else(|| {
             let what = format!("'{outcome}' is no outcome");
             let there = "differs by 0.05, slower 3 times, refused: TEXT, crashes or forgiven";
             wrong(line, what, &format!("write {there}"))
         })?;
-        let validation = Some(field("Validation")?.1).filter(|text| text != "nothing");
-        let (cause, find, cure) = (field("Cause")?.1, field("Find")?.1, field("Cure")?.1);
-        if let Some((key, (line, _))) = fields.into_iter().next() {
-            return Err(wrong(line, format!("'{key}' is no field of a mistake"), form));
-        }
-        let hunks = hunks(text);
-        if hunks.is_empty() {
-            return Err(wrong(1, "there is no diff".to_owned(), form));
+        let validation = Some(patch.field("Validation")?.value).filter(|text| text != "nothing");
+        let mut text_of = |key| patch.field(key).map(|field| field.value);
+        let (cause, find, cure) = (text_of("Cause")?, text_of("Find")?, text_of("Cure")?);
+        patch.no_other_field("a mistake")?;
+        if patch.is_empty() {
+            return Err(wrong(1, "there is no diff".to_owned(), FORM));
         }
         Ok(Self {
             name: name.to_owned(),
-            title: head[0].to_owned(),
+            title: patch.title.clone(),
             chapter,
             arguments,
             outcome,
@@ -171,8 +145,7 @@ impl Mistake {
             cause,
             find,
             cure,
-            text: text.to_owned(),
-            hunks,
+            patch,
         })
     }
 
@@ -193,7 +166,7 @@ impl Mistake {
 
     /// Whether it changes shaders alone: then the built program shows it.
     pub fn is_in_shaders(&self) -> bool {
-        self.hunks.iter().all(|hunk| hunk.file.starts_with("shaders/"))
+        self.patch.is_in_shaders()
     }
 
     /// What the patched files hold.
@@ -201,54 +174,18 @@ impl Mistake {
     /// # Errors
     /// If a hunk's lines do not stand in its file, once.
     pub fn patched(&self, project: &Project) -> Result<BTreeMap<String, String>, Fault> {
-        let mut files: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for hunk in &self.hunks {
-            let lines = files.entry(hunk.file.clone()).or_insert_with(|| {
-                project.read(&hunk.file).unwrap_or_default().lines().map(str::to_owned).collect()
-            });
-            let old = hunk.old.len();
-            let mut found = (0..(lines.len() + 1).saturating_sub(old))
-                .filter(|&at| lines[at..at + old] == hunk.old[..]);
-            let (Some(at), None) = (found.next(), found.next()) else {
-                let what = format!("this hunk does not fit {}", hunk.file);
-                return Err(Fault::new(self.file(), hunk.line, what, "make the patch again"));
-            };
-            lines.splice(at..at + old, hunk.new.iter().cloned());
-        }
-        let joined = |lines: Vec<String>| lines.iter().map(|line| format!("{line}\n")).collect();
-        Ok(files.into_iter().map(|(file, lines)| (file, joined(lines))).collect())
+        self.patch.patched_in(project)
     }
 
-    /// Makes a patched copy in a folder: of the shaders, or of all that a build needs.
+    /// Makes a patched copy in an empty folder: of the shaders, or of all that a build needs.
     ///
     /// # Errors
     /// If the patch does not fit, the folder holds something, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
-        let patched = self.patched(project).map_err(Fault::error)?;
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
             bail!("'{}' is not empty; name another folder with --out", folder.display());
         }
-        let parts: &[&str] = if self.is_in_shaders() { &["shaders"] } else { &PARTS };
-        let mut files: Vec<String> = parts.iter().flat_map(|part| project.files(part)).collect();
-        if !self.is_in_shaders() {
-            files.extend(["Cargo.toml", "Cargo.lock"].map(str::to_owned));
-            files.extend(project.files("docs/chapters"));
-        }
-        for file in files {
-            let to = match self.is_in_shaders() {
-                true => folder.join(file.trim_start_matches("shaders/")),
-                false => folder.join(&file),
-            };
-            let parent = to.parent().context("a file lies in a folder")?;
-            fs::create_dir_all(parent)
-                .with_context(|| format!("cannot make '{}'", parent.display()))?;
-            let bytes = match patched.get(&file) {
-                Some(text) => text.clone().into_bytes(),
-                None => fs::read(project.root.join(&file))?,
-            };
-            fs::write(&to, bytes).with_context(|| format!("cannot write '{}'", to.display()))?;
-        }
-        Ok(())
+        self.patch.copy_to(project, folder)
     }
 
     /// The command that runs a patched copy, for a reader.
@@ -270,7 +207,7 @@ impl Mistake {
     /// What its picture is made from, as a hash: the chapter and the patch.
     pub fn sources(&self, project: &Project, sources: &mut Sources) -> String {
         let chapter = sources.of(project, &self.chapter);
-        picture::hash([chapter.as_bytes(), self.text.as_bytes()])
+        picture::hash([chapter.as_bytes(), self.patch.text.as_bytes()])
     }
 
     /// What is out of date about its picture, if anything is.
@@ -303,47 +240,9 @@ pub fn gallery(project: &Project) -> String {
     sections.join("\n")
 }
 
-/// The hunks of a unified diff.
-fn hunks(text: &str) -> Vec<Hunk> {
-    let mut hunks: Vec<Hunk> = Vec::new();
-    let mut file = None;
-    for (index, line) in text.lines().enumerate() {
-        if let Some(path) = line.strip_prefix("+++ ") {
-            file = Some(path.trim().to_owned());
-        } else if line.starts_with("--- ") {
-            file = None;
-        } else if let (true, Some(file)) = (line.starts_with("@@"), &file) {
-            hunks.push(Hunk { line: index + 1, file: file.clone(), old: vec![], new: vec![] });
-        } else if let (Some(_), Some(hunk)) = (&file, hunks.last_mut()) {
-            let (sign, rest) = line.split_at_checked(1).unwrap_or((" ", ""));
-            if sign != "+" {
-                hunk.old.push(rest.to_owned());
-            }
-            if sign != "-" {
-                hunk.new.push(rest.to_owned());
-            }
-        }
-    }
-    hunks
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn hunks_hold_what_was_and_what_is() {
-        let text =
-            "T\n\nCause: -x\n\n--- a\n+++ b/c\n@@ -1,2 +1,2 @@\n x\n-y\n+z\n@@ -9 +9 @@\n+w\n";
-        let lines = |lines: &[&str]| lines.iter().map(|line| (*line).to_owned()).collect();
-        let file = || "b/c".to_owned();
-        let (first, second) = (lines(&["x", "y"]), lines(&["x", "z"]));
-        let expected = [
-            Hunk { line: 7, file: file(), old: first, new: second },
-            Hunk { line: 11, file: file(), old: vec![], new: lines(&["w"]) },
-        ];
-        assert_eq!(hunks(text), expected);
-    }
 
     #[test]
     fn outcomes_are_told_by_their_first_word() {

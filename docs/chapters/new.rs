@@ -77,6 +77,7 @@ impl<'a> New<'a> {
         files.push((format!("tests/samples/{module}.rs"), self.test()));
         files.push(("tests/samples/main.rs".to_owned(), self.modules()?));
         files.push((self.chapter.page(), self.page()));
+        files.push((format!("docs/exercises/{}.1.diff", self.chapter.number()), self.exercise()));
         for (path, text) in &files {
             let place = self.project.root.join(path);
             std::fs::create_dir_all(place.parent().unwrap_or(Path::new(".")))?;
@@ -197,6 +198,16 @@ impl<'a> New<'a> {
         )
     }
 
+    /// A first exercise, which holds until the chapter does what its parent does not.
+    fn exercise(&self) -> String {
+        let from = &self.from.name;
+        format!(
+            "Compare it with its parent\n\nTakes: look\nText: Render this chapter and {from} with the same \
+             arguments. Does a pixel differ?\nCheck: The pictures are the same to the bit.\nHint: The chapter \
+             is still a copy. WRITE another exercise once it is not.\nRun:\nExpect: same as {from}\nAnswer: no\n"
+        )
+    }
+
     /// A page with every section; what is still to be written, `check` names.
     fn page(&self) -> String {
         let Chapter { name, .. } = &self.chapter;
@@ -209,8 +220,7 @@ impl<'a> New<'a> {
              <!-- diff {from} {name} main.rs -->\n<!-- /diff -->\n\n## How it works\n\nWRITE\n\n\
              ## What accuracy costs here\n\nWRITE\n\n## Hard cases\n\nWRITE\n\n## Controls\n\n\
              <!-- controls {name} -->\n<!-- /controls -->\n\n## Try it\n\n\
-             1. Render this chapter and {from} with the same arguments. *Check:* the same bytes, until this \
-             chapter differs.\n\n## Sources\n\nWRITE\n"
+             <!-- exercises {name} -->\n<!-- /exercises -->\n\n## Sources\n\nWRITE\n"
         )
     }
 }

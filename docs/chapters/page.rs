@@ -31,11 +31,20 @@ pub enum Kind {
     Devices,
     /// Every classic mistake, shown: `mistakes`.
     Mistakes,
+    /// A chapter's exercises: `exercises NAME`.
+    Exercises,
 }
 
 impl Kind {
-    const ALL: [Self; 6] =
-        [Self::Snippet, Self::Diff, Self::Controls, Self::Gallery, Self::Devices, Self::Mistakes];
+    const ALL: [Self; 7] = [
+        Self::Snippet,
+        Self::Diff,
+        Self::Controls,
+        Self::Gallery,
+        Self::Devices,
+        Self::Mistakes,
+        Self::Exercises,
+    ];
 
     /// The word in the marker.
     pub fn word(self) -> &'static str {
@@ -46,6 +55,7 @@ impl Kind {
             Self::Gallery => "gallery",
             Self::Devices => "devices",
             Self::Mistakes => "mistakes",
+            Self::Exercises => "exercises",
         }
     }
 
@@ -55,6 +65,7 @@ impl Kind {
             Self::Controls => "table of controls",
             Self::Devices => "table of devices",
             Self::Mistakes => "gallery of mistakes",
+            Self::Exercises => "list of exercises",
             _ => self.word(),
         }
     }

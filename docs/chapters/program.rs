@@ -113,6 +113,11 @@ impl Programs {
         Ok(command)
     }
 
+    /// Where Cargo builds them: above the folder of a profile.
+    pub fn target(&self) -> &Path {
+        self.folder.parent().unwrap_or(&self.folder)
+    }
+
     /// Whether they are built with `--release`.
     pub fn are_released(&self) -> bool {
         self.folder.ends_with("release")

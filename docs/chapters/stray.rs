@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::card;
+use crate::exercise;
 use crate::fault::Fault;
 use crate::gallery::is_other_page;
 use crate::mistake;
@@ -57,7 +58,7 @@ fn why(
         }
         _ if folder == "docs" && name == "book.toml" => (true, ""),
         // Whether they are whole, their own check says.
-        "diff" if folder == mistake::FOLDER => (true, ""),
+        "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),
         _ if name == "Cargo.toml" => {
             let member = format!("\"{folder}\",");

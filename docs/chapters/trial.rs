@@ -1,24 +1,20 @@
 //! A mistake held to its word: the chapter is run as it is and patched, and both are compared.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::process::ExitStatus;
 use std::time::Duration;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use image::RgbImage;
-use serde_json::Value;
 
-use crate::child;
+use crate::crew;
+use crate::edition::Edition;
 use crate::mistake::{Mistake, Outcome};
 use crate::panels::{Panel, side_by_side};
 use crate::picture::{self, Sources};
-use crate::program::{BUILD, Programs};
+use crate::program::Programs;
 use crate::project::Project;
+use crate::seen::{Seen, mean_difference};
 
 /// How large a mistake is shown.
 const SHOWN: (u32, u32) = (320, 200);
@@ -29,19 +25,6 @@ const COMPARED: (u32, u32) = (160, 100);
 const LIMIT: Duration = Duration::from_secs(20);
 /// How long it may where the mistake may keep it from ending.
 const UNTIL_CRASHED: Duration = Duration::from_secs(5);
-
-/// What a run gave.
-struct Seen {
-    picture: Option<RgbImage>,
-    /// `None` if it did not end.
-    status: Option<ExitStatus>,
-    /// What it said on standard error.
-    said: String,
-    messages: Vec<String>,
-    /// Of the device, for a frame.
-    milliseconds: f64,
-    device: String,
-}
 
 /// A mistake, and the runs that show it.
 pub struct Trial<'a> {
@@ -74,18 +57,19 @@ impl<'a> Trial<'a> {
         self.compare(&right, &wrong)?;
         let timed = matches!(self.mistake.outcome, Outcome::Slower(_));
         let label = |word: &str, seen: &Seen| match timed {
-            true => format!("{word}: {:.0} ms", seen.milliseconds),
+            true => format!("{word}: {:.0} ms", seen.milliseconds()),
             false => word.to_owned(),
         };
         let labels = [label("right", &right), label("wrong", &wrong)];
-        let device = right.device.clone();
-        let panel = |seen: Seen| match (seen.picture, self.mistake.outcome == Outcome::Crashes) {
-            (Some(picture), _) => Panel::Picture(picture),
+        let device = right.device().to_owned();
+        let panel = |seen: &Seen| match (&seen.picture, self.mistake.outcome == Outcome::Crashes) {
+            (Some(picture), _) => RgbImage::from_raw(picture.width, picture.height, picture.srgb())
+                .map_or(Panel::Words("No picture".to_owned()), Panel::Picture),
             (None, true) => Panel::Words(format!("No picture: {}", end(seen.status))),
             (None, false) => Panel::Words(format!("No picture: {}", seen.said)),
         };
         let panels: Vec<(String, Panel)> =
-            labels.into_iter().zip([right, wrong].map(panel)).collect();
+            labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = side_by_side(SHOWN, &panels)?;
         let hash = self.mistake.sources(self.project, sources);
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
@@ -99,10 +83,7 @@ impl<'a> Trial<'a> {
     }
 
     fn runs(&self, size: (u32, u32)) -> Result<(Seen, Seen)> {
-        let built = || {
-            self.programs.command(&self.mistake.chapter).map_err(|what| anyhow!("{what}; {BUILD}"))
-        };
-        let right = self.run(built()?, size)?;
+        let right = self.run(&Edition::Book, size)?;
         ensure!(
             right.status.is_some_and(|status| status.success()),
             "{} fails as it is: {}",
@@ -111,72 +92,28 @@ impl<'a> Trial<'a> {
         );
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
         self.mistake.copy_to(self.project, folder.path())?;
-        let command = match self.mistake.is_in_shaders() {
-            true => {
-                let mut command = built()?;
-                command.env("SHADERS", folder.path());
-                command
-            }
-            false => {
-                let mut command = Command::new(self.build(folder.path())?);
-                command
-                    .current_dir(&self.project.root)
-                    .env("SHADERS", folder.path().join("shaders"));
-                command
-            }
+        let copy = folder.path().to_owned();
+        let edition = match self.mistake.is_in_shaders() {
+            true => Edition::Shaders(copy),
+            false => Edition::Copy(copy),
         };
-        Ok((right, self.run(command, size)?))
+        Ok((right, self.run(&edition, size)?))
     }
 
-    /// Builds the chapter in a patched copy. The copies share a folder of what is built, which takes
-    /// minutes for the first.
-    fn build(&self, copy: &Path) -> Result<PathBuf> {
-        let target = self.project.root.join("target/mistakes/build");
-        let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-            .args(["build", "--quiet", "--bin", &self.mistake.chapter])
-            .current_dir(copy)
-            .env("CARGO_TARGET_DIR", &target)
-            .output()
-            .context("cargo does not start")?;
-        let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
-        ensure!(output.status.success(), "the patched copy does not build: {said}");
-        let name = format!("{}{}", self.mistake.chapter, std::env::consts::EXE_SUFFIX);
-        Ok(target.join("debug").join(name))
-    }
-
-    fn run(&self, mut command: Command, (width, height): (u32, u32)) -> Result<Seen> {
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-        let (out, report) = (folder.path().join("out.png"), folder.path().join("report.json"));
-        let arguments =
-            shlex::split(&self.mistake.arguments).context("the arguments do not end")?;
-        command.args(["--headless", "--validate", "--size", &format!("{width}x{height}")]);
-        command.arg("--out").arg(&out).arg("--report").arg(&report).args(arguments);
+    fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<Seen> {
+        let command = edition.command(self.project, self.programs, &self.mistake.chapter)?;
+        let own = shlex::split(&self.mistake.arguments).context("the arguments do not end")?;
+        let mut arguments = vec!["--size".to_owned(), format!("{width}x{height}")];
+        arguments.extend(own);
         let may_hang = matches!(self.mistake.outcome, Outcome::Crashes);
-        let limit = if may_hang { UNTIL_CRASHED } else { LIMIT };
-        let ended = child::run(&mut command, limit).context("the program does not start")?;
-        let report: Value = fs::read(&report)
-            .ok()
-            .and_then(|text| serde_json::from_slice(&text).ok())
-            .unwrap_or_default();
-        let messages = report["validation_messages"].as_array().into_iter().flatten();
-        let said = ended.said.trim().replace('\n', " ");
-        Ok(Seen {
-            picture: image::open(&out).ok().map(|picture| picture.to_rgb8()),
-            status: ended.status,
-            said: said.trim_start_matches("error: ").to_owned(),
-            messages: messages
-                .map(|message| message.as_str().unwrap_or_default().to_owned())
-                .collect(),
-            milliseconds: report["gpu_milliseconds"]["median"].as_f64().unwrap_or_default(),
-            device: report["device"].as_str().unwrap_or("unknown").to_owned(),
-        })
+        Seen::of(command, &arguments, if may_hang { UNTIL_CRASHED } else { LIMIT })
     }
 
     /// Holds two runs to what the mistake claims; the line says what was seen.
     fn compare(&self, right: &Seen, wrong: &Seen) -> Result<String> {
         let Mistake { name, outcome, validation, .. } = self.mistake;
         let file = self.mistake.file();
-        let heard = match (validation, &wrong.messages[..]) {
+        let heard = match (validation, &wrong.messages()[..]) {
             (None, []) => "validation says nothing".to_owned(),
             (None, [first, ..]) => bail!("{file}: validation says: {first}"),
             (Some(text), []) => bail!("{file}: validation says nothing, not '{text}'"),
@@ -203,12 +140,11 @@ impl<'a> Trial<'a> {
             }
             Outcome::Differs(_) | Outcome::Slower(_) | Outcome::Forgiven => {
                 let picture = |seen: &Seen| {
-                    seen.picture
-                        .clone()
-                        .with_context(|| format!("{file}: no picture: {}", seen.said))
+                    let picture = seen.picture.clone();
+                    picture.with_context(|| format!("{file}: no picture: {}", seen.said))
                 };
-                let apart = difference(&picture(right)?, &picture(wrong)?);
-                let slower = wrong.milliseconds / right.milliseconds.max(1e-3);
+                let apart = mean_difference(&picture(right)?, &picture(wrong)?);
+                let slower = wrong.milliseconds() / right.milliseconds().max(1e-3);
                 match outcome {
                     Outcome::Differs(least) => {
                         ensure!(apart >= *least, "{file}: differs by {apart:.4}, not by {least}");
@@ -238,44 +174,11 @@ fn end(status: Option<ExitStatus>) -> String {
     }
 }
 
-/// Checks several mistakes, as many at once as there are processors; the lines come in their order.
+/// Checks several mistakes; the lines come in their order.
 pub fn check_all(
     project: &Project,
     programs: &Programs,
     mistakes: &[Mistake],
 ) -> Vec<Result<String>> {
-    let next = AtomicUsize::new(0);
-    let found = Mutex::new(BTreeMap::new());
-    let workers = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        for _ in 0..workers.min(mistakes.len()) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(mistake) = mistakes.get(index) else { break };
-                    let line = Trial::new(project, programs, mistake).check();
-                    found.lock().unwrap_or_else(PoisonError::into_inner).insert(index, line);
-                }
-            });
-        }
-    });
-    found.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
-}
-
-/// The mean difference of all channels, of 1.
-fn difference(a: &RgbImage, b: &RgbImage) -> f64 {
-    let sum: u64 = a.iter().zip(b.iter()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
-    sum as f64 / 255.0 / a.len().max(1) as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn black_and_white_are_one_apart() {
-        let plain = |value| RgbImage::from_pixel(3, 2, image::Rgb([value; 3]));
-        assert_eq!(difference(&plain(0), &plain(255)), 1.0);
-        assert_eq!(difference(&plain(7), &plain(7)), 0.0);
-    }
+    crew::each(mistakes, |mistake| Trial::new(project, programs, mistake).check())
 }

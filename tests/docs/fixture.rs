@@ -103,10 +103,14 @@ impl Fixture {
         fs::remove_file(self.path(path)).expect("a file of the fixture");
     }
 
+    /// The tool, beside the project's programs.
+    pub fn tool(&self) -> PathBuf {
+        PROGRAMS.path().join(format!("chapters{EXE_SUFFIX}"))
+    }
+
     /// Runs the tool on the project.
     pub fn run(&self, arguments: &[&str]) -> Outcome {
-        let tool = PROGRAMS.path().join(format!("chapters{EXE_SUFFIX}"));
-        run(Command::new(tool).args(arguments).arg("--root").arg(self.path("")))
+        run(Command::new(self.tool()).args(arguments).arg("--root").arg(self.path("")))
     }
 
     /// What `check` says of it: nothing if all is well.
@@ -135,7 +139,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Everything but what is copied from the real project.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 16] = [
     (
         "Cargo.toml",
         r#"[package]
@@ -216,9 +220,8 @@ Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_o
 
 ## Try it
 
-1. Change `one.rgen`. *Check:* `cargo test --test samples basic::first` fails.
-2. Write `two.rgen` after exercise 1.
-   *Check:* `two.rgen` is there.
+<!-- exercises 01_one -->
+<!-- /exercises -->
 
 ## Sources
 
@@ -244,7 +247,88 @@ Compare them with `cargo chapters diff 01 02`, list what `cargo run --bin NN_nam
 
 ## Try it
 
-1. Run it. *Check:* there is a picture, as 01 makes one.
+<!-- exercises 02_basic -->
+<!-- /exercises -->
+"#,
+    ),
+    (
+        "docs/exercises/01.1.diff",
+        r#"Change the shader
+
+Takes: shader, test
+Text: Change `one.rgen`.
+Check: `cargo test --test samples basic::first` fails.
+Hint: The test reads it.
+Run: (test) basic::first
+Expect: fails
+
+--- shaders/01_one/one.rgen
++++ shaders/01_one/one.rgen
+@@ -4,1 +4,1 @@
+-    // first
++    // second
+"#,
+    ),
+    (
+        "docs/exercises/01.2.diff",
+        r#"Think of another
+
+Takes: look
+Text: Write `two.rgen` after exercise 1. Is there a file `two.rgen` now?
+Check: `two.rgen` is there.
+Hint: You have written it.
+Answer: yes
+"#,
+    ),
+    (
+        "docs/exercises/02.1.diff",
+        r#"Make it white
+
+Takes: shader
+Text: Let `camera.rgen` write white.
+Check: The picture is white, all 1,500 pixels of it.
+Hint: White is `vec4(1.0)`.
+Run: --size 50x30
+Expect: differs by 0.05
+Expect: pixels 255 255 255: 1500
+Why: The picture is what is stored.
+
+--- shaders/02_basic/camera.rgen
++++ shaders/02_basic/camera.rgen
+@@ -1 +1 @@
+-    imageStore(picture, ivec2(id), payload);
++    imageStore(picture, ivec2(id), vec4(1.0));
+"#,
+    ),
+    (
+        "docs/exercises/02.2.diff",
+        r#"Look at a normal
+
+Takes: look
+Text: `--set show=normal` colours by normal. Which way does a green face look?
+Check: It looks up.
+Hint: Green is y.
+Run: --set show=normal --size 50x30
+Expect: differs by 0.05 from --size 50x30
+Answer: up | +y | to the sky | 40 to 44
+"#,
+    ),
+    (
+        "docs/exercises/02.3.diff",
+        r#"Name it anew
+
+Takes: Rust
+Text: Give the name to the compiler.
+Check: The same picture to the bit.
+Hint: There is a macro.
+Run: --size 50x30
+Expect: same
+
+--- samples/01_one/main.rs
++++ samples/01_one/main.rs
+@@ -5 +5 @@
+-    let name = "01_one";
++    let name = env!("CARGO_BIN_NAME");
 "#,
     ),
     ("docs/chapters/main.rs", "fn main() {}\n"),

@@ -1,6 +1,7 @@
 //! The book is what the code says: the real one, and that every fault in a small one is found.
 
 mod author;
+mod exercises;
 mod fixture;
 mod mistakes;
 mod named;

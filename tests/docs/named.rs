@@ -70,8 +70,11 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
         ),
         (
             "another chapter's shader",
-            |f| f.replace("docs/01_one.md", "Change `one.rgen`", "Change `camera.rgen`"),
-            "docs/01_one.md:33: 'camera.rgen' is none of this chapter's files, but shaders/02_basic/",
+            |f| {
+                f.replace("docs/exercises/01.1.diff", "Change `one.rgen`", "Change `camera.rgen`");
+                f.run(&["sync"]);
+            },
+            "docs/exercises/01.1.diff:4: 'camera.rgen' is none of this chapter's files, but shaders/02_",
             "; correct it",
         ),
         (
@@ -127,8 +130,15 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
         ),
         (
             "a command that runs no test",
-            |f| f.replace("docs/01_one.md", "basic::first", "basic::last"),
-            "docs/01_one.md:33: no test of 'samples' is called 'basic::last'",
+            |f| {
+                f.replace(
+                    "docs/exercises/01.1.diff",
+                    "samples basic::first",
+                    "samples basic::last",
+                );
+                f.run(&["sync"]);
+            },
+            "docs/exercises/01.1.diff:5: no test of 'samples' is called 'basic::last'",
             "; correct the command",
         ),
     ];
@@ -136,8 +146,8 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
 }
 
 #[test]
-fn exercises_without_number_or_check_are_named_with_file_and_line() {
-    let cases: [Case; 5] = [
+fn exercises_without_a_list_or_a_definition_are_named_with_file_and_line() {
+    let cases: [Case; 8] = [
         (
             "no exercises at all",
             |f| f.replace("docs/02_basic.md", "## Try it", "## Tried"),
@@ -145,28 +155,61 @@ fn exercises_without_number_or_check_are_named_with_file_and_line() {
             "; add it, with exercises",
         ),
         (
-            "an exercise without its number",
-            |f| f.replace("docs/02_basic.md", "1. Run it.", "Run it."),
+            "no list of them",
+            |f| {
+                let page = f.read("docs/02_basic.md");
+                let list = page.find("<!-- exercises 02_basic -->").expect("a list");
+                f.write("docs/02_basic.md", &page[..list]);
+            },
             "docs/02_basic.md:",
-            "`## Try it` has no numbered exercise; write `1. … *Check:* …` below it",
+            "; add <!-- exercises 02_basic --> and <!-- /exercises --> below it",
         ),
         (
-            "an exercise without its check",
-            |f| f.replace("docs/01_one.md", "   *Check:* `two.rgen` is there.\n", ""),
-            "docs/01_one.md:34: exercise 2 does not say how to check it",
-            "; write `*Check:*` and what a reader must see",
+            "an exercise that only the page knows",
+            |f| f.replace("docs/02_basic.md", "<!-- exercises", "7. Run it.\n\n<!-- exercises"),
+            "docs/02_basic.md:",
+            "; move it to docs/exercises/02.7.diff; `chapters sync` lists it here",
         ),
         (
-            "an exercise by the number of another",
-            |f| f.replace("docs/01_one.md", "2. Write", "3. Write"),
-            "docs/01_one.md:34: exercise 2 has the number 3",
+            "a chapter without an exercise",
+            |f| {
+                for file in ["01.1", "01.2"] {
+                    f.remove(&format!("docs/exercises/{file}.diff"));
+                }
+                f.run(&["sync"]);
+            },
+            "docs/01_one.md:31: the chapter has no exercise",
+            "; write docs/exercises/01.1.diff",
+        ),
+        (
+            "an exercise left out",
+            |f| {
+                f.remove("docs/exercises/02.2.diff");
+                f.run(&["sync"]);
+            },
+            "docs/exercises/02.3.diff:1: there is no exercise 2 before this one",
             "; count from 1",
         ),
         (
             "an exercise that is not there",
-            |f| f.replace("docs/01_one.md", "after exercise 1", "after exercise 3"),
-            "docs/01_one.md:34: there is no exercise 3, only 2",
+            |f| {
+                f.replace("docs/exercises/01.2.diff", "after exercise 1", "after exercise 3");
+                f.run(&["sync"]);
+            },
+            "docs/exercises/01.2.diff:4: there is no exercise 3, only 2",
             "; correct the number",
+        ),
+        (
+            "a run that sets what is not there",
+            |f| f.replace("docs/exercises/02.2.diff", "Run: --set show", "Run: --set shew"),
+            "docs/exercises/02.2.diff:7: this command does not run: there is no control 'shew', only ",
+            "; correct it",
+        ),
+        (
+            "a solution that does not fit",
+            |f| f.replace("docs/exercises/01.1.diff", "-    // first", "-    // the first"),
+            "docs/exercises/01.1.diff:12: this hunk does not fit shaders/01_one/one.rgen",
+            "; make the patch again",
         ),
     ];
     expect(&cases, &[]);

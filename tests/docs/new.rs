@@ -13,6 +13,9 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     let main = fixture.read("samples/07_soft_light/main.rs");
     assert!(main.starts_with("//! 07 · Soft light: "), "{main}");
     assert!(fixture.read("tests/samples/main.rs").contains("mod soft_light;\n"));
+    let exercise = fixture.read("docs/exercises/07.1.diff");
+    assert!(exercise.contains("Expect: same as 02_basic\n"), "{exercise}");
+    assert!(fixture.read("docs/07_soft_light.md").contains("<!-- exercises 07_soft_light -->\n"));
     // What is copied is what runs: the shaders differ in nothing.
     let shader = |chapter: &str| fixture.read(&format!("shaders/{chapter}/shade.rchit"));
     assert_eq!(shader("07_soft_light"), shader("02_basic"));
@@ -30,6 +33,7 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
         "this diff",
         "this table",
         "this snippet",
+        "this list of exercises",
     ];
     for line in found.lines() {
         assert!(known.iter().any(|words| line.contains(words)), "unexpected: {line}");

@@ -9,7 +9,7 @@ const SYNC: &str = "; run: cargo chapters sync";
 
 #[test]
 fn what_is_generated_is_found_stale_and_mended() {
-    let cases: [Case; 9] = [
+    let cases: [Case; 10] = [
         (
             "a word of a snippet edited",
             |f| f.replace("docs/01_one.md", "run(name)", "run(game)"),
@@ -45,6 +45,12 @@ fn what_is_generated_is_found_stale_and_mended() {
             |f| f.replace("README.md", "the second thing", "a second thing"),
             "README.md:6: this gallery is not what Cargo.toml says",
             SYNC,
+        ),
+        (
+            "an exercise edited on its page",
+            |f| f.replace("docs/02_basic.md", "**Make it white**", "**Make it pale**"),
+            "docs/02_basic.md:",
+            "this list of exercises is not what docs/exercises says; run: cargo chapters sync",
         ),
         (
             "the contents edited",

@@ -1,0 +1,241 @@
+//! An exercise held against an edition of the code: is it solved, and is it what its file says?
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use common::app::Picture;
+
+use crate::command::quoted;
+use crate::edition::Edition;
+use crate::exercise::{Exercise, Run, Step, Takes, sized};
+use crate::expectation::{Expectation, Other};
+use crate::picture::hash;
+use crate::program::Programs;
+use crate::project::Project;
+use crate::seen::Seen;
+
+/// How long a program may take.
+const LIMIT: Duration = Duration::from_secs(60);
+
+/// The book's own pictures, each rendered once.
+pub struct Originals<'a> {
+    project: &'a Project,
+    programs: &'a Programs,
+    /// Where they were kept before the book's own files were edited.
+    kept: Option<PathBuf>,
+    known: Mutex<BTreeMap<(String, Vec<String>), Picture>>,
+}
+
+impl<'a> Originals<'a> {
+    /// Pictures that are rendered when they are asked for.
+    pub fn new(project: &'a Project, programs: &'a Programs) -> Self {
+        Self { project, programs, kept: None, known: Mutex::default() }
+    }
+
+    /// Pictures that lie in a folder.
+    pub fn kept(project: &'a Project, programs: &'a Programs, folder: &Path) -> Self {
+        Self { kept: Some(folder.to_owned()), ..Self::new(project, programs) }
+    }
+
+    /// Renders all that an exercise is compared with into a folder: whole, or not at all.
+    ///
+    /// # Errors
+    /// If one cannot be rendered or written.
+    pub fn keep(&self, exercise: &Exercise, folder: &Path) -> Result<()> {
+        let above = folder.parent().context("a folder lies in a folder")?;
+        fs::create_dir_all(above).with_context(|| format!("cannot make '{}'", above.display()))?;
+        let whole = tempfile::tempdir_in(above).context("cannot make a temporary folder")?;
+        for (run, expectation) in exercise.steps.iter().flat_map(expected) {
+            if let Some(other) = expectation.other().filter(|other| !other.own) {
+                let (chapter, arguments) = self.meant(exercise, run, other);
+                let picture = self.picture(&chapter, &arguments)?;
+                picture.save(&whole.path().join(name(&chapter, &arguments)))?;
+            }
+        }
+        fs::rename(whole.keep(), folder)
+            .with_context(|| format!("cannot make '{}'", folder.display()))
+    }
+
+    /// The chapter and the arguments that make the picture to compare with.
+    fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
+        let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
+        let named = |word: &String| self.project.chapters.iter().any(|known| known.name == *word);
+        let chapter = match arguments.first().is_some_and(named) {
+            true => arguments.remove(0),
+            false => exercise.chapter.clone(),
+        };
+        (chapter, sized(arguments))
+    }
+
+    fn picture(&self, chapter: &str, arguments: &[String]) -> Result<Picture> {
+        if let Some(folder) = &self.kept {
+            let file = folder.join(name(chapter, arguments));
+            return Picture::open_exr(&file)
+                .context("the book's picture is lost; delete its folder");
+        }
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (chapter.to_owned(), arguments.to_vec());
+        if let Some(picture) = known().get(&key) {
+            return Ok(picture.clone());
+        }
+        let command = Edition::Book.command(self.project, self.programs, chapter)?;
+        let seen = Seen::of(command, arguments, LIMIT)?;
+        let picture =
+            seen.picture.with_context(|| format!("{chapter} fails as it is: {}", seen.said))?;
+        known().insert(key, picture.clone());
+        Ok(picture)
+    }
+}
+
+/// The expectations of a step's run of the program, each with the run's arguments.
+fn expected(step: &Step) -> Vec<(&[String], &Expectation)> {
+    let Run::Program(arguments) = &step.run else { return Vec::new() };
+    step.expectations.iter().map(|expectation| (&arguments[..], expectation)).collect()
+}
+
+/// The file of a picture that is kept.
+fn name(chapter: &str, arguments: &[String]) -> String {
+    format!("{chapter}-{}.exr", hash([chapter.as_bytes(), arguments.join("\n").as_bytes()]))
+}
+
+/// What an edition makes of an exercise.
+#[derive(Default)]
+pub struct Verdict {
+    /// What is not as it should be, in a line; `None` if the exercise is solved.
+    pub missed: Option<String>,
+    /// The first picture.
+    pub picture: Option<Picture>,
+}
+
+/// An exercise, and what it takes to hold it against an edition.
+pub struct Attempt<'a> {
+    /// The project.
+    pub project: &'a Project,
+    /// Its programs.
+    pub programs: &'a Programs,
+    /// The book's pictures.
+    pub originals: &'a Originals<'a>,
+    /// The exercise.
+    pub exercise: &'a Exercise,
+}
+
+impl Attempt<'_> {
+    /// Whether an edition solves the exercise. What does not compile or run is not solved.
+    ///
+    /// # Errors
+    /// If it cannot be told: a program is not built, the book's own run fails.
+    pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
+        let mut verdict = Verdict::default();
+        for step in &self.exercise.steps {
+            let (missed, label) = match &step.run {
+                Run::Program(arguments) => {
+                    let command =
+                        edition.command(self.project, self.programs, &self.exercise.chapter)?;
+                    let seen = Seen::of(command, arguments, LIMIT)?;
+                    let missed = self.missed(edition, step, arguments, &seen)?;
+                    verdict.picture = verdict.picture.or(seen.picture);
+                    (missed, quoted(arguments))
+                }
+                Run::Test(program, filter) => {
+                    let tested = edition.test(self.project, self.programs, (program, filter))?;
+                    let expectations = step.expectations.iter();
+                    let missed = expectations
+                        .filter_map(|expected| expected.missed_by_tests(&tested))
+                        .next();
+                    (missed, format!("cargo test --test {program} {filter}"))
+                }
+            };
+            if let Some(missed) = missed {
+                let several = self.exercise.steps.len() > 1;
+                let place = if several { format!(" with {label}") } else { String::new() };
+                verdict.missed = Some(missed + &place);
+                break;
+            }
+        }
+        Ok(verdict)
+    }
+
+    /// What is not as it should be about one run of the program.
+    fn missed(
+        &self,
+        edition: &Edition,
+        step: &Step,
+        arguments: &[String],
+        seen: &Seen,
+    ) -> Result<Option<String>> {
+        let (mut refused, mut heard) = (false, false);
+        for expectation in &step.expectations {
+            refused |= matches!(expectation, Expectation::Refused(_));
+            heard |= matches!(expectation, Expectation::Validation(_));
+        }
+        let Some(status) = seen.status else {
+            return Ok(Some(format!("the program does not end within {} s", LIMIT.as_secs())));
+        };
+        if let (false, Some(message)) = (heard, seen.messages().first()) {
+            return Ok(Some(format!("validation says: {message}")));
+        }
+        if !status.success() && !refused && !heard {
+            let said = if seen.said.is_empty() { status.to_string() } else { seen.said.clone() };
+            return Ok(Some(said));
+        }
+        let other = |other: &Other| match other.own {
+            true => {
+                let command =
+                    edition.command(self.project, self.programs, &self.exercise.chapter)?;
+                let arguments = sized(other.arguments.clone().unwrap_or_default());
+                let seen = Seen::of(command, &arguments, LIMIT)?;
+                seen.picture.with_context(|| format!("no picture: {}", seen.said))
+            }
+            false => {
+                let (chapter, arguments) = self.originals.meant(self.exercise, arguments, other);
+                self.originals.picture(&chapter, &arguments)
+            }
+        };
+        for expectation in &step.expectations {
+            if let Some(missed) = expectation.missed(seen, &other)? {
+                return Ok(Some(missed));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Holds the exercise to its word: not solved before its solution, and solved after; the line says
+    /// what was missed before.
+    ///
+    /// # Errors
+    /// If that is not so.
+    pub fn prove(&self) -> Result<String> {
+        let (exercise, file) = (self.exercise, &self.exercise.patch.file);
+        let before = self.verdict(&Edition::Book).with_context(|| file.clone())?.missed;
+        if exercise.takes == Takes::Look {
+            let Some(missed) = before else { return Ok(format!("{exercise}: its answer holds")) };
+            bail!("{file}: its answer does not hold: {missed}");
+        }
+        let before = before.with_context(|| format!("{file}: solved before its solution"))?;
+        let after = self.solved().with_context(|| file.clone())?.missed;
+        match after {
+            None => Ok(format!("{exercise}: {before}; solved by its solution")),
+            Some(missed) => bail!("{file}: not solved by its solution: {missed}"),
+        }
+    }
+
+    /// What its solution makes of it.
+    fn solved(&self) -> Result<Verdict> {
+        let patch = &self.exercise.patch;
+        if patch.is_in_shaders() {
+            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+            patch.copy_to(self.project, folder.path())?;
+            return self.verdict(&Edition::Shaders(folder.path().to_owned()));
+        }
+        // One copy for all: Cargo builds only what the last one had otherwise.
+        static COPY: Mutex<()> = Mutex::new(());
+        let _alone = COPY.lock().unwrap_or_else(PoisonError::into_inner);
+        let folder = self.project.root.join("target/exercises/copy");
+        patch.copy_to(self.project, &folder)?;
+        self.verdict(&Edition::Copy(folder))
+    }
+}

@@ -1,0 +1,162 @@
+//! An edition of the book's code that can be run: as it is, with other shaders, or a changed copy of it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+
+use crate::child;
+use crate::program::{BUILD, Programs};
+use crate::project::Project;
+
+/// Where changed copies are built: they share what none of them changes, which takes minutes for the first.
+const BUILT: &str = "target/mistakes/build";
+
+/// How long tests may take.
+const LIMIT: Duration = Duration::from_secs(600);
+
+/// An edition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Edition {
+    /// The book's programs and shaders.
+    Book,
+    /// The book's programs with the shaders in a folder.
+    Shaders(PathBuf),
+    /// A copy of all code in a folder, built before it runs.
+    Copy(PathBuf),
+    /// The book's own files as a reader has edited them, built before they run.
+    Edited,
+}
+
+/// What tests said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tested {
+    /// How many passed.
+    pub passed: usize,
+    /// How many failed.
+    pub failed: usize,
+    /// All that was printed.
+    pub said: String,
+}
+
+impl Edition {
+    /// A command that runs a chapter's program.
+    ///
+    /// # Errors
+    /// If it is not built, or does not build; in one line.
+    pub fn command(
+        &self,
+        project: &Project,
+        programs: &Programs,
+        chapter: &str,
+    ) -> Result<Command> {
+        let built = || programs.command(chapter).map_err(|what| anyhow!("{what}; {BUILD}"));
+        match self {
+            Self::Book => built(),
+            Self::Shaders(folder) => {
+                let mut command = built()?;
+                command.env("SHADERS", folder);
+                Ok(command)
+            }
+            Self::Copy(_) | Self::Edited => {
+                let (mut cargo, target) = self.cargo("build", project, programs);
+                let output = cargo
+                    .args(["--quiet", "--bin", chapter])
+                    .output()
+                    .context("cargo does not start")?;
+                let said = String::from_utf8_lossy(&output.stderr);
+                ensure!(
+                    output.status.success(),
+                    "{chapter} does not build: {}",
+                    first_error(&said)
+                );
+                if *self == Self::Edited {
+                    return built();
+                }
+                let profile = if programs.are_released() { "release" } else { "debug" };
+                let name = format!("{chapter}{}", std::env::consts::EXE_SUFFIX);
+                let mut command = Command::new(target.join(profile).join(name));
+                command.current_dir(&project.root).env("SHADERS", self.shaders(project));
+                Ok(command)
+            }
+        }
+    }
+
+    /// Runs the tests of a test program whose names hold `filter`.
+    ///
+    /// # Errors
+    /// If they do not build, or there is none; in one line.
+    pub fn test(
+        &self,
+        project: &Project,
+        programs: &Programs,
+        (program, filter): (&str, &str),
+    ) -> Result<Tested> {
+        let (mut cargo, _) = self.cargo("test", project, programs);
+        cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
+        let ended = child::run(&mut cargo, LIMIT).context("cargo does not start")?;
+        if ended.status.is_none() {
+            bail!("the tests '{filter}' do not end");
+        }
+        let mut tested = Tested { passed: 0, failed: 0, said: ended.told };
+        let results = tested.said.lines().filter_map(|line| line.strip_prefix("test result: "));
+        let results: Vec<&str> = results.collect();
+        if results.is_empty() {
+            bail!("the tests do not build: {}", first_error(&ended.said));
+        }
+        let count = |word: &str| -> usize {
+            let found = results.iter().flat_map(|line| line.split([';', '.']));
+            let numbers = found.filter_map(|part| part.trim().strip_suffix(word));
+            numbers.filter_map(|number| number.trim().parse::<usize>().ok()).sum()
+        };
+        let (passed, failed) = (count("passed"), count("failed"));
+        (tested.passed, tested.failed) = (passed, failed);
+        ensure!(passed + failed > 0, "no test of '{program}' is called '{filter}'");
+        Ok(tested)
+    }
+
+    /// Where its shaders lie.
+    fn shaders(&self, project: &Project) -> PathBuf {
+        match self {
+            Self::Book | Self::Edited => project.root.join("shaders"),
+            Self::Shaders(folder) => folder.clone(),
+            Self::Copy(folder) => folder.join("shaders"),
+        }
+    }
+
+    /// Cargo in the edition's folder, and where what it builds goes.
+    fn cargo(&self, verb: &str, project: &Project, programs: &Programs) -> (Command, PathBuf) {
+        let (folder, target): (&Path, PathBuf) = match self {
+            Self::Copy(folder) => (folder, project.root.join(BUILT)),
+            _ => (&project.root, programs.target().to_owned()),
+        };
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args([verb, "--message-format", "short"]).current_dir(folder);
+        cargo.env("CARGO_TARGET_DIR", &target);
+        if programs.are_released() {
+            cargo.arg("--release");
+        }
+        (cargo, target)
+    }
+}
+
+/// The first error that Cargo tells, in one line.
+fn first_error(said: &str) -> String {
+    let mut lines = said.lines().filter(|line| line.contains("error"));
+    let line = lines.next().or_else(|| said.lines().last()).unwrap_or("Cargo does not say why");
+    line.trim().trim_start_matches("error: ").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_error_is_told() {
+        let said = "warning: x\nsamples/a.rs:3:1: error[E0425]: no `y`\nerror: could not compile\n";
+        assert_eq!(first_error(said), "samples/a.rs:3:1: error[E0425]: no `y`");
+        assert_eq!(first_error("error: no bin target named `x`\n"), "no bin target named `x`");
+        assert_eq!(first_error(""), "Cargo does not say why");
+    }
+}

@@ -1,0 +1,348 @@
+//! A reader's place to solve an exercise in: a copy of the shaders or the project itself, checked on each
+//! save, with the chapter's window beside it.
+
+use std::collections::hash_map::DefaultHasher;
+use std::fs;
+use std::hash::{Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use anyhow::{Context, Result, anyhow, ensure};
+use common::app::output::print;
+use common::usage::Usage;
+use notify::{PollWatcher, RecursiveMode, Watcher, recommended_watcher};
+
+use crate::attempt::{Attempt, Originals, Verdict};
+use crate::edition::Edition;
+use crate::exercise::{Exercise, Run, Takes};
+use crate::patch::{copy_shaders, files_below};
+use crate::program::{BUILD, Programs};
+use crate::progress::Progress;
+use crate::project::Project;
+
+/// Editors save in several steps; look once they are done.
+const DEBOUNCE: Duration = Duration::from_millis(100);
+/// How often to look where the system does not tell of changes.
+const GLANCE: Duration = Duration::from_millis(500);
+
+/// The place of an exercise.
+pub struct Workbench<'a> {
+    project: &'a Project,
+    programs: &'a Programs,
+    exercise: &'a Exercise,
+    /// The copy of the shaders; for Rust code where the book's pictures are kept.
+    folder: PathBuf,
+    /// The folder as the reader has named it.
+    shown: String,
+}
+
+impl<'a> Workbench<'a> {
+    /// The place of an exercise, which is made by [`Workbench::set_up`].
+    ///
+    /// # Errors
+    /// If the folder cannot be one, or the exercise needs none.
+    pub fn new(
+        project: &'a Project,
+        programs: &'a Programs,
+        exercise: &'a Exercise,
+        folder: Option<&Path>,
+    ) -> Result<Self> {
+        if folder.is_some() && exercise.takes != Takes::Shader {
+            let what = match exercise.takes {
+                Takes::Rust => "is done in the project itself",
+                _ => "changes nothing",
+            };
+            return Err(Usage(format!("exercise {exercise} {what} and takes no --folder")).into());
+        }
+        let own = format!("target/exercises/{exercise}");
+        let shown = folder.map_or_else(|| own.clone(), |folder| folder.display().to_string());
+        let folder = match folder {
+            Some(folder) => std::path::absolute(folder).context("no folder is named")?,
+            None => project.root.join(own),
+        };
+        if folder.exists() && !folder.is_dir() {
+            return Err(Usage(format!("'{shown}' is no folder; name another with --folder")).into());
+        }
+        Ok(Self { project, programs, exercise, folder, shown })
+    }
+
+    /// Makes the place, unless it is there: then the reader's edits are gone on with. Returns whether it was.
+    ///
+    /// # Errors
+    /// If it cannot be made, holds something else, or the chapter's program is not built.
+    pub fn set_up(&self) -> Result<bool> {
+        let built = || self.programs.command(&self.exercise.chapter);
+        match self.exercise.takes {
+            Takes::Look => built().map(|_| true).map_err(|what| anyhow!("{what}; {BUILD}")),
+            Takes::Shader => {
+                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                let filled =
+                    self.folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
+                if filled {
+                    let own = self.folder.join(&self.exercise.chapter).is_dir();
+                    let what = "holds something else than a copy of the shaders";
+                    ensure!(own, "'{}' {what}; name another with --folder", self.shown);
+                    return Ok(true);
+                }
+                let failed = || format!("cannot make '{}'", self.shown);
+                let above = self.folder.parent().with_context(failed)?;
+                fs::create_dir_all(above).with_context(failed)?;
+                // Copied beside it and then renamed: the folder is there whole or not at all.
+                let whole = tempfile::tempdir_in(above).with_context(failed)?;
+                copy_shaders(self.project, whole.path())?;
+                fs::rename(whole.keep(), &self.folder).with_context(failed)?;
+                Ok(false)
+            }
+            Takes::Rust => {
+                if self.kept().is_dir() {
+                    return Ok(true);
+                }
+                let fits = self.exercise.patch.patched_in(self.project);
+                let what =
+                    "the project is not as the book has it: undo your changes and begin again";
+                fits.map_err(|fault| {
+                    let misfit = fault.what.replace("this hunk", "the solution");
+                    anyhow!("{misfit}: {what}")
+                })?;
+                Originals::new(self.project, self.programs).keep(self.exercise, &self.kept())?;
+                Ok(false)
+            }
+        }
+    }
+
+    /// Where the book's pictures lie, from before its own files were edited.
+    fn kept(&self) -> PathBuf {
+        self.folder.join("book")
+    }
+
+    fn edition(&self) -> Edition {
+        match self.exercise.takes {
+            Takes::Look => Edition::Book,
+            Takes::Shader => Edition::Shaders(self.folder.clone()),
+            Takes::Rust => Edition::Edited,
+        }
+    }
+
+    /// Where to edit what, in lines for the reader.
+    pub fn introduction(&self) -> String {
+        let shader = self.exercise.takes == Takes::Shader;
+        let places = self.exercise.patch.places(self.project).into_iter().map(|(file, items)| {
+            let there = self.project.has(&file);
+            let file = if shader { file.trim_start_matches("shaders/") } else { &*file };
+            match (there, &items[..]) {
+                (false, _) => format!("{file} (new)"),
+                (true, []) => file.to_owned(),
+                (true, items) => format!("{file} ({})", items.join(", ")),
+            }
+        });
+        let places = places.collect::<Vec<_>>().join("; ");
+        let (shown, name) = (&self.shown, self.exercise);
+        let place = match self.exercise.takes {
+            Takes::Look => return String::new(),
+            Takes::Shader => format!("Edit in {shown}, a copy of the shaders: {places}"),
+            Takes::Rust => {
+                format!("Edit in the project itself, and undo it with `git restore`: {places}")
+            }
+        };
+        format!(
+            "{place}\nThe picture after each save: {shown}.png\nStuck? cargo chapters exercise {name} --hint\n"
+        )
+    }
+
+    /// Whether the exercise is solved; keeps the picture beside the folder.
+    ///
+    /// # Errors
+    /// If it cannot be told.
+    pub fn verdict(&self) -> Result<Verdict> {
+        let originals = match self.exercise.takes {
+            Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
+            _ => Originals::new(self.project, self.programs),
+        };
+        self.verdict_with(&originals)
+    }
+
+    fn verdict_with(&self, originals: &Originals) -> Result<Verdict> {
+        let Self { project, programs, exercise, .. } = *self;
+        let verdict =
+            Attempt { project, programs, originals, exercise }.verdict(&self.edition())?;
+        if let Some(picture) = &verdict.picture {
+            let file = PathBuf::from(format!("{}.png", self.folder.display()));
+            fs::create_dir_all(file.parent().context("a file lies in a folder")?)?;
+            picture.save(&file)?;
+        }
+        Ok(verdict)
+    }
+
+    /// Checks on each save, a line each, until the exercise is solved.
+    ///
+    /// # Errors
+    /// If the window does not start, or the progress cannot be written.
+    pub fn practise(&self, with_window: bool, progress: &mut Progress) -> Result<()> {
+        let watched = match self.exercise.takes {
+            Takes::Rust => {
+                ["common", "samples", "shaders"].map(|f| self.project.root.join(f)).to_vec()
+            }
+            _ => vec![self.folder.clone()],
+        };
+        let (_watcher, saved) = watch(&watched)?;
+        let originals = match self.exercise.takes {
+            Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
+            _ => Originals::new(self.project, self.programs),
+        };
+        let mut window = with_window.then(|| self.window()).transpose()?;
+        let mut last = None;
+        loop {
+            let now = contents(&watched);
+            if last.replace(now) != Some(now) {
+                // A program that runs cannot be built anew everywhere.
+                let again = self.exercise.takes == Takes::Rust && window.take().is_some();
+                let missed = match self.verdict_with(&originals) {
+                    Ok(verdict) => verdict.missed,
+                    Err(error) => Some(format!("{error:#}")),
+                };
+                if again {
+                    window = self.window().ok();
+                }
+                match missed {
+                    None => break,
+                    Some(missed) => print(&format!("not yet: {missed}\n"))?,
+                }
+            }
+            saved.recv().context("the folder cannot be watched any more")?;
+            while saved.recv_timeout(DEBOUNCE).is_ok() {}
+        }
+        progress.note(self.exercise)?;
+        print(&solved(self.exercise))?;
+        window.map_or(Ok(()), Window::closed)
+    }
+
+    /// Opens the chapter's window with what the first run sets.
+    ///
+    /// # Errors
+    /// If it does not start.
+    pub fn window(&self) -> Result<Window> {
+        let command = self.edition().command(self.project, self.programs, &self.exercise.chapter);
+        let mut command = command?;
+        command.args(self.settings()).stdin(Stdio::null()).stdout(Stdio::null());
+        Ok(Window(command.spawn().context("the window does not open")?))
+    }
+
+    /// The arguments of the first run that are of use in a window.
+    pub fn settings(&self) -> Vec<String> {
+        let program = |run: &'a Run| match run {
+            Run::Program(arguments) => Some(arguments),
+            Run::Test(..) => None,
+        };
+        let runs = self.exercise.steps.iter().map(|step| &step.run);
+        let mut words = runs.filter_map(program).next().into_iter().flatten();
+        let mut settings = Vec::new();
+        while let Some(word) = words.next() {
+            match &**word {
+                "--size" | "--frames" => drop(words.next()),
+                _ => settings.push(word.clone()),
+            }
+        }
+        settings
+    }
+
+    /// Applies the solution to the reader's place, and returns the files that it changes.
+    ///
+    /// # Errors
+    /// If it does not fit there any more, or cannot be written.
+    pub fn apply(&self) -> Result<Vec<String>> {
+        let below = |file: &str| match self.exercise.takes {
+            Takes::Shader => self.folder.join(file.trim_start_matches("shaders/")),
+            _ => self.project.root.join(file),
+        };
+        let read = |file: &str| {
+            fs::read_to_string(below(file)).ok().map(|text| text.replace("\r\n", "\n"))
+        };
+        let patched = self.exercise.patch.patched(read).map_err(|fault| {
+            let place = match self.exercise.takes {
+                Takes::Shader => format!("in {}", self.shown),
+                _ => "in the project".to_owned(),
+            };
+            let what = fault.what.replace("this hunk", "the solution");
+            anyhow!("{what} {place} any more: undo what you have changed there")
+        })?;
+        for (file, text) in &patched {
+            common::files::write_whole(&below(file), text.as_bytes())?;
+        }
+        Ok(patched.into_keys().collect())
+    }
+}
+
+/// What to print once an exercise is solved.
+pub fn solved(exercise: &Exercise) -> String {
+    let why = exercise.why.as_ref().map_or_else(String::new, |why| format!("Why: {why}\n"));
+    format!("{exercise} is solved.\n{why}")
+}
+
+/// A chapter's window, closed with its owner.
+pub struct Window(Child);
+
+impl Window {
+    /// Waits until the reader closes it.
+    ///
+    /// # Errors
+    /// If the system does not tell.
+    pub fn closed(mut self) -> Result<()> {
+        if self.0.try_wait()?.is_none() {
+            print("Close the window to end.\n")?;
+        }
+        self.0.wait()?;
+        Ok(())
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        // One that has ended already needs no end.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Whether a window can be opened here.
+pub fn has_display() -> bool {
+    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")
+}
+
+/// Tells of every change below some folders.
+fn watch(folders: &[PathBuf]) -> Result<(Box<dyn Watcher>, Receiver<()>)> {
+    let (sender, saved) = channel();
+    let tell = move |event: notify::Result<notify::Event>| {
+        // Rendering reads the files: what is only read has not changed.
+        if event.is_ok_and(|event| !event.kind.is_access()) {
+            // Nobody waits any more once the exercise is solved.
+            let _ = sender.send(());
+        }
+    };
+    let mut watcher: Box<dyn Watcher> = match recommended_watcher(tell.clone()) {
+        Ok(watcher) => Box::new(watcher),
+        Err(_) => {
+            let settings = notify::Config::default().with_poll_interval(GLANCE);
+            Box::new(PollWatcher::new(tell, settings).context("no folder can be watched")?)
+        }
+    };
+    for folder in folders {
+        let failed = || format!("cannot watch '{}'", folder.display());
+        watcher.watch(folder, RecursiveMode::Recursive).with_context(failed)?;
+    }
+    Ok((watcher, saved))
+}
+
+/// A hash of every file below some folders.
+fn contents(folders: &[PathBuf]) -> u64 {
+    let mut files: Vec<PathBuf> = folders.iter().flat_map(|folder| files_below(folder)).collect();
+    files.sort();
+    let mut hasher = DefaultHasher::new();
+    for file in files {
+        let bytes = fs::read(&file).unwrap_or_default();
+        (file, bytes).hash(&mut hasher);
+    }
+    hasher.finish()
+}

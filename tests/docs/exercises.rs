@@ -1,0 +1,395 @@
+//! Exercises: each is what its file claims, and the tool sets them up, checks them and keeps a reader's edits.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use crate::fixture::{Fixture, Outcome, run};
+
+/// The tool on the real book.
+fn tool(arguments: &[&str]) -> Outcome {
+    run(Command::new(env!("CARGO_BIN_EXE_chapters")).arg("exercise").args(arguments))
+}
+
+/// The exercises of the real book, each with what it takes.
+fn exercises() -> Vec<(String, String)> {
+    let list = tool(&["--list"]);
+    assert_eq!(list.code, 0, "{}", list.err);
+    let words = |line: &str| {
+        let (name, rest) = line.split_once(' ').expect("a name");
+        let takes = rest.trim_start().split("  ").next().expect("what it takes");
+        (name.to_owned(), takes.to_owned())
+    };
+    list.out.lines().map(words).collect()
+}
+
+/// Exercises that built programs prove: no test, no Rust.
+fn is_quick(takes: &str) -> bool {
+    ["look", "shader"].contains(&takes)
+}
+
+/// What git calls changed below the root; nothing where there is no git.
+fn changed() -> Vec<String> {
+    let output =
+        Command::new("git").args(["status", "--porcelain"]).current_dir(::run::root()).output();
+    let text = output.map_or_else(|_| Vec::new(), |output| output.stdout);
+    let text = String::from_utf8_lossy(&text);
+    text.lines().filter_map(|line| line.get(3..)).map(str::to_owned).collect()
+}
+
+fn prove(names: &[&str]) {
+    let outcome = tool(&[names, &["--prove"]].concat());
+    assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
+    assert_eq!(outcome.out.lines().count(), names.len());
+}
+
+/// The first shader exercise of each chapter, and what has been edited since the last commit.
+#[test]
+fn exercises_are_unsolved_before_their_solution_and_solved_after() {
+    let all = exercises();
+    let chapter = |name: &str| name.split_once('.').expect("a point").0.to_owned();
+    let changed = changed();
+    let edited = |name: &str| {
+        let shaders = format!("shaders/{}_", chapter(name));
+        let own = format!("docs/exercises/{name}.diff");
+        changed.iter().any(|file| file.starts_with(&shaders) || *file == own)
+    };
+    let first = |name: &str| {
+        let mut of_chapter = all.iter().filter(|(other, _)| chapter(other) == chapter(name));
+        of_chapter.find(|(_, takes)| takes == "shader").is_some_and(|(first, _)| first == name)
+    };
+    let chosen =
+        all.iter().filter(|(name, takes)| is_quick(takes) && (first(name) || edited(name)));
+    let names: Vec<&str> = chosen.map(|(name, _)| &**name).collect();
+    prove(&names);
+}
+
+#[test]
+#[ignore = "all of them: Rust exercises and those that run tests take minutes to build"]
+fn every_exercise_is_unsolved_before_its_solution_and_solved_after() {
+    let all = exercises();
+    prove(&all.iter().map(|(name, _)| &**name).collect::<Vec<_>>());
+}
+
+#[test]
+fn an_exercise_that_is_none_is_named_with_its_line() {
+    let fixture = Fixture::new();
+    let file = "docs/exercises/02.1.diff";
+    let whole = fixture.read(file);
+    for (from, to, expected) in [
+        ("Takes: shader\n", "", "1: there is no field 'Takes'; write a title"),
+        (
+            "Takes: shader",
+            "Takes: time",
+            "3: an exercise takes no 'time'; write look, shader or Rust",
+        ),
+        (
+            "Takes: shader",
+            "Takes: Rust",
+            "3: the diff changes shaders alone; write `Takes: shader`",
+        ),
+        (
+            "Takes: shader",
+            "Takes: look",
+            "3: what takes only looking asks a question; add `Answer: …`",
+        ),
+        ("Why:", "Answer: white\nWhy:", "3: what is solved by a diff has no answer; remove it"),
+        ("Hint:", "Help:", "1: there is no field 'Hint'; write a title"),
+        ("Hint:", "Text: x\nHint:", "6: the field 'Text' stands here a second time; remove one"),
+        ("Why:", "Who:", "10: 'Who' is no field of an exercise; write a title"),
+        ("Run: --size 50x30\n", "", "7: nothing is run above this; write `Run: …` first"),
+        (
+            "Run: --size",
+            "Run: \"--size",
+            "7: '\"--size 50x30' is no run; write the program's arguments",
+        ),
+        ("50x30", "50x30 --out a.png", "7: --out is added to every run; remove it"),
+        ("differs by 0.05", "is white", "8: 'is white' is no expectation; write differs by 0.01"),
+        (
+            "differs by 0.05",
+            "passes",
+            "8: 'passes' does not belong to this run; of tests it is `passes`",
+        ),
+        ("Make it white\n", "\n", "1: there is no title; write a title"),
+        ("Takes: shader", "takes it", "3: 'takes it' is no field; write a title"),
+        (
+            "shaders/02_basic/camera",
+            "samples/02_basic/camera",
+            "3: the diff changes more than shaders; ",
+        ),
+    ] {
+        fixture.write(file, &whole.replace(from, to));
+        let outcome = fixture.run(&["exercise", "--list"]);
+        assert_eq!((outcome.code, &*outcome.out), (1, ""), "{to}");
+        let start = format!("error: {file}:{expected}");
+        assert!(outcome.err.starts_with(&start), "{from} as {to}: {}", outcome.err);
+        assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    }
+    fixture.write(file, &whole);
+    for (file, what) in [
+        ("docs/exercises/07.1.diff", "1: there is no chapter 07; rename it"),
+        ("docs/exercises/notes.txt", "1: an exercise is a file NN.k.diff; rename it"),
+    ] {
+        fixture.write(file, &whole);
+        let outcome = fixture.run(&["exercise", "--list"]);
+        assert_eq!(outcome.err, format!("error: {file}:{what}\n"));
+        fixture.remove(file);
+    }
+}
+
+#[test]
+fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
+    let fixture = Fixture::new();
+    let file = "docs/exercises/02.1.diff";
+    let prove = |name| fixture.run(&["exercise", name, "--prove"]);
+    let outcome = prove("02.1");
+    let solved = "02.1: differs by 0.0000, not at least 0.05; solved by its solution\n";
+    assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
+    assert_eq!(prove("02.2").out, "02.2: its answer holds\n");
+    let whole = fixture.read(file);
+    for (from, to, end) in [
+        (
+            "Expect: differs by 0.05\nExpect: pixels 255 255 255: 1500\n",
+            "Expect: same\n",
+            "solved before its solution",
+        ),
+        (
+            "vec4(1.0));",
+            "vec4(0.9));",
+            "not solved by its solution: 0 pixels are [255, 255, 255], not 1500",
+        ),
+        (
+            "vec4(1.0));",
+            "white);",
+            "not solved by its solution: shader does not compile: 02_basic/camera.rgen:",
+        ),
+    ] {
+        fixture.write(file, &whole.replace(from, to));
+        let outcome = prove("02.1");
+        assert_eq!(outcome.code, 1, "{}", outcome.out);
+        let start = format!("{file}: {end}");
+        assert!(outcome.out.starts_with(&start), "{to}: {}", outcome.out);
+        assert_eq!(outcome.err, "error: 1 of 1 exercises are not what their files say\n");
+    }
+    fixture.replace(
+        "docs/exercises/02.2.diff",
+        "show=normal --size 50x30\nE",
+        "show=picture --size 50x30\nE",
+    );
+    assert!(prove("02.2").out.contains("its answer does not hold: differs by 0.0000"));
+}
+
+#[test]
+fn a_readers_copy_is_checked_and_never_overwritten() {
+    let fixture = Fixture::new();
+    let ask = |words: &[&str]| fixture.run(&[&["exercise", "02.1"], words].concat());
+    let unsolved = "error: 02.1 is not solved yet: differs by 0.0000, not at least 0.05\n";
+    let outcome = ask(&["--check"]);
+    assert_eq!((outcome.code, &*outcome.err), (1, unsolved));
+    assert!(fixture.path("target/exercises/02.1.png").is_file(), "no picture is kept");
+    let camera = "target/exercises/02.1/02_basic/camera.rgen";
+    // Half an edit.
+    fixture.replace(camera, "payload);", "payload");
+    let outcome = ask(&["--check"]);
+    let start = "error: 02.1 is not solved yet: shader does not compile: 02_basic/camera.rgen:";
+    assert!(outcome.code == 1 && outcome.err.starts_with(start), "{}", outcome.err);
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    // It is gone on with, and the solution does not fit it any more.
+    let outcome = ask(&["--solution", "--apply"]);
+    let misfit = "error: the solution does not fit shaders/02_basic/camera.rgen in target/exercises/02.1 any \
+                  more: undo what you have changed there\n";
+    assert_eq!((outcome.code, &*outcome.err), (1, misfit));
+    fixture.replace(camera, "payload\n", "vec4(1.0)); // mine\n");
+    let outcome = ask(&["--check"]);
+    let solved = "02.1 is solved.\nWhy: The picture is what is stored.\n";
+    assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
+    assert!(fixture.read(camera).contains("// mine"));
+    // The book's own shaders are as they were.
+    assert!(fixture.read("shaders/02_basic/camera.rgen").contains("payload);"));
+}
+
+/// A program that ends with its test, even where that fails.
+struct Started(Child);
+
+impl Drop for Started {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+#[test]
+fn each_save_is_checked_until_the_exercise_is_solved() {
+    let fixture = Fixture::new();
+    let mut command = Command::new(fixture.tool());
+    command.args(["exercise", "02.1", "--headless", "--root"]).arg(fixture.path(""));
+    let mut child = Started(command.stdout(Stdio::piped()).spawn().expect("the tool starts"));
+    let mut lines = BufReader::new(child.0.stdout.take().expect("its output")).lines();
+    let mut next = || lines.next().map(|line| line.expect("UTF-8")).unwrap_or_default();
+    let mut told = Vec::new();
+    let camera = "target/exercises/02.1/02_basic/camera.rgen";
+    loop {
+        let line = next();
+        assert!(told.len() < 20, "{told:#?}");
+        let first = line.starts_with("not yet: ");
+        told.push(line);
+        if first {
+            break;
+        }
+    }
+    assert_eq!(told[0], "02.1 · Make it white (shader)");
+    let edit =
+        "Edit in target/exercises/02.1, a copy of the shaders: 02_basic/camera.rgen (void main)";
+    assert!(told.iter().any(|line| line == edit), "{told:#?}");
+    assert_eq!(told.last().expect("a line"), "not yet: differs by 0.0000, not at least 0.05");
+    fixture.replace(camera, "payload);", "payload) // half");
+    let line = next();
+    assert!(line.starts_with("not yet: shader does not compile: 02_basic/camera.rgen:"), "{line}");
+    fixture.replace(camera, "payload) // half", "vec4(0.9));");
+    assert_eq!(next(), "not yet: 0 pixels are [255, 255, 255], not 1500");
+    fixture.replace(camera, "vec4(0.9)", "vec4(1.0)");
+    assert_eq!(next(), "02.1 is solved.");
+    assert!(child.0.wait().expect("an end").success());
+    let list = fixture.run(&["exercise", "02"]).out;
+    assert!(list.starts_with("02.1  shader        solved  Make it white\n02.2  look "), "{list}");
+}
+
+#[test]
+fn hints_solutions_and_answers_are_given() {
+    let fixture = Fixture::new();
+    let ask = |words: &[&str]| fixture.run(&[&["exercise"], words].concat());
+    assert_eq!(ask(&["02.1", "--hint"]).out, "White is `vec4(1.0)`.\n");
+    let solution = ask(&["basic.1", "--solution"]).out;
+    assert!(solution.starts_with("--- shaders/02_basic/camera.rgen\n+++"), "{solution}");
+    assert!(solution.ends_with("+    imageStore(picture, ivec2(id), vec4(1.0));\n\nWhy: The picture is what is stored.\n"), "{solution}");
+    assert_eq!(
+        ask(&["02.1", "--solution", "--apply"]).out,
+        "shaders/02_basic/camera.rgen: changed\n"
+    );
+    assert_eq!(ask(&["02.1", "--check"]).code, 0);
+    assert_eq!(
+        ask(&["2.2", "--solution"]).out,
+        "up, or +y, or to the sky, or 40 to 44: It looks up.\n"
+    );
+    let told = ask(&["02.2", "--headless"]).out;
+    assert!(
+        told.contains("cargo run --bin 02_basic -- --set show=normal --headless --out "),
+        "{told}"
+    );
+    let wrong = ask(&["02.2", "--answer", "down"]);
+    assert_eq!((wrong.code, &*wrong.err), (1, "error: 'down' is not the answer; --hint helps\n"));
+    assert_eq!(ask(&["02.2", "--check"]).code, 1);
+    let right = ask(&["02.2", "--answer", "To the sky."]);
+    assert_eq!((right.code, &*right.out), (0, "It looks up.\n02.2 is solved.\n"));
+    assert_eq!(ask(&["02.2", "--check"]).code, 0);
+}
+
+#[test]
+fn progress_that_is_damaged_is_told_in_a_line() {
+    let fixture = Fixture::new();
+    let answer = || fixture.run(&["exercise", "02.2", "--answer", "up"]);
+    assert_eq!(answer().code, 0);
+    let progress = "target/exercises/progress.json";
+    assert_eq!(fixture.read(progress), "{\n  \"solved\": [\n    \"02.2\"\n  ]\n}\n");
+    for damaged in ["", "{\"solved\": [\"02.2\"", "[]", "{\"solved\": [2]}"] {
+        fixture.write(progress, damaged);
+        let list = fixture.run(&["exercise", "--list"]);
+        let warning = format!("warning: {progress} is damaged: what was solved is forgotten\n");
+        assert_eq!((list.code, &*list.err), (0, &*warning), "{damaged}");
+        assert!(!list.out.contains("solved"), "{}", list.out);
+    }
+    assert_eq!(answer().code, 0);
+    assert!(fixture.run(&["exercise", "--list"]).out.contains("solved"));
+}
+
+#[test]
+fn a_rust_exercise_keeps_the_books_pictures_before_it_is_edited() {
+    let fixture = Fixture::new();
+    let ask = |words: &[&str]| fixture.run(&[&["exercise", "02.3"], words].concat());
+    fixture.replace("samples/01_one/main.rs", "let name", "let nom");
+    let outcome = ask(&["--headless"]);
+    let misfit = "error: the solution does not fit samples/01_one/main.rs: the project is not as the book has \
+                  it: undo your changes and begin again\n";
+    assert_eq!((outcome.code, &*outcome.err), (1, misfit));
+    fixture.replace("samples/01_one/main.rs", "let nom", "let name");
+    assert_eq!(ask(&["--solution", "--apply"]).out, "samples/01_one/main.rs: changed\n");
+    let kept = fs::read_dir(fixture.path("target/exercises/02.3/book")).expect("a folder").count();
+    assert_eq!(kept, 1);
+    assert!(fixture.read("samples/01_one/main.rs").contains("env!(\"CARGO_BIN_NAME\")"));
+}
+
+#[test]
+fn wrong_names_folders_and_options_are_one_line() {
+    let fixture = Fixture::new();
+    fixture.write("target/file", "");
+    fixture.write("target/other/notes.txt", "");
+    let path = |name: &str| fixture.path(name).display().to_string();
+    let (file, other, below) =
+        (path("target/file"), path("target/other"), path("target/file/below"));
+    let cases: [(&[&str], i32, &str); 18] = [
+        (&[], 2, "no exercise is named; --list shows them"),
+        (&["09.1"], 2, "no chapter '09'; there is 01_one, 02_basic"),
+        (&["02.9"], 2, "no exercise '02.9'; there is 02.1, 02.2, 02.3"),
+        (&["02.x"], 2, "no exercise '02.x'; there is 02.1, 02.2, 02.3"),
+        (&[".."], 2, "no chapter ''; there is"),
+        (&["02", "--check"], 2, "a chapter has several exercises: name one, such as 02.1"),
+        (
+            &["02.1", "02.2"],
+            2,
+            "'02.2' is one too many: name one exercise, put an answer in quotes",
+        ),
+        (&["02.1", "--check", "--hint"], 2, "the argument '--check' cannot be used with '--hint'"),
+        (&["02.1", "--apply"], 2, "the following required arguments were not provided"),
+        (
+            &["02.1", "--answer", "up"],
+            2,
+            "exercise 02.1 asks no question; --check tells whether it is",
+        ),
+        (&["02.2", "--answer", ""], 1, "'' is not the answer"),
+        (
+            &["02.2", "--solution", "--apply"],
+            2,
+            "exercise 02.2 changes nothing: there is nothing to apply",
+        ),
+        (&["02.2", "--folder", &other], 2, "exercise 02.2 changes nothing and takes no --folder"),
+        (
+            &["02.3", "--folder", &other],
+            2,
+            "exercise 02.3 is done in the project itself and takes no",
+        ),
+        (&["02.1", "--check", "--folder", &file], 2, "is no folder; name another with --folder"),
+        (
+            &["02.1", "--check", "--folder", &other],
+            1,
+            "holds something else than a copy of the shaders",
+        ),
+        (&["02.1", "--check", "--folder", &below], 1, "cannot make '"),
+        (&["02.1", "--check", "--folder", ""], 2, "a value is required for '--folder <FOLDER>'"),
+    ];
+    for (arguments, code, words) in cases {
+        let outcome = fixture.run(&[&["exercise"], arguments].concat());
+        assert_eq!((outcome.code, &*outcome.out), (code, ""), "{arguments:?}: {}", outcome.err);
+        assert!(
+            outcome.err.starts_with("error: ") && outcome.err.contains(words),
+            "{}",
+            outcome.err
+        );
+        assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    }
+    assert!(Path::new(&other).join("notes.txt").is_file());
+}
+
+#[test]
+fn a_program_that_is_not_built_is_named_and_nothing_is_made() {
+    let fixture = Fixture::new();
+    let apart = tempfile::tempdir().expect("a temporary folder");
+    let lonely = apart.path().join("alone").with_extension(std::env::consts::EXE_EXTENSION);
+    fs::copy(fixture.tool(), &lonely).expect("a copy of the tool");
+    let mut command = Command::new(lonely);
+    let outcome =
+        run(command.args(["exercise", "02.1", "--headless", "--root"]).arg(fixture.path("")));
+    let line = "error: the program '02_basic' is not built; run: cargo build --bins\n";
+    assert_eq!((outcome.code, &*outcome.err), (1, line));
+    assert!(!fixture.path("target/exercises/02.1").exists());
+}
