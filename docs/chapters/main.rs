@@ -30,7 +30,6 @@ mod mistake;
 mod moved;
 mod new;
 mod page;
-mod panels;
 mod picture;
 mod placeholder;
 mod program;

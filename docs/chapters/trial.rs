@@ -11,11 +11,11 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use image::RgbImage;
+use panels::{Panel, sheet};
 use serde_json::Value;
 
 use crate::child;
 use crate::mistake::{Mistake, Outcome};
-use crate::panels::{Panel, side_by_side};
 use crate::picture::{self, Sources};
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
@@ -86,7 +86,7 @@ impl<'a> Trial<'a> {
         };
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([right, wrong].map(panel)).collect();
-        let sheet = side_by_side(SHOWN, &panels)?;
+        let sheet = sheet(SHOWN, &[panels])?;
         let hash = self.mistake.sources(self.project, sources);
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
         let plain = folder.path().join("sheet.png");

@@ -1,4 +1,4 @@
-//! Charts and enlarged crops for the pages.
+//! Charts and labelled panels for the pages.
 //!
 //! A chapter that has something to draw does it in tests that are ignored unless asked for: there the
 //! program is built, its pictures can be read, and the CPU's copy of the mathematics is at hand; and
@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use common::app::Picture;
 use image::{RgbImage, imageops};
+use panels::{Panel, sheet};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
 use plotters::prelude::*;
@@ -147,27 +148,36 @@ fn draw_one<'a>(
     Ok(())
 }
 
-/// Writes crops of pictures, enlarged so that every pixel is a square, in rows, into a PNG.
-///
-/// A crop is a picture and the left, top, width and height of what is shown of it.
-pub fn crops(name: &str, zoom: u32, rows: &[Vec<(&Picture, [u32; 4])>]) {
-    const GAP: u32 = 6;
-    let rows: Vec<Vec<RgbImage>> = rows
-        .iter()
-        .map(|row| row.iter().map(|(picture, crop)| enlarged(picture, *crop, zoom)).collect())
-        .collect();
-    let width = |row: &Vec<RgbImage>| row.iter().map(|crop| crop.width() + GAP).sum::<u32>() - GAP;
-    let height: u32 = rows.iter().map(|row| row[0].height() + GAP).sum::<u32>() - GAP;
-    let mut sheet = RgbImage::from_pixel(width(&rows[0]), height, image::Rgb([255; 3]));
-    let mut top = 0;
-    for row in &rows {
-        let mut left = 0;
-        for crop in row {
-            imageops::replace(&mut sheet, crop, left, top);
-            left += i64::from(crop.width() + GAP);
-        }
-        top += i64::from(row[0].height() + GAP);
+/// A picture, or a part of it, under a label.
+pub struct Shown<'a> {
+    pub label: String,
+    pub picture: &'a Picture,
+    /// Left, top, width and height in pixels: the same width and height for all that are drawn together.
+    pub area: [u32; 4],
+}
+
+impl<'a> Shown<'a> {
+    /// A row of whole pictures.
+    pub fn row(pictures: &'a [(String, Picture)]) -> Vec<Self> {
+        let whole = |(label, picture): &'a (String, Picture)| {
+            let area = [0, 0, picture.width, picture.height];
+            Self { label: label.clone(), picture, area }
+        };
+        pictures.iter().map(whole).collect()
     }
+}
+
+/// Draws pictures in rows, each pixel enlarged to a square of `zoom` by `zoom`, into a PNG in `docs/images`.
+pub fn draw_panels(name: &str, zoom: u32, rows: &[Vec<Shown>]) {
+    let [_, _, width, height] = rows[0][0].area;
+    let panel = |shown: &Shown| {
+        let crop = enlarged(shown.picture, shown.area, zoom);
+        assert_eq!(shown.area[2..], [width, height], "{}", shown.label);
+        (shown.label.clone(), Panel::Picture(crop))
+    };
+    let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(panel).collect()).collect();
+    let sheet = sheet((width * zoom, height * zoom), &rows);
+    let sheet = sheet.unwrap_or_else(|error| panic!("{name}: {error}"));
     sheet.save(file(name)).expect("the PNG can be written");
 }
 
