@@ -219,15 +219,24 @@ impl Mistake {
         Ok(files.into_iter().map(|(file, lines)| (file, joined(lines))).collect())
     }
 
-    /// Makes a patched copy in a folder: of the shaders, or of all that a build needs.
+    /// Makes a patched copy in an empty folder: of the shaders, or of all that a build needs.
     ///
     /// # Errors
     /// If the patch does not fit, the folder holds something, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
-        let patched = self.patched(project).map_err(Fault::error)?;
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
             bail!("'{}' is not empty; name another folder with --out", folder.display());
         }
+        self.copy_over(project, folder)
+    }
+
+    /// Makes a folder a patched copy. What is right already is left alone, so that Cargo builds only what
+    /// differs from the copy before.
+    ///
+    /// # Errors
+    /// If the patch does not fit, or the folder cannot be written.
+    pub fn copy_over(&self, project: &Project, folder: &Path) -> Result<()> {
+        let patched = self.patched(project).map_err(Fault::error)?;
         let parts: &[&str] = if self.is_in_shaders() { &["shaders"] } else { &PARTS };
         let mut files: Vec<String> = parts.iter().flat_map(|part| project.files(part)).collect();
         if !self.is_in_shaders() {
@@ -239,13 +248,16 @@ impl Mistake {
                 true => folder.join(file.trim_start_matches("shaders/")),
                 false => folder.join(&file),
             };
-            let parent = to.parent().context("a file lies in a folder")?;
-            fs::create_dir_all(parent)
-                .with_context(|| format!("cannot make '{}'", parent.display()))?;
             let bytes = match patched.get(&file) {
                 Some(text) => text.clone().into_bytes(),
                 None => fs::read(project.root.join(&file))?,
             };
+            if fs::read(&to).is_ok_and(|there| there == bytes) {
+                continue;
+            }
+            let parent = to.parent().context("a file lies in a folder")?;
+            fs::create_dir_all(parent)
+                .with_context(|| format!("cannot make '{}'", parent.display()))?;
             fs::write(&to, bytes).with_context(|| format!("cannot write '{}'", to.display()))?;
         }
         Ok(())
@@ -261,7 +273,7 @@ impl Mistake {
         match self.is_in_shaders() {
             true => format!("SHADERS={folder} cargo run --bin {bin}{arguments}"),
             false => format!(
-                "SHADERS=shaders CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
+                "CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
                  {folder}/Cargo.toml --bin {bin}{arguments}"
             ),
         }

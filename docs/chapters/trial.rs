@@ -1,7 +1,7 @@
 //! A mistake held to its word: the chapter is run as it is and patched, and both are compared.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -109,33 +109,31 @@ impl<'a> Trial<'a> {
             self.mistake.chapter,
             right.said
         );
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-        self.mistake.copy_to(self.project, folder.path())?;
-        let command = match self.mistake.is_in_shaders() {
-            true => {
-                let mut command = built()?;
-                command.env("SHADERS", folder.path());
-                command
-            }
-            false => {
-                let mut command = Command::new(self.build(folder.path())?);
-                command
-                    .current_dir(&self.project.root)
-                    .env("SHADERS", folder.path().join("shaders"));
-                command
-            }
-        };
+        if self.mistake.is_in_shaders() {
+            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+            self.mistake.copy_to(self.project, folder.path())?;
+            let mut command = built()?;
+            command.env("SHADERS", folder.path());
+            return Ok((right, self.run(command, size)?));
+        }
+        // All patches share a copy and what is built of it: no other trial may change them meanwhile.
+        let folder = self.project.root.join("target/mistakes");
+        let copy = folder.join("copy");
+        fs::create_dir_all(&copy).with_context(|| format!("cannot make '{}'", copy.display()))?;
+        let lock = File::create(folder.join("lock")).context("cannot make a lock")?;
+        lock.lock().context("cannot wait for a lock")?;
+        self.mistake.copy_over(self.project, &copy)?;
+        let mut command = Command::new(self.build(&copy, &folder.join("build"))?);
+        command.current_dir(&self.project.root).env("SHADERS", copy.join("shaders"));
         Ok((right, self.run(command, size)?))
     }
 
-    /// Builds the chapter in a patched copy. The copies share a folder of what is built, which takes
-    /// minutes for the first.
-    fn build(&self, copy: &Path) -> Result<PathBuf> {
-        let target = self.project.root.join("target/mistakes/build");
+    /// Builds the chapter in a patched copy, which takes minutes for the first.
+    fn build(&self, copy: &Path, target: &Path) -> Result<PathBuf> {
         let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
             .args(["build", "--quiet", "--bin", &self.mistake.chapter])
             .current_dir(copy)
-            .env("CARGO_TARGET_DIR", &target)
+            .env("CARGO_TARGET_DIR", target)
             .output()
             .context("cargo does not start")?;
         let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
