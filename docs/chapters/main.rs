@@ -38,6 +38,7 @@ mod reference;
 mod shader;
 mod sheet;
 mod show;
+mod shrink;
 mod stray;
 mod survey;
 mod taught;

@@ -9,13 +9,14 @@ use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
+use common::app::Picture as Large;
 
 use crate::command::{Run, runs};
 use crate::fault::Fault;
 use crate::page::{Page, PictureMark};
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
-use crate::shader;
+use crate::{shader, shrink};
 
 const COMMAND: &str = "Command";
 const SOURCES: &str = "Sources";
@@ -90,7 +91,7 @@ impl Picture {
         Fault::new(&*self.page, self.line, what, remedy)
     }
 
-    /// Renders it, and returns the device that did.
+    /// Renders it, and returns the device that did. What is larger than a page shows it is shrunk.
     ///
     /// # Errors
     /// If the program is missing or fails.
@@ -102,10 +103,12 @@ impl Picture {
     ) -> Result<String> {
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
         let (picture, report) = (folder.path().join("out.png"), folder.path().join("report.json"));
+        let (large, times) = (folder.path().join("out.exr"), shrink::times(&self.arguments));
         let mut arguments = self.arguments.clone();
         let run = Run { bin: None, arguments: arguments.clone() };
         let index = out(&run).context("the command writes no picture")?;
-        arguments[index + 1] = picture.to_string_lossy().into_owned();
+        let written = if times > 1 { &large } else { &picture };
+        arguments[index + 1] = written.to_string_lossy().into_owned();
         let mut command =
             programs.command(&self.chapter).map_err(|what| anyhow!("{what}; {BUILD}"))?;
         command.args(&arguments).arg("--report").arg(&report);
@@ -114,6 +117,9 @@ impl Picture {
         if !output.status.success() {
             let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
             bail!("{}:{}: the command for {} failed: {said}", self.page, self.line, self.file());
+        }
+        if times > 1 {
+            shrink::shrunk(&Large::open_exr(&large)?, times).save(&picture)?;
         }
         let report: serde_json::Value = serde_json::from_slice(&fs::read(&report)?)?;
         let device = report["device"].as_str().unwrap_or("unknown").to_owned();

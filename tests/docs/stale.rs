@@ -125,6 +125,30 @@ fn stale_pictures_are_found_and_rendered_anew() {
     expect(&cases, &["sync", "--pictures", "02_basic"]);
 }
 
+#[test]
+fn a_picture_that_is_rendered_larger_is_shown_smaller_and_smooth() {
+    let fixture = Fixture::new();
+    let of = |size: &str| {
+        let page = fixture.read("docs/02_basic.md");
+        let (start, rest) = page.split_once("--size ").expect("a size");
+        let (_, end) = rest.split_once(' ').expect("an end");
+        fixture.write("docs/02_basic.md", &format!("{start}--size {size} {end}"));
+        let outcome = fixture.run(&["sync", "--pictures", "02_basic"]);
+        assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+        assert_eq!(fixture.check(), "");
+        image::open(fixture.path("docs/images/02_basic.png")).expect("a picture").to_rgb8()
+    };
+    let (plain, smooth) = (of("960x60"), of("1920x120"));
+    assert_eq!(smooth.dimensions(), plain.dimensions());
+    // Edges have more tones, and the picture is the same but for them.
+    let differ = plain
+        .pixels()
+        .zip(smooth.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 20));
+    let part = differ.count() as f64 / f64::from(plain.width() * plain.height());
+    assert!((0.001..0.1).contains(&part), "{part}");
+}
+
 fn golden() -> std::path::PathBuf {
     run::root().join("tests/golden/02_basic.png")
 }
