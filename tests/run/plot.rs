@@ -26,6 +26,8 @@ const COLORS: [RGBColor; 5] = [
     RGBColor(204, 121, 167),
 ];
 const GRID: RGBColor = RGBColor(225, 225, 225);
+/// The font of the names of dots.
+const SMALL: (&str, i32) = ("sans-serif", 15);
 
 /// A chart: two axes and what is drawn between them.
 pub struct Chart<'a> {
@@ -44,9 +46,12 @@ pub struct Axis<'a> {
 }
 
 /// Points that belong together; those without a name are not in the legend.
+#[derive(Default)]
 pub struct Series<'a> {
     pub name: &'a str,
     pub points: Vec<[f64; 2]>,
+    /// What stands beside the points, where each has a name of its own.
+    pub names: Vec<&'a str>,
     pub line: bool,
     pub dots: bool,
 }
@@ -124,10 +129,17 @@ fn draw_one<'a>(
         .y_desc(y.label)
         .label_style(font)
         .draw()?;
+    let (columns, rows) = area.get_pixel_range();
+    let origin = (columns.start, rows.start);
     for (series, color) in series.iter().zip(COLORS) {
         let points = || series.points.iter().map(|&[a, b]| (a, b));
         if series.line {
             context.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
+        }
+        let places: Vec<_> = points().map(|at| context.backend_coord(&at)).collect();
+        for (&name, (x, y)) in series.names.iter().zip(beside(&places, &series.names)) {
+            let style = TextStyle::from(SMALL).color(&color);
+            area.draw_text(name, &style, (x - origin.0, y - origin.1))?;
         }
         let dots = points().filter(|_| series.dots);
         let dots = context.draw_series(dots.map(|at| Circle::new(at, 3, color.filled())))?;
@@ -146,6 +158,29 @@ fn draw_one<'a>(
             .draw()?;
     }
     Ok(())
+}
+
+/// The left top corners of names beside their dots, none over a dot or another name while there is room.
+fn beside(dots: &[(i32, i32)], names: &[&str]) -> Vec<(i32, i32)> {
+    let font = FontDesc::from(SMALL);
+    let mut taken: Vec<[i32; 4]> = dots.iter().map(|(x, y)| [x - 4, y - 4, x + 4, y + 4]).collect();
+    let mut corners = Vec::new();
+    for (name, (x, y)) in names.iter().zip(dots) {
+        let (width, height) = font.box_size(name).expect("a font that is registered");
+        let (width, height) = (width as i32, height as i32);
+        let places = [0, -8, 8, -14, 14, -20, 20].into_iter().flat_map(|shift| {
+            let top = y - height / 2 + shift;
+            [(x + 7, top), (x - 7 - width, top), (x - width / 2, top)]
+        });
+        let free = |&(left, top): &(i32, i32)| {
+            let [right, bottom] = [left + width, top + height];
+            !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
+        };
+        let corner = places.clone().find(free).unwrap_or((x + 7, y - height / 2));
+        taken.push([corner.0, corner.1, corner.0 + width, corner.1 + height]);
+        corners.push(corner);
+    }
+    corners
 }
 
 /// A picture, or a part of it, under a label.

@@ -32,7 +32,7 @@ fn points() {
     let chart = |&(title, _, sequence, scrambling): &(&'static str, _, _, _)| {
         let points =
             (0..64).map(|i| sample_point(sequence, scrambling, [480, 300], 0, i)).collect();
-        let series = Series { name: "", points, line: false, dots: true };
+        let series = Series { points, dots: true, ..Default::default() };
         Chart { title, x: axis, y: axis, series: vec![series] }
     };
     draw("04_points.svg", (250, 270), &SEQUENCES.each_ref().map(chart));
@@ -65,13 +65,13 @@ fn filters() {
             name: "the filter",
             points: middles.iter().map(exact).collect(),
             line: true,
-            dots: false,
+            ..Default::default()
         };
         let drawn = Series {
             name: "drawn",
             points: middles.iter().map(drawn).collect(),
-            line: false,
             dots: true,
+            ..Default::default()
         };
         Chart { title, x, y, series: vec![filter, drawn] }
     };
@@ -158,6 +158,7 @@ fn errors() {
             points: curves[i].iter().map(|&(frames, error)| [cost(i, frames), error]).collect(),
             line: true,
             dots: true,
+            ..Default::default()
         });
         Chart { title, x, y, series: series.collect() }
     };
