@@ -37,6 +37,7 @@ mod project;
 mod reference;
 mod shader;
 mod sheet;
+mod shot;
 mod show;
 mod shrink;
 mod stray;

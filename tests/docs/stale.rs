@@ -149,6 +149,42 @@ fn a_picture_that_is_rendered_larger_is_shown_smaller_and_smooth() {
     assert!((0.001..0.1).contains(&part), "{part}");
 }
 
+/// A picture of two panels.
+const TWO: &str = "\n![b](images/two.png)\n\n<!-- picture two -->\n```sh\n# the left\n\
+                   cargo run --bin 02_basic -- --headless --size 96x60 --out a.png\n# the right\n\
+                   cargo run --bin 02_basic -- --headless --size 96x60 --set show=normal --out b.png\n```\n";
+
+#[test]
+fn several_commands_make_panels_with_their_labels() {
+    let fixture = Fixture::new();
+    fixture.write("docs/02_basic.md", &(fixture.read("docs/02_basic.md") + TWO));
+    let outcome = fixture.run(&["sync", "--pictures"]);
+    assert_eq!(
+        (outcome.code, outcome.out.lines().count()),
+        (0, 1),
+        "{}{}",
+        outcome.out,
+        outcome.err
+    );
+    assert_eq!(fixture.check(), "");
+    let two = image::open(fixture.path("docs/images/two.png")).expect("a picture").to_rgb8();
+    // Side by side under labels of one height, and not twice the same.
+    assert_eq!(two.dimensions(), (2 * 96 + 6, 60 + 22));
+    assert!((0..96).any(|x| two.get_pixel(x, 50) != two.get_pixel(x + 102, 50)));
+    let inked =
+        |left: u32| (left..left + 60).any(|x| (0..22).any(|y| two.get_pixel(x, y)[0] < 128));
+    assert!(inked(0) && inked(102));
+    // Another label makes another picture.
+    fixture.replace("docs/02_basic.md", "# the left", "# it");
+    assert!(fixture.check().contains("two.png was made by another command"), "{}", fixture.check());
+    fixture.replace("docs/02_basic.md", "# it\n", "");
+    assert!(
+        fixture.check().contains(": a panel has no label; write `# LABEL` on"),
+        "{}",
+        fixture.check()
+    );
+}
+
 fn golden() -> std::path::PathBuf {
     run::root().join("tests/golden/02_basic.png")
 }
