@@ -72,10 +72,13 @@ impl<'a> Trial<'a> {
     pub fn render(&self, sources: &mut Sources) -> Result<String> {
         let (right, wrong) = self.runs(SHOWN)?;
         self.compare(&right, &wrong)?;
-        let timed = matches!(self.mistake.outcome, Outcome::Slower(_));
-        let label = |word: &str, seen: &Seen| match timed {
-            true => format!("{word}: {:.0} ms", seen.milliseconds),
-            false => word.to_owned(),
+        let label = |word: &str, seen: &Seen| match (&self.mistake.outcome, &seen.messages[..]) {
+            (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds),
+            // The pictures are the same: all that differs is what validation says.
+            (Outcome::Forgiven, [_, ..]) => {
+                format!("{word}: {}", self.mistake.validation.as_deref().unwrap_or_default())
+            }
+            _ => word.to_owned(),
         };
         let labels = [label("right", &right), label("wrong", &wrong)];
         let device = right.device.clone();
