@@ -198,7 +198,7 @@ impl Mistake {
         match self.is_in_shaders() {
             true => format!("SHADERS={folder} cargo run --bin {bin}{arguments}"),
             false => format!(
-                "SHADERS=shaders CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
+                "CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
                  {folder}/Cargo.toml --bin {bin}{arguments}"
             ),
         }

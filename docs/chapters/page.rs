@@ -10,6 +10,13 @@
 //! ```sh
 //! cargo run --bin 02_basic -- --headless --out basic.png
 //! ```
+//! <!-- picture 02_views -->
+//! ```sh
+//! # the panel on the left
+//! cargo run --bin 02_basic -- --headless --set show=hit --out hit.png
+//! # the panel on the right
+//! cargo run --bin 02_basic -- --headless --set show=normal --out normal.png
+//! ```
 //! ````
 
 use std::ops::Range;

@@ -8,20 +8,25 @@ use std::fs::{self, File};
 use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, ensure};
+use image::RgbImage;
+use panels::{Panel, sheet};
 
-use crate::command::{Run, runs};
 use crate::fault::Fault;
 use crate::page::{Page, PictureMark};
-use crate::program::{BUILD, Programs};
+use crate::program::Programs;
 use crate::project::Project;
 use crate::shader;
+use crate::shot::Shot;
 
 const COMMAND: &str = "Command";
 const SOURCES: &str = "Sources";
 const DEVICE: &str = "Device";
 
-/// A picture that a page's command makes.
+/// How wide a row of panels may be, without the gaps, in pixels.
+const ROW: u32 = 960;
+
+/// A picture that a page's command makes, or several commands, each a panel of it.
 pub struct Picture {
     /// The page.
     pub page: String,
@@ -29,32 +34,31 @@ pub struct Picture {
     pub line: usize,
     /// Its name: that of the file, without folder and extension.
     pub name: String,
-    /// The command, in one line.
+    /// The commands and their labels, in one line.
     pub command: String,
-    /// The chapter whose program makes it.
-    pub chapter: String,
-    /// The program's arguments.
-    arguments: Vec<String>,
+    /// One run, or several of one chapter, each with a label.
+    shots: Vec<Shot>,
 }
 
 impl Picture {
     /// The picture of a marker on a page.
     ///
     /// # Errors
-    /// If the command below it is not one run of a chapter.
+    /// If there is no run of a chapter below it, or several and not each has a label.
     pub fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
         let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
-        let found = runs(&mark.command);
-        let [(_, run)] = &found[..] else {
-            let what = "a picture is made by exactly one `cargo run`";
-            return Err(wrong(what, "move the other commands to a block of their own"));
+        let shots = Shot::all(project, &mark.command);
+        let shots = shots.map_err(|(what, remedy)| wrong(&what, remedy))?;
+        let Some(first) = shots.first() else {
+            return Err(wrong("a picture is made by a `cargo run`", "write one"));
         };
-        let program = run.program(project).unwrap_or_default().to_owned();
-        if !project.chapters.iter().any(|chapter| chapter.name == program) {
-            return Err(wrong(&format!("'{program}' is no chapter"), "name one with --bin"));
+        if shots.iter().any(|shot| shot.chapter != first.chapter) {
+            let remedy = "move the other commands to a block of their own";
+            return Err(wrong("the panels of a picture are of one chapter", remedy));
         }
-        if out(run).is_none_or(|index| run.arguments.len() <= index + 1) {
-            return Err(wrong("the command writes no picture", "add --out FILE.png"));
+        if shots.len() > 1 && shots.iter().any(|shot| shot.label.is_none()) {
+            let remedy = "write `# LABEL` on the line above its command";
+            return Err(wrong("a panel has no label", remedy));
         }
         let stem = page.path.trim_start_matches("docs/").trim_end_matches(".md");
         Ok(Self {
@@ -67,8 +71,7 @@ impl Picture {
                 .split_whitespace()
                 .collect::<Vec<_>>()
                 .join(" "),
-            chapter: program,
-            arguments: run.arguments.clone(),
+            shots,
         })
     }
 
@@ -79,8 +82,8 @@ impl Picture {
 
     /// What is out of date about it, if anything is.
     pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<String> {
-        let (hash, maker) =
-            (sources.of(project, &self.chapter), format!("what {} renders", self.chapter));
+        let chapter = &self.shots[0].chapter;
+        let (hash, maker) = (sources.of(project, chapter), format!("what {chapter} renders"));
         stale(project, &self.file(), &self.command, &hash, &maker)
     }
 
@@ -93,36 +96,43 @@ impl Picture {
     /// Renders it, and returns the device that did.
     ///
     /// # Errors
-    /// If the program is missing or fails.
+    /// If the program is missing or fails, or panels differ in size or are narrower than their labels.
     pub fn render(
         &self,
         project: &Project,
         programs: &Programs,
         sources: &mut Sources,
     ) -> Result<String> {
+        let failed = || format!("{}:{}: {} is not made", self.page, self.line, self.file());
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-        let (picture, report) = (folder.path().join("out.png"), folder.path().join("report.json"));
-        let mut arguments = self.arguments.clone();
-        let run = Run { bin: None, arguments: arguments.clone() };
-        let index = out(&run).context("the command writes no picture")?;
-        arguments[index + 1] = picture.to_string_lossy().into_owned();
-        let mut command =
-            programs.command(&self.chapter).map_err(|what| anyhow!("{what}; {BUILD}"))?;
-        command.args(&arguments).arg("--report").arg(&report);
-        let output =
-            command.output().with_context(|| format!("'{}' does not run", self.chapter))?;
-        if !output.status.success() {
-            let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
-            bail!("{}:{}: the command for {} failed: {said}", self.page, self.line, self.file());
+        let mut files = Vec::new();
+        let mut device = String::new();
+        for (index, shot) in self.shots.iter().enumerate() {
+            files.push(folder.path().join(format!("{index}.png")));
+            device = shot.render(programs, &files[index]).with_context(failed)?;
         }
-        let report: serde_json::Value = serde_json::from_slice(&fs::read(&report)?)?;
-        let device = report["device"].as_str().unwrap_or("unknown").to_owned();
-        let hash = sources.of(project, &self.chapter);
-        let stamped = stamped(&picture, &self.command, &hash, &device)?;
+        if files.len() > 1 {
+            let open = |file| Ok(image::open(file)?.to_rgb8());
+            let pictures = files.iter().map(open).collect::<Result<Vec<_>>>()?;
+            self.side_by_side(pictures).with_context(failed)?.save(&files[0])?;
+        }
+        let hash = sources.of(project, &self.shots[0].chapter);
+        let stamped = stamped(&files[0], &self.command, &hash, &device)?;
         let file = project.root.join(self.file());
         fs::create_dir_all(project.root.join("docs/images"))?;
         common::files::write_whole(&file, &stamped)?;
         Ok(device)
+    }
+
+    /// Its panels under their labels, as many in a row as a page has room for.
+    fn side_by_side(&self, pictures: Vec<RgbImage>) -> Result<RgbImage> {
+        let size = pictures[0].dimensions();
+        ensure!(pictures.iter().all(|one| one.dimensions() == size), "its panels differ in size");
+        let labels = self.shots.iter().map(|shot| shot.label.clone().unwrap_or_default());
+        let mut panels = labels.zip(pictures.into_iter().map(Panel::Picture));
+        let columns = (ROW / size.0).max(1) as usize;
+        let rows = self.shots.chunks(columns).map(|row| panels.by_ref().take(row.len()).collect());
+        sheet(size, &rows.collect::<Vec<_>>())
     }
 }
 
@@ -161,11 +171,6 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
 /// A hash of several parts, as text.
 pub fn hash(parts: [&[u8]; 2]) -> String {
     format!("{:016x}", parts.into_iter().fold(FNV_OFFSET, fnv))
-}
-
-/// Where `--out` stands among a run's arguments.
-fn out(run: &Run) -> Option<usize> {
-    run.arguments.iter().position(|word| word == "--out")
 }
 
 /// Hashes of what chapters' pictures are made from.

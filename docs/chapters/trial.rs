@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use image::RgbImage;
+use panels::{Panel, sheet};
 
 use crate::crew;
 use crate::edition::Edition;
 use crate::mistake::{Mistake, Outcome};
-use crate::panels::{Panel, side_by_side};
 use crate::picture::{self, Sources};
 use crate::program::Programs;
 use crate::project::Project;
@@ -55,10 +55,13 @@ impl<'a> Trial<'a> {
     pub fn render(&self, sources: &mut Sources) -> Result<String> {
         let (right, wrong) = self.runs(SHOWN)?;
         self.compare(&right, &wrong)?;
-        let timed = matches!(self.mistake.outcome, Outcome::Slower(_));
-        let label = |word: &str, seen: &Seen| match timed {
-            true => format!("{word}: {:.0} ms", seen.milliseconds()),
-            false => word.to_owned(),
+        let label = |word: &str, seen: &Seen| match (&self.mistake.outcome, &seen.messages()[..]) {
+            (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds()),
+            // The pictures are the same: all that differs is what validation says.
+            (Outcome::Forgiven, [_, ..]) => {
+                format!("{word}: {}", self.mistake.validation.as_deref().unwrap_or_default())
+            }
+            _ => word.to_owned(),
         };
         let labels = [label("right", &right), label("wrong", &wrong)];
         let device = right.device().to_owned();
@@ -70,7 +73,7 @@ impl<'a> Trial<'a> {
         };
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
-        let sheet = side_by_side(SHOWN, &panels)?;
+        let sheet = sheet(SHOWN, &[panels])?;
         let hash = self.mistake.sources(self.project, sources);
         let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
         let plain = folder.path().join("sheet.png");

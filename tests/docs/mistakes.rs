@@ -32,6 +32,51 @@ fn every_mistake_in_shaders_does_what_its_file_claims() {
     assert!(out.lines().count() >= 24, "{out}");
 }
 
+/// Builds the chapter anew for each patch.
+#[test]
+#[ignore = "builds patched copies, which takes minutes"]
+fn every_mistake_in_rust_does_what_its_file_claims() {
+    let names = in_rust();
+    assert!(names.len() >= 6, "{names:?}");
+    for name in names {
+        let (code, out, err) = tool(&[&name, "--check"]);
+        assert_eq!(code, 0, "\n{out}{err}");
+    }
+}
+
+/// The names of the mistakes that change more than shaders.
+fn in_rust() -> Vec<String> {
+    let (code, list, err) = tool(&["--list"]);
+    assert_eq!(code, 0, "{err}");
+    let names = list.lines().filter_map(|line| line.split_whitespace().next());
+    let in_shaders = |name: &&str| {
+        let patch = ::run::root().join(format!("docs/mistakes/{name}.diff"));
+        let patch = std::fs::read_to_string(patch).expect("a patch");
+        let mut files = patch.lines().filter_map(|line| line.strip_prefix("+++ "));
+        files.all(|file| file.starts_with("shaders/"))
+    };
+    names.filter(|name| !in_shaders(name)).map(str::to_owned).collect()
+}
+
+#[test]
+fn a_copy_of_the_rust_code_is_a_project_that_cargo_takes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("copy");
+    let out = out.to_str().expect("a path of letters");
+    let (code, said, err) = tool(&["table_stride", "--out", out]);
+    assert_eq!(code, 0, "{err}");
+    let command = format!("--manifest-path {out}/Cargo.toml --bin 07_multi_closest_hit\n");
+    assert!(said.ends_with(&command), "{said}");
+    let patched = std::fs::read_to_string(format!("{out}/common/src/gpu/sbt.rs")).expect("a copy");
+    assert!(patched.contains(".min().unwrap_or(0);"), "{patched}");
+    // Every member of the workspace must be there, and its lock must name what they need.
+    let cargo = std::env::var_os("CARGO").expect("Cargo runs tests");
+    let mut metadata = Command::new(cargo);
+    metadata.args(["metadata", "--offline", "--locked", "--format-version", "1"]);
+    let outcome = run(metadata.current_dir(out));
+    assert_eq!(outcome.code, 0, "{}", outcome.err);
+}
+
 #[test]
 fn a_copy_is_made_once_and_says_how_to_run_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");

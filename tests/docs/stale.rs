@@ -131,6 +131,66 @@ fn stale_pictures_are_found_and_rendered_anew() {
     expect(&cases, &["sync", "--pictures", "02_basic"]);
 }
 
+#[test]
+fn a_picture_that_is_rendered_larger_is_shown_smaller_and_smooth() {
+    let fixture = Fixture::new();
+    let of = |size: &str| {
+        let page = fixture.read("docs/02_basic.md");
+        let (start, rest) = page.split_once("--size ").expect("a size");
+        let (_, end) = rest.split_once(' ').expect("an end");
+        fixture.write("docs/02_basic.md", &format!("{start}--size {size} {end}"));
+        let outcome = fixture.run(&["sync", "--pictures", "02_basic"]);
+        assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+        assert_eq!(fixture.check(), "");
+        image::open(fixture.path("docs/images/02_basic.png")).expect("a picture").to_rgb8()
+    };
+    let (plain, smooth) = (of("960x60"), of("1920x120"));
+    assert_eq!(smooth.dimensions(), plain.dimensions());
+    // Edges have more tones, and the picture is the same but for them.
+    let differ = plain
+        .pixels()
+        .zip(smooth.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 20));
+    let part = differ.count() as f64 / f64::from(plain.width() * plain.height());
+    assert!((0.001..0.1).contains(&part), "{part}");
+}
+
+/// A picture of two panels.
+const TWO: &str = "\n![b](images/two.png)\n\n<!-- picture two -->\n```sh\n# the left\n\
+                   cargo run --bin 02_basic -- --headless --size 96x60 --out a.png\n# the right\n\
+                   cargo run --bin 02_basic -- --headless --size 96x60 --set show=normal --out b.png\n```\n";
+
+#[test]
+fn several_commands_make_panels_with_their_labels() {
+    let fixture = Fixture::new();
+    fixture.write("docs/02_basic.md", &(fixture.read("docs/02_basic.md") + TWO));
+    let outcome = fixture.run(&["sync", "--pictures"]);
+    assert_eq!(
+        (outcome.code, outcome.out.lines().count()),
+        (0, 1),
+        "{}{}",
+        outcome.out,
+        outcome.err
+    );
+    assert_eq!(fixture.check(), "");
+    let two = image::open(fixture.path("docs/images/two.png")).expect("a picture").to_rgb8();
+    // Side by side under labels of one height, and not twice the same.
+    assert_eq!(two.dimensions(), (2 * 96 + 6, 60 + 22));
+    assert!((0..96).any(|x| two.get_pixel(x, 50) != two.get_pixel(x + 102, 50)));
+    let inked =
+        |left: u32| (left..left + 60).any(|x| (0..22).any(|y| two.get_pixel(x, y)[0] < 128));
+    assert!(inked(0) && inked(102));
+    // Another label makes another picture.
+    fixture.replace("docs/02_basic.md", "# the left", "# it");
+    assert!(fixture.check().contains("two.png was made by another command"), "{}", fixture.check());
+    fixture.replace("docs/02_basic.md", "# it\n", "");
+    assert!(
+        fixture.check().contains(": a panel has no label; write `# LABEL` on"),
+        "{}",
+        fixture.check()
+    );
+}
+
 fn golden() -> std::path::PathBuf {
     run::root().join("tests/golden/02_basic.png")
 }

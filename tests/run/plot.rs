@@ -1,4 +1,4 @@
-//! Charts and enlarged crops for the pages.
+//! Charts and labelled panels for the pages.
 //!
 //! A chapter that has something to draw does it in tests that are ignored unless asked for: there the
 //! program is built, its pictures can be read, and the CPU's copy of the mathematics is at hand; and
@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use common::app::Picture;
 use image::{RgbImage, imageops};
+use panels::{Panel, sheet};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
 use plotters::prelude::*;
@@ -25,6 +26,8 @@ const COLORS: [RGBColor; 5] = [
     RGBColor(204, 121, 167),
 ];
 const GRID: RGBColor = RGBColor(225, 225, 225);
+/// The font of the names of dots.
+const SMALL: (&str, i32) = ("sans-serif", 15);
 
 /// A chart: two axes and what is drawn between them.
 pub struct Chart<'a> {
@@ -43,9 +46,12 @@ pub struct Axis<'a> {
 }
 
 /// Points that belong together; those without a name are not in the legend.
+#[derive(Default)]
 pub struct Series<'a> {
     pub name: &'a str,
     pub points: Vec<[f64; 2]>,
+    /// What stands beside the points, where each has a name of its own.
+    pub names: Vec<&'a str>,
     pub line: bool,
     pub dots: bool,
 }
@@ -123,10 +129,17 @@ fn draw_one<'a>(
         .y_desc(y.label)
         .label_style(font)
         .draw()?;
+    let (columns, rows) = area.get_pixel_range();
+    let origin = (columns.start, rows.start);
     for (series, color) in series.iter().zip(COLORS) {
         let points = || series.points.iter().map(|&[a, b]| (a, b));
         if series.line {
             context.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
+        }
+        let places: Vec<_> = points().map(|at| context.backend_coord(&at)).collect();
+        for (&name, (x, y)) in series.names.iter().zip(beside(&places, &series.names)) {
+            let style = TextStyle::from(SMALL).color(&color);
+            area.draw_text(name, &style, (x - origin.0, y - origin.1))?;
         }
         let dots = points().filter(|_| series.dots);
         let dots = context.draw_series(dots.map(|at| Circle::new(at, 3, color.filled())))?;
@@ -147,27 +160,59 @@ fn draw_one<'a>(
     Ok(())
 }
 
-/// Writes crops of pictures, enlarged so that every pixel is a square, in rows, into a PNG.
-///
-/// A crop is a picture and the left, top, width and height of what is shown of it.
-pub fn crops(name: &str, zoom: u32, rows: &[Vec<(&Picture, [u32; 4])>]) {
-    const GAP: u32 = 6;
-    let rows: Vec<Vec<RgbImage>> = rows
-        .iter()
-        .map(|row| row.iter().map(|(picture, crop)| enlarged(picture, *crop, zoom)).collect())
-        .collect();
-    let width = |row: &Vec<RgbImage>| row.iter().map(|crop| crop.width() + GAP).sum::<u32>() - GAP;
-    let height: u32 = rows.iter().map(|row| row[0].height() + GAP).sum::<u32>() - GAP;
-    let mut sheet = RgbImage::from_pixel(width(&rows[0]), height, image::Rgb([255; 3]));
-    let mut top = 0;
-    for row in &rows {
-        let mut left = 0;
-        for crop in row {
-            imageops::replace(&mut sheet, crop, left, top);
-            left += i64::from(crop.width() + GAP);
-        }
-        top += i64::from(row[0].height() + GAP);
+/// The left top corners of names beside their dots, none over a dot or another name while there is room.
+fn beside(dots: &[(i32, i32)], names: &[&str]) -> Vec<(i32, i32)> {
+    let font = FontDesc::from(SMALL);
+    let mut taken: Vec<[i32; 4]> = dots.iter().map(|(x, y)| [x - 4, y - 4, x + 4, y + 4]).collect();
+    let mut corners = Vec::new();
+    for (name, (x, y)) in names.iter().zip(dots) {
+        let (width, height) = font.box_size(name).expect("a font that is registered");
+        let (width, height) = (width as i32, height as i32);
+        let places = [0, -8, 8, -14, 14, -20, 20].into_iter().flat_map(|shift| {
+            let top = y - height / 2 + shift;
+            [(x + 7, top), (x - 7 - width, top), (x - width / 2, top)]
+        });
+        let free = |&(left, top): &(i32, i32)| {
+            let [right, bottom] = [left + width, top + height];
+            !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
+        };
+        let corner = places.clone().find(free).unwrap_or((x + 7, y - height / 2));
+        taken.push([corner.0, corner.1, corner.0 + width, corner.1 + height]);
+        corners.push(corner);
     }
+    corners
+}
+
+/// A picture, or a part of it, under a label.
+pub struct Shown<'a> {
+    pub label: String,
+    pub picture: &'a Picture,
+    /// Left, top, width and height in pixels: the same width and height for all that are drawn together.
+    pub area: [u32; 4],
+}
+
+impl<'a> Shown<'a> {
+    /// A row of whole pictures.
+    pub fn row(pictures: &'a [(String, Picture)]) -> Vec<Self> {
+        let whole = |(label, picture): &'a (String, Picture)| {
+            let area = [0, 0, picture.width, picture.height];
+            Self { label: label.clone(), picture, area }
+        };
+        pictures.iter().map(whole).collect()
+    }
+}
+
+/// Draws pictures in rows, each pixel enlarged to a square of `zoom` by `zoom`, into a PNG in `docs/images`.
+pub fn draw_panels(name: &str, zoom: u32, rows: &[Vec<Shown>]) {
+    let [_, _, width, height] = rows[0][0].area;
+    let panel = |shown: &Shown| {
+        let crop = enlarged(shown.picture, shown.area, zoom);
+        assert_eq!(shown.area[2..], [width, height], "{}", shown.label);
+        (shown.label.clone(), Panel::Picture(crop))
+    };
+    let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(panel).collect()).collect();
+    let sheet = sheet((width * zoom, height * zoom), &rows);
+    let sheet = sheet.unwrap_or_else(|error| panic!("{name}: {error}"));
     sheet.save(file(name)).expect("the PNG can be written");
 }
 

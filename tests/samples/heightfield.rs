@@ -21,7 +21,8 @@ use ground::Landscape;
 use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
 
-use run::{golden, plot, render};
+use run::plot::{Shown, draw_panels};
+use run::{golden, render};
 
 const NAME: &str = "21_heightfield";
 /// The ground's instance, after those of the 28 pieces. Alone it comes after one triangle.
@@ -128,18 +129,15 @@ fn each_rung_in_each_view() {
 fn error_maps() {
     const WIDTH: u32 = 240;
     let alone = Alone::new();
-    let rows: Vec<Vec<Picture>> = [("hills", HILLS), ("near ground", HILLS), ("steep", STEEP)]
-        .into_iter()
-        .map(|(view, landscape)| {
+    let rows =
+        [("hills", HILLS), ("near ground", HILLS), ("steep", STEEP)].map(|(view, landscape)| {
             let preset = format!("preset={view}");
             let marched = Marched::new(&alone, "240x150", &[&preset], landscape);
-            marched.iter().map(|marched| marched.map(WIDTH)).collect()
-        })
-        .collect();
+            let labels = RUNGS.map(|rung| format!("{view}, {rung}"));
+            labels.into_iter().zip(marched.map(|marched| marched.map(WIDTH))).collect::<Vec<_>>()
+        });
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
-        let whole = |map| (map, [0, 0, WIDTH, 150]);
-        let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(whole).collect()).collect();
-        plot::crops("21_errors.png", 1, &rows);
+        draw_panels("21_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
     }
 }
 

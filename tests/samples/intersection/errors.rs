@@ -32,14 +32,23 @@ impl Errors {
 
     /// A row of the page's table.
     pub fn row(&self) -> String {
-        let percent = |count: usize| 100.0 * count as f64 / self.rays as f64;
         format!(
             "{:.1} | {:.1} | {:.0} | {:.2} % | {:.2} %",
             self.at(0.5),
             self.at(0.99),
             self.at(1.0),
-            percent(self.false_hits),
-            percent(self.false_misses)
+            self.percent(self.false_hits),
+            self.percent(self.false_misses)
         )
+    }
+
+    /// The label of the page's error map.
+    pub fn label(&self) -> String {
+        let false_hits = self.percent(self.false_hits);
+        format!("p50 {:.1} ULP, {false_hits:.2} % false hits", self.at(0.5))
+    }
+
+    fn percent(&self, count: usize) -> f64 {
+        100.0 * count as f64 / self.rays as f64
     }
 }

@@ -9,7 +9,7 @@ use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
 use super::shapes::SceneKind;
 use super::{picture, shapes};
-use run::root;
+use run::plot::{Shown, draw_panels};
 
 /// The page's table and its error maps: `UPDATE=1` writes the picture.
 #[test]
@@ -19,13 +19,9 @@ fn errors_at_every_distance() {
     let size = format!("{SIDE}x{SIDE}");
     let distances = [1.0, 1e2, 1e4];
     let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
-    let mut sheet = Picture {
-        width: 3 * SIDE,
-        height: 4 * SIDE,
-        pixels: vec![[1.0; 4]; (12 * SIDE * SIDE) as usize],
-    };
+    let mut rows: [Vec<(String, Picture)>; 4] = Default::default();
     println!("| rung | distance | p50 | p99 | max | false hits | false misses |");
-    for (column, distance) in distances.into_iter().enumerate() {
+    for distance in distances {
         for rung in RUNGS {
             let sets = [
                 "scene=one sphere",
@@ -50,17 +46,14 @@ fn errors_at_every_distance() {
             let Some(row) = ["textbook", "stable"].iter().position(|&shown| shown == rung) else {
                 continue;
             };
-            let seen = picture(&size, &sets);
-            for (pixels, row) in [(&seen.pixels, 2 * row), (&map, 2 * row + 1)] {
-                for (i, pixel) in (0u32..).zip(pixels) {
-                    let (x, y) = (i % SIDE + column as u32 * SIDE, i / SIDE + row as u32 * SIDE);
-                    sheet.pixels[(y * sheet.width + x) as usize] = *pixel;
-                }
-            }
+            let label = format!("{rung}, distance {distance}");
+            rows[2 * row].push((label, picture(&size, &sets)));
+            let map = Picture { width: SIDE, height: SIDE, pixels: map };
+            rows[2 * row + 1].push((errors.label(), map));
         }
     }
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
-        sheet.save(&root().join("docs/images/08_errors.png")).expect("the picture can be written");
+        draw_panels("08_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
     }
 }
 

@@ -6,7 +6,7 @@ use common::app::Picture;
 use super::converging::shrunk;
 use super::points::{Scrambling, Sequence, sample_point};
 use super::{NAME, error, offsets, part_below, run};
-use run::plot::{Axis, Chart, Series, crops, draw};
+use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 use run::render;
 
 /// The sequences, each with the scrambling that suits it.
@@ -32,7 +32,7 @@ fn points() {
     let chart = |&(title, _, sequence, scrambling): &(&'static str, _, _, _)| {
         let points =
             (0..64).map(|i| sample_point(sequence, scrambling, [480, 300], 0, i)).collect();
-        let series = Series { name: "", points, line: false, dots: true };
+        let series = Series { points, dots: true, ..Default::default() };
         Chart { title, x: axis, y: axis, series: vec![series] }
     };
     draw("04_points.svg", (250, 270), &SEQUENCES.each_ref().map(chart));
@@ -65,13 +65,13 @@ fn filters() {
             name: "the filter",
             points: middles.iter().map(exact).collect(),
             line: true,
-            dots: false,
+            ..Default::default()
         };
         let drawn = Series {
             name: "drawn",
             points: middles.iter().map(drawn).collect(),
-            line: false,
             dots: true,
+            ..Default::default()
         };
         Chart { title, x, y, series: vec![filter, drawn] }
     };
@@ -82,12 +82,21 @@ fn filters() {
 #[ignore = "draws docs/images/04_samples.png"]
 fn samples() {
     const SIZE: &str = "960x600";
-    let centre = run(SIZE, 1, &["sequence=centre"]);
-    let means = [1, 4, 16, 64].map(|frames| run(SIZE, frames, &[]));
-    let rows = [[670, 223, 63, 63], [340, 108, 63, 63]].map(|crop| {
-        [&centre].into_iter().chain(&means).map(|picture| (picture, crop)).collect::<Vec<_>>()
+    let centre = ("through the centre".to_owned(), run(SIZE, 1, &["sequence=centre"]));
+    let means = [1, 4, 16, 64].map(|frames| {
+        let label =
+            if frames == 1 { "1 jittered ray".to_owned() } else { format!("{frames} rays") };
+        (label, run(SIZE, frames, &[]))
     });
-    crops("04_samples.png", 3, &rows);
+    let rows = [[670, 223, 63, 63], [340, 108, 63, 63]].map(|area| {
+        let shown = |(label, picture)| Shown { label: String::clone(label), picture, area };
+        [&centre]
+            .into_iter()
+            .chain(&means)
+            .map(|(label, picture)| shown((label, picture)))
+            .collect()
+    });
+    draw_panels("04_samples.png", 3, &rows);
 }
 
 #[test]
@@ -97,9 +106,11 @@ fn scrambling() {
     let pictures = ["none", "Owen"]
         .map(|scrambling| run(SIZE, 4, &["filter=box", &format!("scrambling={scrambling}")]));
     let reference = run(SIZE, 1024, &["filter=box", "seed=1"]);
-    let crop = [190, 12, 79, 50];
-    let row = pictures.iter().chain([&reference]).map(|picture| (picture, crop)).collect();
-    crops("04_scrambling.png", 4, &[row]);
+    let labels = ["scrambling none, 4 points", "scrambling Owen, 4 points", "1024 points"];
+    let row = labels.iter().zip(pictures.iter().chain([&reference])).map(|(label, picture)| {
+        Shown { label: (*label).to_owned(), picture, area: [190, 12, 79, 50] }
+    });
+    draw_panels("04_scrambling.png", 4, &[row.collect()]);
     println!("| pixels averaged | none | Owen |\n|---|---|---|");
     for side in [1, 2, 4, 8, 16] {
         let error = |picture| error(&shrunk(picture, side), &shrunk(&reference, side));
@@ -147,6 +158,7 @@ fn errors() {
             points: curves[i].iter().map(|&(frames, error)| [cost(i, frames), error]).collect(),
             line: true,
             dots: true,
+            ..Default::default()
         });
         Chart { title, x, y, series: series.collect() }
     };

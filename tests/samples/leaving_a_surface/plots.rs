@@ -1,15 +1,12 @@
 //! What the page of 26_leaving_a_surface shows beside its picture. Drawn when asked for:
 //! `cargo test --test samples leaving_a_surface::plots -- --ignored --nocapture`.
 
-use common::app::Picture;
+use run::plot::{Shown, draw_panels};
 
 use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
-use run::plot::crops;
 
-/// The whole of a picture.
-fn whole(picture: &Picture) -> (&Picture, [u32; 4]) {
-    (picture, [0, 0, picture.width, picture.height])
-}
+/// The places as a label has room for them, in the order of [`SETTINGS`].
+const PLACES: [&str; 4] = ["0.001", "1", "1000", "moved"];
 
 #[test]
 #[ignore = "draws docs/images/26_origins.png"]
@@ -17,21 +14,29 @@ fn origins() {
     let show = |place: [&str; 2], rule: &str| {
         picture("640x400", &[&place[..], &[&format!("origin={rule}")]].concat())
     };
-    let rows = SETTINGS.map(|(place, _)| RULES.map(|rule| show(place, rule)));
-    let crop = |picture| (picture, [455, 130, 155, 155]);
-    crops("26_origins.png", 1, &rows.each_ref().map(|row| row.iter().map(crop).collect()));
+    let pictures = SETTINGS.map(|(place, _)| RULES.map(|rule| show(place, rule)));
+    let row = |place: usize| {
+        let shown = |number: usize| Shown {
+            label: format!("O{number} {}, {}", RULES[number], PLACES[place]),
+            picture: &pictures[place][number],
+            area: [455, 130, 160, 160],
+        };
+        (0..RULES.len()).map(shown).collect()
+    };
+    draw_panels("26_origins.png", 1, &[0, 1, 2, 3].map(row));
 }
 
 #[test]
 #[ignore = "draws docs/images/26_leaks.png"]
 fn leaks() {
-    let show = |setting: usize, rule: &str| {
+    let show = |(setting, number): (usize, usize)| {
+        let rule = RULES[number];
         let close = ["camera target=0.5,0.25,3.5", "field of view=7", &format!("origin={rule}")];
-        picture("320x320", &[&SETTINGS[setting].0[..], &close].concat())
+        let label = format!("O{number} {rule}, {}", PLACES[setting]);
+        (label, picture("320x320", &[&SETTINGS[setting].0[..], &close].concat()))
     };
-    let wrong = [show(0, "tmin"), show(0, "normal"), show(3, "reprojected")];
-    let right = [show(0, "bound"), show(1, "bound"), show(3, "bound")];
-    crops("26_leaks.png", 1, &[wrong, right].each_ref().map(|row| row.iter().map(whole).collect()));
+    let rows = [[(0, 1), (0, 2), (3, 4)], [(0, 5), (1, 5), (3, 5)]].map(|row| row.map(show));
+    draw_panels("26_leaks.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
 }
 
 #[test]

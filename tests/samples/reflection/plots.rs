@@ -4,22 +4,17 @@
 use common::app::Picture;
 
 use super::picture;
-use run::plot::crops;
-
-/// The whole of a picture.
-fn whole(picture: &Picture) -> (&Picture, [u32; 4]) {
-    (picture, [0, 0, picture.width, picture.height])
-}
+use run::plot::{Shown, draw_panels};
 
 #[test]
 #[ignore = "draws docs/images/06_depths.png"]
 fn depths() {
     let show = |depth: u32| {
         let close = ["camera target=-2.5,0.75,1.5", "field of view=16", "minimum contribution=0"];
-        picture("240x400", &[&close[..], &[&format!("depth={depth}")]].concat())
+        let shown = picture("240x400", &[&close[..], &[&format!("depth={depth}")]].concat());
+        (format!("depth {depth}"), shown)
     };
-    let row = [0, 1, 2, 8].map(show);
-    crops("06_depths.png", 1, &[row.iter().map(whole).collect()]);
+    draw_panels("06_depths.png", 1, &[Shown::row(&[0, 1, 2, 8].map(show))]);
 }
 
 /// Root of the mean square of what two pictures differ by on a screen, where nothing is beyond white.
