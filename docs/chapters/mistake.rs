@@ -71,7 +71,8 @@ pub struct Mistake {
     pub find: String,
     /// What is right.
     pub cure: String,
-    patch: Patch,
+    /// Its file, and what it changes.
+    pub patch: Patch,
 }
 
 impl Mistake {
@@ -198,7 +199,7 @@ impl Mistake {
         match self.is_in_shaders() {
             true => format!("SHADERS={folder} cargo run --bin {bin}{arguments}"),
             false => format!(
-                "SHADERS=shaders CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
+                "CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
                  {folder}/Cargo.toml --bin {bin}{arguments}"
             ),
         }
