@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use common::app::Picture;
 
 use crate::command::quoted;
-use crate::edition::Edition;
+use crate::edition::{Edition, Patched};
 use crate::exercise::{Exercise, Run, Step, Takes, sized};
 use crate::expectation::{Expectation, Other};
 use crate::picture::hash;
@@ -131,28 +131,25 @@ impl Attempt<'_> {
     pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
         let mut verdict = Verdict::default();
         for step in &self.exercise.steps {
-            let (missed, label) = match &step.run {
+            verdict.missed = match &step.run {
                 Run::Program(arguments) => {
-                    let command =
-                        edition.command(self.project, self.programs, &self.exercise.chapter)?;
+                    let (programs, chapter) = (self.programs, &self.exercise.chapter);
+                    let command = edition.command(self.project, programs, chapter)?;
                     let seen = Seen::of(command, arguments, LIMIT)?;
                     let missed = self.missed(edition, step, arguments, &seen)?;
                     verdict.picture = verdict.picture.or(seen.picture);
-                    (missed, quoted(arguments))
+                    missed
                 }
                 Run::Test(program, filter) => {
                     let tested = edition.test(self.project, self.programs, (program, filter))?;
-                    let expectations = step.expectations.iter();
-                    let missed = expectations
-                        .filter_map(|expected| expected.missed_by_tests(&tested))
-                        .next();
-                    (missed, format!("cargo test --test {program} {filter}"))
+                    let mut expectations = step.expectations.iter();
+                    let missed =
+                        expectations.find_map(|expected| expected.missed_by_tests(&tested));
+                    missed
+                        .map(|missed| format!("{missed} with cargo test --test {program} {filter}"))
                 }
             };
-            if let Some(missed) = missed {
-                let several = self.exercise.steps.len() > 1;
-                let place = if several { format!(" with {label}") } else { String::new() };
-                verdict.missed = Some(missed + &place);
+            if verdict.missed.is_some() {
                 break;
             }
         }
@@ -197,7 +194,10 @@ impl Attempt<'_> {
         };
         for expectation in &step.expectations {
             if let Some(missed) = expectation.missed(seen, &other)? {
-                return Ok(Some(missed));
+                return Ok(Some(match self.exercise.steps.len() {
+                    1 => missed,
+                    _ => format!("{missed} with {}", quoted(arguments)),
+                }));
             }
         }
         Ok(None)
@@ -216,26 +216,11 @@ impl Attempt<'_> {
             bail!("{file}: its answer does not hold: {missed}");
         }
         let before = before.with_context(|| format!("{file}: solved before its solution"))?;
-        let after = self.solved().with_context(|| file.clone())?.missed;
+        let solved = || self.verdict(&Patched::of(self.project, &exercise.patch)?.edition);
+        let after = solved().with_context(|| file.clone())?.missed;
         match after {
             None => Ok(format!("{exercise}: {before}; solved by its solution")),
             Some(missed) => bail!("{file}: not solved by its solution: {missed}"),
         }
-    }
-
-    /// What its solution makes of it.
-    fn solved(&self) -> Result<Verdict> {
-        let patch = &self.exercise.patch;
-        if patch.is_in_shaders() {
-            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-            patch.copy_to(self.project, folder.path())?;
-            return self.verdict(&Edition::Shaders(folder.path().to_owned()));
-        }
-        // One copy for all: Cargo builds only what the last one had otherwise.
-        static COPY: Mutex<()> = Mutex::new(());
-        let _alone = COPY.lock().unwrap_or_else(PoisonError::into_inner);
-        let folder = self.project.root.join("target/exercises/copy");
-        patch.copy_to(self.project, &folder)?;
-        self.verdict(&Edition::Copy(folder))
     }
 }

@@ -1,17 +1,23 @@
 //! An edition of the book's code that can be run: as it is, with other shaders, or a changed copy of it.
 
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use tempfile::TempDir;
 
 use crate::child;
+use crate::patch::Patch;
 use crate::program::{BUILD, Programs};
 use crate::project::Project;
 
-/// Where changed copies are built: they share what none of them changes, which takes minutes for the first.
+/// Where patched code is copied to and built, one patch after the other: Cargo builds only what differs from
+/// the one before, which takes minutes for the first.
+const COPY: &str = "target/mistakes/copy";
 const BUILT: &str = "target/mistakes/build";
+const LOCK: &str = "target/mistakes/lock";
 
 /// How long tests may take.
 const LIMIT: Duration = Duration::from_secs(600);
@@ -27,6 +33,35 @@ pub enum Edition {
     Copy(PathBuf),
     /// The book's own files as a reader has edited them, built before they run.
     Edited,
+}
+
+/// An edition with a patch, as long as it is held.
+pub struct Patched {
+    /// The edition.
+    pub edition: Edition,
+    _shaders: Option<TempDir>,
+    _lock: Option<File>,
+}
+
+impl Patched {
+    /// Makes it: shaders in a folder of their own, or all code in the one copy, once nobody else has it.
+    ///
+    /// # Errors
+    /// If the patch does not fit, or the copy cannot be written.
+    pub fn of(project: &Project, patch: &Patch) -> Result<Self> {
+        if patch.is_in_shaders() {
+            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+            patch.copy_to(project, folder.path())?;
+            let edition = Edition::Shaders(folder.path().to_owned());
+            return Ok(Self { edition, _shaders: Some(folder), _lock: None });
+        }
+        let copy = project.root.join(COPY);
+        fs::create_dir_all(&copy).with_context(|| format!("cannot make '{}'", copy.display()))?;
+        let lock = File::create(project.root.join(LOCK)).context("cannot make a lock")?;
+        lock.lock().context("cannot wait for a lock")?;
+        patch.copy_to(project, &copy)?;
+        Ok(Self { edition: Edition::Copy(copy), _shaders: None, _lock: Some(lock) })
+    }
 }
 
 /// What tests said.

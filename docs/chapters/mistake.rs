@@ -71,7 +71,8 @@ pub struct Mistake {
     pub find: String,
     /// What is right.
     pub cure: String,
-    patch: Patch,
+    /// Its file, and what it changes.
+    pub patch: Patch,
 }
 
 impl Mistake {

@@ -9,7 +9,7 @@ use image::RgbImage;
 use panels::{Panel, sheet};
 
 use crate::crew;
-use crate::edition::Edition;
+use crate::edition::{Edition, Patched};
 use crate::mistake::{Mistake, Outcome};
 use crate::picture::{self, Sources};
 use crate::program::Programs;
@@ -93,14 +93,8 @@ impl<'a> Trial<'a> {
             self.mistake.chapter,
             right.said
         );
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-        self.mistake.copy_to(self.project, folder.path())?;
-        let copy = folder.path().to_owned();
-        let edition = match self.mistake.is_in_shaders() {
-            true => Edition::Shaders(copy),
-            false => Edition::Copy(copy),
-        };
-        Ok((right, self.run(&edition, size)?))
+        let wrong = Patched::of(self.project, &self.mistake.patch)?;
+        Ok((right, self.run(&wrong.edition, size)?))
     }
 
     fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<Seen> {
