@@ -54,7 +54,9 @@ void main() {
         payload.rgb = 0.5 + 0.5 * normal;
     }
     if (SHOW == SHOW_GEOMETRIC) {
-        payload.rgb = 0.5 + 0.5 * normalize(faceforward(face, -view, face));
+        // A triangle may be so small that its area has no digits.
+        vec3 up = dot(face, face) > 1e-37 ? face : view;
+        payload.rgb = 0.5 + 0.5 * normalize(faceforward(up, -view, up));
     }
     if (SHOW == SHOW_TRIANGLE) {
         payload.rgb = false_color(triangle);

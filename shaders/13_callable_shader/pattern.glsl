@@ -19,6 +19,11 @@ float lattice(ivec3 cell) {
     return to_unit(hash(uvec4(uvec3(cell), 0)).x);
 }
 
+// Where cells have numbers: beyond 2^31 a float is no int.
+vec3 within(vec3 place) {
+    return clamp(place, -1e9, 1e9);
+}
+
 float between(float a, float b, float t) {
     return a + t * (b - a);
 }
@@ -26,8 +31,9 @@ float between(float a, float b, float t) {
 // A smooth number from 0 to 1: the corners of a cell have random ones (value noise; Perlin, "An Image
 // Synthesizer", SIGGRAPH 1985, without the gradients).
 float noise(vec3 place, int far) {
+    place = within(place);
     vec3 corner = floor(place);
-    vec3 t = place - corner;          // exact
+    vec3 t = place - corner;          // 0 to 1; 1 is the next cell's 0, and just below 0 it may be rounded to 1
     t = t * t * (3.0 - 2.0 * t);
     ivec3 cell = ivec3(corner) + ivec3(far, 0, 0);
     float edges[4];
@@ -51,14 +57,14 @@ float turbulence(vec3 place, int far) {
     return sum;
 }
 
-// 1 at whole numbers, 0 half-way between them.
+// 1 at whole numbers, 0 half-way between them. Not by fract(), which some devices keep below 1.
 float ridge(float x) {
-    return abs(2.0 * fract(x) - 1.0);
+    return abs(2.0 * (x - floor(x)) - 1.0);
 }
 // ANCHOR_END: noise
 
 // ANCHOR: patterns
-// Veins where a ridge is folded by turbulence.
+// Veins where a ridge is folded by turbulence. A ridge repeats with every whole number: `far` leaves it alone.
 float marble(vec3 place, int far) {
     float vein = ridge(place.x + 0.5 * place.y + 2.5 * turbulence(place, far));
     return vein * vein * vein;
@@ -73,7 +79,7 @@ float wood(vec3 place, int far) {
 
 // Every other cell.
 float checker(vec3 place, int far) {
-    ivec3 cell = ivec3(floor(place));
+    ivec3 cell = ivec3(floor(within(place)));
     return float((cell.x + far + cell.y + cell.z) & 1);
 }
 // ANCHOR_END: patterns

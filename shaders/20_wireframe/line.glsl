@@ -11,13 +11,18 @@ vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 
     vec3 a = corners[0] - eye;
     vec3 b = corners[1] - eye;
     vec3 c = corners[2] - eye;
-    vec3 normals[3] = vec3[](cross(b, c), cross(c, a), cross(a, b));
+    // b × c = b × (c - b), and the edge c - b has all its digits where b and c are far and nearly the same.
+    vec3 normals[3] = vec3[](
+        cross(b, corners[2] - corners[1]), cross(c, corners[0] - corners[2]), cross(a, corners[1] - corners[0]));
     // Towards the triangle's other side from each edge, whichever way its corners turn.
     float side = dot(a, normals[0]) < 0.0 ? -1.0 : 1.0;
     vec3 distances;
     for (uint k = 0; k < 3; k++) {
-        vec2 gradient = vec2(dot(normals[k], right), dot(normals[k], up));
-        distances[k] = side * dot(normals[k], direction) / max(length(gradient), 1e-30);
+        // Any length will do: this one keeps the squares below in range, whatever the scene's unit.
+        vec3 size = abs(normals[k]);
+        vec3 n = normals[k] / max(max(size.x, max(size.y, size.z)), 1e-37);
+        vec2 gradient = vec2(dot(n, right), dot(n, up));
+        distances[k] = side * dot(n, direction) / max(length(gradient), 1e-30);
     }
     return distances;
 }

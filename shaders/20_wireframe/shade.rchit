@@ -20,8 +20,10 @@ void main() {
     // ANCHOR: normal
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 face = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    vec3 normal = normalize(vec3(face * gl_WorldToObjectEXT));
     vec3 view = -gl_WorldRayDirectionEXT;
+    vec3 normal = vec3(face * gl_WorldToObjectEXT);
+    // A triangle may be so small that its area has no digits: then the side that the ray came from is up.
+    normal = normalize(dot(normal, normal) > 1e-37 ? normal : view);
     normal = faceforward(normal, -view, normal);
     // ANCHOR_END: normal
 

@@ -37,7 +37,15 @@ impl Diamond {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("diamond.obj");
         let s = self.size;
-        let text = format!("v {s} 0 0\nv 0 {s} 0\nv -{s} 0 0\nv 0 -{s} 0\nf 1 2 4\nf 3 4 2\n");
+        // Not at round numbers: then no product of coordinates is exact. The edge from 2 to 4 is upright.
+        let corners = [
+            [1.013, 0.021, 0.003],
+            [0.0, 0.987, 0.013],
+            [-0.991, -0.017, 0.007],
+            [0.0, -1.009, -0.011],
+        ];
+        let vertex = |[x, y, z]: [f64; 3]| format!("v {} {} {}\n", x * s, y * s, z * s);
+        let text = corners.map(vertex).concat() + "f 1 2 4\nf 3 4 2\n";
         fs::write(&file, text).expect("an OBJ file");
         let (sin, cos) = self.turned.to_radians().sin_cos();
         let sets = [
@@ -81,7 +89,7 @@ fn its_width_does_not_depend_on_size_distance_or_slant() {
         let measured = Diamond { size: 3.0, distance: 6.0, turned, shown: 0.5 }.measured(3.0, &[]);
         assert!((measured - 3.0).abs() < 1e-3, "turned by {turned} degrees: {measured}");
     }
-    for size in [1e-3, 0.1, 10.0, 1e4] {
+    for size in [1e-12, 1e-3, 0.1, 10.0, 1e4, 3e10] {
         let diamond = Diamond { size, distance: 2.0 * size, turned: 30.0, shown: 0.5 * size };
         let measured = diamond.measured(3.0, &[]);
         assert!((measured - 3.0).abs() < 1e-3, "a diamond of {size}: {measured}");
@@ -106,6 +114,29 @@ fn a_line_of_constant_weight_is_as_wide_as_its_triangle_is_large() {
     // A tenth of the triangle's width on either side, in whole pixels. The whole one is 61 pixels wide.
     for (measured, width) in [(whole, 12.2), (half, 6.1), (turned, 6.1)] {
         assert!((measured - width).abs() < 1.0, "{measured}, not {width}");
+    }
+}
+
+/// Of many small triangles: a long lens far away sees the same lines.
+#[test]
+fn a_scene_has_as_much_ink_from_afar() {
+    let ink = |distance: f64| -> f64 {
+        let eye = [0.6, 0.45, 0.66].map(|x| (x * distance).to_string()).join(",");
+        let degrees = 2.0 * (4.2 / distance).atan().to_degrees();
+        let sets = [
+            format!("camera eye={eye}"),
+            "camera target=0,0.2,0".to_owned(),
+            format!("field of view={degrees}"),
+            "show=lines".to_owned(),
+        ];
+        let arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+        let picture = render(NAME, "240x150", &arguments).picture;
+        picture.pixels.iter().map(|pixel| 1.0 - f64::from(pixel[0])).sum()
+    };
+    let near = ink(100.0);
+    for distance in [1e3, 1e4] {
+        let far = ink(distance);
+        assert!((far / near - 1.0).abs() < 0.02, "from {distance}: {far}, from 100: {near}");
     }
 }
 

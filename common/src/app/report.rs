@@ -42,7 +42,7 @@ pub struct Report {
     pub first_frame_milliseconds: f64,
     /// Host time to build all acceleration structures, uploads left out.
     pub acceleration_structure_milliseconds: f64,
-    /// Bytes of all acceleration structures built.
+    /// Bytes of all acceleration structures that are there after the last frame.
     pub acceleration_structure_bytes: u64,
     /// Host time to compile shaders and make pipelines.
     pub pipeline_milliseconds: f64,

@@ -190,10 +190,7 @@ impl AccelerationStructure {
             Ok(())
         })
         .with_context(|| format!("cannot build '{name}'"))?;
-        gpu.count(|statistics| {
-            statistics.build_time += start.elapsed();
-            statistics.acceleration_structure_bytes += built.size;
-        });
+        gpu.count(|statistics| statistics.build_time += start.elapsed());
         Ok(built)
     }
 
@@ -220,6 +217,7 @@ impl AccelerationStructure {
         let address =
             unsafe { gpu.acceleration_structure.get_acceleration_structure_device_address(&info) };
         gpu.name_object(handle, name);
+        gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
         Ok(Self {
             handle,
             address,
@@ -239,6 +237,7 @@ impl Drop for AccelerationStructure {
         unsafe {
             self.gpu.acceleration_structure.destroy_acceleration_structure(self.handle, None);
         }
+        self.gpu.count(|statistics| statistics.acceleration_structure_bytes -= self.size);
     }
 }
 

@@ -11,7 +11,7 @@ use super::executable::Executable;
 pub struct Statistics {
     /// Host time of acceleration structure builds.
     pub build_time: Duration,
-    /// Bytes of all acceleration structures built.
+    /// Bytes of all acceleration structures that are there.
     pub acceleration_structure_bytes: u64,
     /// Host time of compiling shaders and making pipelines.
     pub pipeline_time: Duration,

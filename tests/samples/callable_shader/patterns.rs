@@ -49,11 +49,13 @@ fn between(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-fn fract(x: f32) -> f32 {
-    x - x.floor()
+/// Where cells have numbers.
+fn within(place: [f32; 3]) -> [f32; 3] {
+    place.map(|x| x.clamp(-1e9, 1e9))
 }
 
 fn noise(place: [f32; 3], far: i32) -> f32 {
+    let place = within(place);
     let corner = place.map(f32::floor);
     let t = [0, 1, 2].map(|k| place[k] - corner[k]).map(|t| t * t * (3.0 - 2.0 * t));
     let cell = corner.map(|x| x as i32);
@@ -76,7 +78,7 @@ fn turbulence(mut place: [f32; 3], mut far: i32) -> f32 {
 }
 
 fn ridge(x: f32) -> f32 {
-    (2.0 * fract(x) - 1.0).abs()
+    (2.0 * (x - x.floor()) - 1.0).abs()
 }
 
 fn marble(place: [f32; 3], far: i32) -> f32 {
@@ -91,6 +93,6 @@ fn wood([x, y, z]: [f32; 3], far: i32) -> f32 {
 }
 
 fn checker(place: [f32; 3], far: i32) -> f32 {
-    let cell = place.map(|x| x.floor() as i32);
+    let cell = within(place).map(|x| x.floor() as i32);
     ((cell[0] + far + cell[1] + cell[2]) & 1) as f32
 }
