@@ -309,15 +309,23 @@ impl Rewriter {
         self.seed.is_some_and(|seed| (seed ^ self.place.wrapping_mul(0x9e37_79b9)) & 1 == 1)
     }
 
+    /// A type by the name that glslang gives it, which the module may not have yet.
     fn type_named(&mut self, wanted: &str) -> Result<Word> {
         if let Some((id, _)) = self.names.iter().find(|(_, name)| *name == wanted) {
             return Ok(*id);
         }
-        let size = wanted.chars().last().and_then(|c| c.to_digit(10)).context("a vector's size")?;
-        let scalar = self.type_named(&format!("{}1", &wanted[1..2]))?;
+        let (op, operands) = match (wanted, wanted.strip_prefix('v')) {
+            ("b1", _) => (Op::TypeBool, Vec::new()),
+            ("u1", _) => (Op::TypeInt, vec![Operand::LiteralBit32(32), Operand::LiteralBit32(0)]),
+            (_, Some(of)) => {
+                let size = of[1..].parse().context("a vector's size")?;
+                let scalar = self.type_named(&format!("{}1", &of[..1]))?;
+                (Op::TypeVector, vec![Operand::IdRef(scalar), Operand::LiteralBit32(size)])
+            }
+            _ => bail!("no type is named {wanted}"),
+        };
         let id = self.fresh();
-        let operands = vec![Operand::IdRef(scalar), Operand::LiteralBit32(size)];
-        self.constants.push(Instruction::new(Op::TypeVector, None, Some(id), operands));
+        self.constants.push(Instruction::new(op, None, Some(id), operands));
         self.names.insert(id, wanted.to_owned());
         Ok(id)
     }
@@ -330,7 +338,8 @@ impl Rewriter {
         let (op, operands) = match size {
             None => (Op::Constant, vec![Operand::LiteralBit32(value)]),
             Some(size) => {
-                let one = Operand::IdRef(self.splat(self.uint, None, value)?);
+                let uint = self.type_named("u1")?;
+                let one = Operand::IdRef(self.splat(uint, None, value)?);
                 (Op::ConstantComposite, vec![one; size as usize])
             }
         };
