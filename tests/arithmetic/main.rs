@@ -23,6 +23,9 @@ common::shader_struct! {
 
 const COUNT: usize = 4096;
 
+/// An operation of two numbers, done in 64 bits.
+type Exact = fn(f64, f64) -> f64;
+
 fn results(gpu: &Gpu, shader: &str, operation: u32, operands: &[Vec3]) -> Vec<f32> {
     computed(gpu, shader, operation, operands)
 }
@@ -112,7 +115,7 @@ fn bounds_are_approached_and_kept(gpu: &Gpu) {
 
 fn sums_and_products_are_one_of_two_floats(gpu: &Gpu) {
     let operands = operands(pair);
-    let exact: [fn(f64, f64) -> f64; 3] = [|x, y| x + y, |x, y| x - y, |x, y| x * y];
+    let exact: [Exact; 3] = [|x, y| x + y, |x, y| x - y, |x, y| x * y];
     for (number, exact) in (0..).zip(exact) {
         let (mut inexact, mut other) = (0, 0);
         for (v, result) in operands.iter().zip(results(gpu, "probe.rgen", number, &operands)) {
@@ -246,7 +249,7 @@ fn nan_may_be_taken_for_the_lesser_and_the_greater(gpu: &Gpu) {
 /// 64-bit operations are promised to be as precise as 32-bit ones, and are here no more.
 fn doubles_have_the_bits_of_floats(gpu: &Gpu) {
     let operands = operands(pair);
-    let operations: [(&str, fn(f64, f64) -> f64, f64); 5] = [
+    let operations: [(&str, Exact, f64); 5] = [
         ("+", |x, y| x + y, 0.5),
         ("-", |x, y| x - y, 0.5),
         ("*", |x, y| x * y, 0.5),
