@@ -6,7 +6,9 @@ use common::Frame;
 use common::gpu::{
     AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order, padded,
 };
-use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
+use common::scene::{
+    Instance, Scene, SceneOnGpu, boxes_on_gpu, build_top, input_usage, instance_on_gpu,
+};
 use glam::{Affine3A, Vec3};
 
 use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
@@ -77,7 +79,7 @@ impl ShapesOnGpu {
             }
         }
         // ANCHOR_END: instances
-        let ordered = ordered(&bounds, build.ordering);
+        let ordered = order::for_build(gpu, &bounds, build.ordering);
         let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
         let tlas = build_top(gpu, &ordered)?;
 
@@ -163,14 +165,14 @@ impl Level {
         reach: f32,
     ) -> Result<Self> {
         // ANCHOR: order
-        let order = ordered(bounds, ordering);
+        let order = order::for_build(gpu, bounds, ordering);
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order
         // ANCHOR: margin
         let boxes: Vec<[Vec3; 2]> =
             order.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
         // ANCHOR_END: margin
-        let input = Buffer::with_data(gpu, name, &boxes, input_usage())?;
+        let input = boxes_on_gpu(gpu, name, &boxes)?;
         let count = boxes.len() as u32;
         let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
@@ -179,11 +181,6 @@ impl Level {
             .transpose()?;
         Ok(Self { blas, ids, bounds: around(bounds) })
     }
-}
-
-/// The order of the build: near beside near, or as the shapes come.
-fn ordered(bounds: &[order::Bounds], ordering: bool) -> Vec<u32> {
-    if ordering { order::kd_median(bounds) } else { (0..bounds.len() as u32).collect() }
 }
 
 /// The box around boxes.

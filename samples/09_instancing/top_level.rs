@@ -66,13 +66,10 @@ impl TopLevel {
         build: TopLevelBuild,
     ) -> Result<Self> {
         let pieces = &formation.pieces;
-        let order = if scene.options.ordering {
-            let bounds =
-                pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance(DVec3::ZERO)));
-            order::kd_median(&bounds.collect::<Vec<_>>())
-        } else {
-            (0..pieces.len() as u32).collect()
-        };
+        let bounds =
+            pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance(DVec3::ZERO)));
+        let bounds: Vec<_> = bounds.collect();
+        let order = order::for_build(gpu, &bounds, scene.options.ordering);
         // ANCHOR: instances
         let instances = order.iter().map(|&index| {
             let piece = &pieces[index as usize];

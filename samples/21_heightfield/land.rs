@@ -1,8 +1,8 @@
 //! The ground on the device: one box, beside the pieces that stand on it.
 
 use anyhow::Result;
-use common::gpu::{self, AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order};
-use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
+use common::gpu::{self, AccelerationStructure, BuildOptions, Geometry, Gpu, order};
+use common::scene::{Instance, Mesh, Scene, SceneOnGpu, boxes_on_gpu, build_top, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
 use super::ground::{Ground, Landscape};
@@ -35,7 +35,7 @@ impl Land {
         let margin = margin(landscape, eye);
         let bounds = landscape.bounds(margin);
         let input = [[bounds.0 - margin, bounds.1 + margin]];
-        let input = Buffer::with_data(gpu, "ground's box", &input, input_usage())?;
+        let input = boxes_on_gpu(gpu, "ground's box", &input)?;
         let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
         let blas = AccelerationStructure::bottom(gpu, "ground", &[geometry], options)?;
@@ -55,10 +55,8 @@ impl Land {
             }
         }
         // ANCHOR_END: build
-        let order = order::kd_median(&boxes).into_iter().map(|i| instances[i as usize]);
-        let order: Vec<_> =
-            if scene.options.ordering { order.collect() } else { instances.clone() };
-        let tlas = build_top(gpu, &order)?;
+        let order = order::for_build(gpu, &boxes, scene.options.ordering).into_iter();
+        let tlas = build_top(gpu, &order.map(|i| instances[i as usize]).collect::<Vec<_>>())?;
         Ok(Self { tlas, landscape, bounds, margin, _blas: blas })
     }
 

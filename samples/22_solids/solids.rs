@@ -5,7 +5,8 @@ use common::bytemuck::cast_slice;
 use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
 use common::scene::plane::Plane;
 use common::scene::{
-    Moved, Placement, Scene, SceneOnGpu, Size, build_top, input_usage, instance_on_gpu,
+    Moved, Placement, Scene, SceneOnGpu, Size, boxes_on_gpu, build_top, input_usage,
+    instance_on_gpu,
 };
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
 
@@ -140,7 +141,7 @@ impl SolidsOnGpu {
             let clip = if clips.is_empty() { NO_CLIP } else { programs.add_part(&clips, 0) };
             // ANCHOR_END: clip
             let corners = box_around(low, high);
-            let input = Buffer::with_data(gpu, "solid", &corners, input_usage())?;
+            let input = boxes_on_gpu(gpu, "solid", &[corners])?;
             let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
             let options = BuildOptions::default();
             let level = AccelerationStructure::bottom(gpu, "solid", &[geometry], options)?;
@@ -153,9 +154,8 @@ impl SolidsOnGpu {
             levels.push(level);
             inside.push((solid, clips, to_object));
         }
-        let ordered: Vec<_> =
-            order::kd_median(&bounds).iter().map(|&index| instances[index as usize]).collect();
-        let tlas = build_top(gpu, &ordered)?;
+        let order = order::for_build(gpu, &bounds, true).into_iter();
+        let tlas = build_top(gpu, &order.map(|i| instances[i as usize]).collect::<Vec<_>>())?;
 
         let list = |name, data: &[u8]| Buffer::with_data(gpu, name, filled(data), input_usage());
         let buffers = [

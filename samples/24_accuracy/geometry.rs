@@ -10,7 +10,7 @@ use common::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
     HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
 };
-use common::scene::{Camera, CameraBasis, build_top, input_usage};
+use common::scene::{Camera, CameraBasis, boxes_on_gpu, build_top, input_usage};
 use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::sphere::Sphere;
@@ -146,12 +146,7 @@ struct Body {
 
 impl Body {
     fn sphere(gpu: &Gpu) -> Result<Self> {
-        let boxes = Buffer::with_data(
-            gpu,
-            "box",
-            &[Vec3::splat(-1.00001), Vec3::splat(1.00001)],
-            input_usage(),
-        )?;
+        let boxes = boxes_on_gpu(gpu, "box", &[[Vec3::splat(-1.00001), Vec3::splat(1.00001)]])?;
         let geometry = Geometry::Aabbs { boxes: boxes.address, count: 1, opaque: true };
         let hit = HitGroup::procedural("geometry.rint").closest_hit("geometry.rchit");
         Self::new(gpu, "the sphere itself", 0, geometry, vec![boxes], hit)

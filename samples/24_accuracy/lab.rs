@@ -18,17 +18,17 @@ use crate::{Demo, hard, measure};
 #[derive(clap::Args)]
 pub struct Lab {
     /// Run every case of a file of hard cases through every rung; exit 1 if a top rung is wrong
-    #[arg(long, value_name = "FILE.json", conflicts_with = "measure")]
+    #[arg(long, value_name = "FILE.json", group = "work")]
     cases: Option<PathBuf>,
-
-    /// With --cases: only the rungs that must be right
-    #[arg(long, requires = "cases")]
-    tops: bool,
 
     /// Measure errors and time of every rung on seeded random rays, and ask a GPU's compiler about each;
     /// write accuracy.md, .json, plots as .svg and .png to a folder
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", group = "work")]
     measure: Option<PathBuf>,
+
+    /// With --cases or --measure: only the rungs that must be right
+    #[arg(long, requires = "work")]
+    tops: bool,
 
     /// With --measure: only this primitive; repeatable
     #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
@@ -132,7 +132,8 @@ impl Lab {
     }
 
     fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
-        let measured = measure::measure(gpu, &self.only, self.rays as usize, self.rounds)?;
+        let Self { only, tops, rays, rounds, .. } = self;
+        let measured = measure::measure(gpu, only, *tops, *rays as usize, *rounds)?;
         let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
         save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
         save("accuracy.md", measured.markdown().as_bytes())?;

@@ -22,6 +22,8 @@ use crate::probe::{Answer, Batch, Instrument, Probe, Way};
 pub struct Measurement {
     pub device: String,
     pub driver: String,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
     /// The day, as 2026-11-21.
     pub date: String,
     /// Whether `fma()` rounds once here.
@@ -36,7 +38,7 @@ pub struct Measurement {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_compiler: Option<String>,
     pub rungs: Vec<Measured>,
-    /// The sphere beside its meshes, if spheres were asked for.
+    /// The sphere beside its meshes, if all rungs of spheres were asked for.
     pub forms: Vec<Form>,
     /// Shader stages that took part, by path below `shaders/`.
     pub stages: BTreeSet<String>,
@@ -106,12 +108,18 @@ const LONG_ENOUGH: f64 = 2.0;
 const MOST_REPEATS: u32 = 256;
 // ANCHOR_END: timed
 
-/// Measures every rung of these primitives (of all if there are none) on `rays` rays a family, and times
-/// it over `rounds` rounds.
+/// Measures every rung of these primitives (of all if there are none), or those that must be right, on
+/// `rays` rays a family, and times it over `rounds` rounds.
 ///
 /// # Errors
 /// If the device fails.
-pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Result<Measurement> {
+pub fn measure(
+    gpu: &Gpu,
+    only: &[Primitive],
+    tops: bool,
+    rays: usize,
+    rounds: u32,
+) -> Result<Measurement> {
     let probe = Probe::new(gpu)?;
     let mut rungs = Vec::new();
     let chosen: Vec<Primitive> = Primitive::ALL
@@ -128,14 +136,16 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
             .map(|family| Batch::new(gpu, &family.shapes, &family.rays, family.is_traced));
         let batches = batches.collect::<Result<Vec<_>>>()?;
         let mut measured = Vec::new();
-        for rung in primitive.ladder() {
+        let ladder = primitive.ladder().iter().filter(|rung| !tops || rung.is_held(gpu));
+        let ladder: Vec<&Rung> = ladder.collect();
+        for rung in &ladder {
             measured.push(errors(gpu, &probe, primitive, rung, &families, &batches)?);
             progress.step();
         }
         if rounds > 0 {
             let known = |family: &Family| family.name;
             for (family, batch) in families.iter().map(known).zip(&batches) {
-                let times = times(&probe, primitive, batch, rounds, &measured)?;
+                let times = times(&probe, primitive, &ladder, batch, rounds, &measured)?;
                 for (row, time) in measured.iter_mut().zip(times) {
                     row.time = row.time.or(time);
                     let march = time.map(|time| March { family, ratio: time.ratio });
@@ -149,14 +159,18 @@ pub fn measure(gpu: &Gpu, only: &[Primitive], rays: usize, rounds: u32) -> Resul
         }
         rungs.extend(measured);
     }
-    let no_compiler = compiled::compile(&mut rungs, &progress).err().map(|why| format!("{why:#}"));
+    let no_compiler = match gpu.arithmetic.is_worst() {
+        true => Some(String::from("no GPU computes as badly as it may")),
+        false => compiled::compile(&mut rungs, &progress).err().map(|why| format!("{why:#}")),
+    };
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
     let has_spheres = only.is_empty() || only.contains(&Primitive::Sphere);
-    let forms = if has_spheres { geometry::measure(gpu, rounds)? } else { Vec::new() };
+    let forms = if has_spheres && !tops { geometry::measure(gpu, rounds)? } else { Vec::new() };
     Ok(Measurement {
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
+        arithmetic: gpu.arithmetic.to_string(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
         fused: probe.fused,
         rays,
@@ -249,15 +263,19 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
 fn times(
     probe: &Probe,
     primitive: Primitive,
+    ladder: &[&Rung],
     batch: &Batch,
     rounds: u32,
     measured: &[Measured],
 ) -> Result<Vec<Option<Time>>> {
-    let ladder = primitive.ladder().iter().zip(measured);
+    let ladder = ladder.iter().copied().zip(measured);
     let timed = ladder.filter(|(rung, row)| row.unavailable.is_none() && rung.code != Code::Device);
     let mut instruments: Vec<(&Rung, Instrument)> = Vec::new();
     for (rung, _) in timed {
         instruments.push((rung, probe.instrument(primitive, rung, Way::Direct)?));
+    }
+    if instruments.is_empty() {
+        return Ok(vec![None; measured.len()]);
     }
     // The first time goes to the driver's compiler. The others say how often to repeat, and which rung is
     // the cheapest: the best of many, as whatever disturbs a dispatch makes it slower.

@@ -6,7 +6,7 @@ use common::gpu::{
     AccelerationStructure, Address, Binding, Blueprint, Buffer, BuildOptions, Descriptor, Geometry,
     Gpu, HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
 };
-use common::scene::{build_top, input_usage};
+use common::scene::{boxes_on_gpu, build_top, input_usage};
 use glam::{DVec3, Vec3};
 
 use crate::ladder::{Code, Primitive, Rung};
@@ -182,7 +182,7 @@ fn boxes(gpu: &Gpu, shapes: &[Shape], asked: &[(usize, Ray)]) -> Result<Level> {
         let roundings = if matches!(shape, Shape::Instance(_)) { 18.0 } else { 10.0 };
         let margin = DVec3::splat(roundings * 2f64.powi(-24) * reach);
         let corners = [down(low - margin), up(high + margin)];
-        let input = Buffer::with_data(gpu, "box", &corners, input_usage())?;
+        let input = boxes_on_gpu(gpu, "box", &[corners])?;
         let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
         Ok((
             AccelerationStructure::bottom(gpu, "shape", &[geometry], BuildOptions::default())?,

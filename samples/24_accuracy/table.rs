@@ -12,8 +12,11 @@ impl Measurement {
     /// Markdown tables of each primitive: time beside the home family's error, a compiler's estimates, and
     /// every family.
     pub fn markdown(&self) -> String {
-        let Self { device, driver, date, rays, .. } = self;
+        let Self { device, driver, arithmetic, date, rays, .. } = self;
         let mut text = format!("{device} · {driver} · {date} · {rays} rays a family");
+        if arithmetic != "driver" {
+            let _ = write!(text, " · arithmetic {arithmetic}");
+        }
         if self.rounds > 0 {
             let _ = write!(text, " · {} rounds", self.rounds);
         }

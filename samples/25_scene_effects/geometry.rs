@@ -3,7 +3,7 @@
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
-use common::scene::{SceneOnGpu, SceneOptions, build_top, input_usage, transform};
+use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
 use effects::{Composition, Sphere};
 use glam::{Affine3A, Vec3};
 
@@ -81,13 +81,13 @@ impl SceneGeometry {
     // ANCHOR: level
     /// Boxes for the intersection shader of a kind, near beside near; returns their order.
     fn level(&mut self, gpu: &Gpu, kind: Kind, bounds: &[order::Bounds]) -> Result<Vec<u32>> {
-        let order = order_of(bounds, self.scene.options);
+        let order = order::for_build(gpu, bounds, self.scene.options.ordering);
         if order.is_empty() {
             return Ok(order);
         }
         let boxes: Vec<[Vec3; 2]> =
             order.iter().map(|&i| padded(bounds[i as usize], self.reach)).collect();
-        let input = Buffer::with_data(gpu, "boxes of shapes", &boxes, input_usage())?;
+        let input = boxes_on_gpu(gpu, "boxes of shapes", &boxes)?;
         let count = boxes.len() as u32;
         let input = Geometry::Aabbs { boxes: input.address, count, opaque: true };
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
@@ -133,7 +133,7 @@ impl SceneGeometry {
         let place = known.unwrap_or(self.tops.len());
         if known.is_none() {
             let bounds: Vec<_> = self.instances.iter().map(|placed| placed.bounds).collect();
-            let order = order_of(&bounds, self.scene.options).into_iter();
+            let order = order::for_build(gpu, &bounds, self.scene.options.ordering).into_iter();
             let instances = order.map(|i| self.instances[i as usize].for_device(recipe));
             let top = build_top(gpu, &instances.collect::<Vec<_>>())?;
             self.tops.push((recipe.mask(), top));
@@ -160,13 +160,6 @@ impl Placed {
         }
     }
     // ANCHOR_END: instance
-}
-
-fn order_of(bounds: &[order::Bounds], options: SceneOptions) -> Vec<u32> {
-    match options.ordering {
-        true => order::kd_median(bounds),
-        false => (0..bounds.len() as u32).collect(),
-    }
 }
 
 /// Corners of the box around a sphere, never inside it by rounding.

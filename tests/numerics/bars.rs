@@ -5,14 +5,14 @@ use serde_json::Value;
 use crate::{compiled, laboratory};
 
 /// What was measured of one rung on one family, one way.
-struct Row(Value);
+pub struct Row(pub Value);
 
 impl Row {
-    fn number(&self, key: &str) -> f64 {
+    pub fn number(&self, key: &str) -> f64 {
         self.0[key].as_f64().unwrap()
     }
 
-    fn wrong(&self) -> f64 {
+    pub fn wrong(&self) -> f64 {
         self.number("false_hits") + self.number("false_misses")
     }
 }
@@ -23,7 +23,7 @@ fn measure(arguments: &[&str]) -> Vec<Value> {
 }
 
 /// All that a run without times has to say.
-fn report(arguments: &[&str]) -> Value {
+pub fn report(arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");
     let output = laboratory(&[&["--rounds", "0", "--measure", place], arguments].concat());

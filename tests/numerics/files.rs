@@ -213,6 +213,8 @@ fn odd_command_lines_are_refused() {
         let (code, line) = refused(&alone);
         assert!(code == 2 && line.contains("--measure"), "{line}");
     }
+    let (code, line) = refused(&["--tops"]);
+    assert!(code == 2 && line.contains("--cases") && line.contains("--measure"), "{line}");
     let (code, line) = refused(&["--measure", "b", "--report", "r.json"]);
     assert!(code == 2 && line.contains("takes no --report"), "{line}");
     let (code, line) = refused(&["--cases", "a.json", "--scene", "a.obj"]);

@@ -1,12 +1,51 @@
 //! Every chapter in the worst arithmetic that conforms: finite pictures, near the driver's own.
 
+use common::app::Picture;
 use run::{Run, bits, flip, render, root};
 
 const SIZE: &str = "96x60";
 
-/// The largest mean FLIP, and the largest share of pixels above 0.1. A colour off by one step of 255 has a
-/// FLIP of about 0.005; of 5,760 pixels, 12 may see the other of two surfaces that meet at an edge.
-const BOUNDS: (f32, f32) = (0.005, 0.002);
+/// How far a chapter's picture may be from the driver's own: how many pixels may *flip*, that is, see the
+/// other side of a decision, and the mean FLIP.
+///
+/// A ray's direction is off by some 4 ULP of 1, which is 7e-5 of a pixel of these pictures. An edge that
+/// passes as near by a pixel's centre flips it: of 5,760 pixels less than one does, if all of them have an
+/// edge, and so does a second decision, if its point is off by as little.
+///
+/// A colour is off where a texture is read elsewhere: weights off by 16 ULP of 1 are a thousandth of a texel
+/// of 512, and a quarter of a step of 255 where black lies beside white. So at most a quarter of the pixels
+/// change by a step, which has a FLIP of 0.005.
+struct Near {
+    flips: u32,
+    mean: f32,
+}
+
+impl Near {
+    /// # Panics
+    /// If nothing is said of the chapter.
+    fn of(chapter: &str) -> Self {
+        match chapter[..2].parse().expect("a chapter begins with its number") {
+            // The nearest hit decides, and nothing else.
+            2 | 7 | 9 | 24 => Self { flips: 1, mean: 0.00125 },
+            // A second decision: a hole or a random number (03), what a shadow ray meets (04 and later),
+            // which of two faces of a solid is first (22).
+            3 | 4 | 5 | 8 | 21 | 22 => Self { flips: 2, mean: 0.00125 },
+            // Rays that round mirrors send on: an error grows by the way over the radius each time, and two
+            // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
+            // factor.
+            6 | 12 | 25 | 26 => Self { flips: 2, mean: 0.0025 },
+            other => panic!("how near is a picture of {other}?"),
+        }
+    }
+
+    /// Whether the pictures are as near as that. FLIP sees a picture as an eye does, blurred: one pixel that
+    /// is another makes up to five that seem so.
+    fn holds(&self, one: &Picture, other: &Picture) -> bool {
+        let (mean, outliers) = flip(one, other);
+        let flipped = outliers * one.pixels.len() as f32 / 5.0;
+        mean <= self.mean && flipped <= self.flips as f32
+    }
+}
 
 fn chapters() -> Vec<String> {
     let entries = std::fs::read_dir(root().join("samples")).expect("the samples are there");
@@ -40,7 +79,7 @@ fn every_picture_is_finite_and_near(arithmetic: &str) {
         let (mean, outliers) = flip(&driver, &worst);
         println!("{name} {arithmetic}: mean FLIP {mean:.5}, {:.2} % outliers", 100.0 * outliers);
         assert_ne!(bits(&driver), bits(&worst), "{name}: nothing was rewritten");
-        if mean > BOUNDS.0 || outliers > BOUNDS.1 {
+        if !Near::of(&name).holds(&driver, &worst) {
             wrong.push(format!("{name}: mean {mean}, outliers {outliers}"));
         }
     }
@@ -65,8 +104,8 @@ fn a_loop_and_recursion_agree() {
     let [by_loop, by_recursion] = ["iterative", "recursive"].map(|m| method("worst", m));
     assert!(bits(&by_loop) == bits(&by_recursion), "{:?}", flip(&by_loop, &by_recursion));
     let [by_loop, by_recursion] = ["iterative", "recursive"].map(|m| method("worst-by-place", m));
-    let (mean, outliers) = flip(&by_loop, &by_recursion);
-    assert!(mean <= BOUNDS.0 && outliers <= BOUNDS.1, "mean {mean}, outliers {outliers}");
+    let is_near = Near::of("06").holds(&by_loop, &by_recursion);
+    assert!(is_near, "{:?}", flip(&by_loop, &by_recursion));
 }
 
 #[test]
@@ -78,8 +117,7 @@ fn a_specialised_pipeline_and_one_of_everything_agree() {
     let [own, everything] = ["specialised", "everything"].map(|p| pipeline("worst", p));
     assert!(bits(&own) == bits(&everything), "{:?}", flip(&own, &everything));
     let [own, everything] = ["specialised", "everything"].map(|p| pipeline("worst-by-place", p));
-    let (mean, outliers) = flip(&own, &everything);
-    assert!(mean <= BOUNDS.0 && outliers <= BOUNDS.1, "mean {mean}, outliers {outliers}");
+    assert!(Near::of("25").holds(&own, &everything), "{:?}", flip(&own, &everything));
 }
 
 /// A device may offer a triangle twice, unless that is ruled out: the list of 03 shows it.
@@ -95,4 +133,24 @@ fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
     assert!(first == second, "the first surface is not in the list twice");
     assert!(layer("layer=0", "no duplicates=on") == first);
     assert!(layer("layer=1", "no duplicates=on") == third, "the second surface");
+}
+
+/// A device may offer a sphere to rays that pass by its box: the rung of 08 that takes every offer for a hit
+/// sees more of them, and those that look for themselves see what they should.
+#[test]
+fn a_shader_that_trusts_its_box_is_found_out() {
+    let pictures = |rung: &str| {
+        let set = format!("sphere rung={rung}");
+        ["driver", "worst"].map(|arithmetic| {
+            rendered("08_intersection", arithmetic, &["--set", &set, "--set", "show=hit"]).picture
+        })
+    };
+    let hits = |picture: &Picture, others: &Picture| {
+        let pairs = picture.pixels.iter().zip(&others.pixels);
+        pairs.filter(|(a, b)| a[..2] != b[..2]).count()
+    };
+    let [driver, worst] = pictures("offered");
+    assert!(hits(&driver, &worst) > 200, "{}", hits(&driver, &worst));
+    let [driver, worst] = pictures("stable");
+    assert!(hits(&driver, &worst) <= 2, "{}", hits(&driver, &worst));
 }

@@ -1,7 +1,9 @@
 //! Whose arithmetic a run is done in: the driver's, or the worst that the specification lets any driver
 //! have.
 
+mod operations;
 mod rewrite;
+mod signature;
 
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -8,8 +8,25 @@
 
 use glam::Vec3;
 
+use super::Gpu;
+
 /// A box around a primitive: its low and its high corner.
 pub type Bounds = (Vec3, Vec3);
+
+/// Which primitive of the model each one of a build is: neighbours in space beside each other, or as they
+/// come if `ordering` is off.
+///
+/// A device may offer candidates in any order: with the worst arithmetic the list is turned round.
+pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {
+    let mut order = match ordering {
+        true => kd_median(bounds),
+        false => (0..bounds.len() as u32).collect(),
+    };
+    if gpu.arithmetic.is_worst() {
+        order.reverse();
+    }
+    order
+}
 
 /// The permutation that puts neighbours in space beside each other.
 ///

@@ -29,5 +29,7 @@ pub use obj::Model;
 pub use placement::{Moved, Placement, Size};
 pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
 pub use texture::Texture;
-pub use upload::{SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu, transform};
+pub use upload::{
+    SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_on_gpu, transform,
+};
 pub use world::{Instance, Scene};

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use anyhow::{Result, ensure};
 use ash::vk;
+use glam::Vec3;
 
 use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
 use crate::gpu::{
-    AccelerationStructure, Address, Arithmetic, Buffer, BuildOptions, Geometry, Gpu, Image,
-    TextureTable, order,
+    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
 };
 
 /// A scene in device memory, ready to be traced.
@@ -127,10 +127,8 @@ impl SceneOnGpu {
         };
         buffers.extend([records, materials]);
 
-        let mut order = instance_order(scene, options.ordering);
-        if gpu.arithmetic.is_worst() {
-            order.reverse();
-        }
+        let bounds: Vec<_> = instances.iter().map(|one| scene.instance_bounds(one)).collect();
+        let order = order::for_build(gpu, &bounds, options.ordering);
         let placed = order.into_iter().map(|index| {
             let instance = &instances[index as usize];
             // The custom index stays the scene's, whatever the order of the build.
@@ -197,30 +195,35 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
     vk::TransformMatrixKHR { matrix: [x.x, x.y, x.z, t.x, y.x, y.y, y.z, t.y, z.x, z.y, z.z, t.z] }
 }
 
-fn instance_order(scene: &Scene, ordering: bool) -> Vec<u32> {
-    if !ordering {
-        return (0..scene.instances.len() as u32).collect();
+/// Boxes for an intersection shader, each its low and its high corner, where a build reads them.
+///
+/// A device may enlarge a box as it likes, and so call the shader for rays that pass far from it: "AABB
+/// primitive bounds consist of all points within an implementation-defined bound which includes the
+/// specified box" (Vulkan specification, Ray Intersection Candidate Determination). With the worst
+/// arithmetic a box grows by half of its longest side, each way.
+///
+/// # Errors
+/// If memory is short.
+pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer> {
+    let mut boxes = boxes.to_vec();
+    if gpu.arithmetic.is_worst() {
+        for [low, high] in &mut boxes {
+            let by = 0.5 * (*high - *low).max_element();
+            (*low, *high) = (*low - by, *high + by);
+        }
     }
-    let bounds = scene.instances.iter().map(|instance| scene.instance_bounds(instance));
-    order::kd_median(&bounds.collect::<Vec<_>>())
+    Buffer::with_data(gpu, name, &boxes, input_usage())
 }
 
 /// Which triangle of a mesh each primitive of the build is.
 ///
-/// A device may offer candidates in any order, and a triangle more than once unless that is ruled out. With
-/// the worst arithmetic the list is turned round, and each triangle is in it twice. Opaque ones are, too: a
-/// ray may ask any-hit shaders about them.
-fn triangle_order(mesh: &Mesh, options: SceneOptions, arithmetic: Arithmetic) -> Vec<u32> {
-    let mut order = match options.ordering {
-        true => order::kd_median(&mesh.triangle_bounds()),
-        false => (0..mesh.triangles.len() as u32).collect(),
-    };
-    if arithmetic.is_worst() {
-        order.reverse();
-        let times = if options.no_duplicate_any_hit { 1 } else { 2 };
-        order = order.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect();
-    }
-    order
+/// A device may offer a triangle more than once, unless that is ruled out: with the worst arithmetic each is
+/// in the list twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
+fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
+    let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
+    let is_twice = gpu.arithmetic.is_worst() && !options.no_duplicate_any_hit;
+    let times = if is_twice { 2 } else { 1 };
+    order.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect()
 }
 
 struct MeshOnGpu {
@@ -232,7 +235,7 @@ struct MeshOnGpu {
 impl MeshOnGpu {
     fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, options: SceneOptions) -> Result<Self> {
         let name = &mesh.name;
-        let permutation = triangle_order(mesh, options, gpu.arithmetic);
+        let permutation = triangle_order(gpu, mesh, options);
         let ordered: Vec<[u32; 3]> =
             permutation.iter().map(|&i| mesh.triangles[i as usize]).collect();
         let vertices = Buffer::with_data(gpu, name, &mesh.vertices, input_usage())?;

@@ -12,6 +12,9 @@ use rspirv::binary::Assemble;
 use rspirv::dr::{Function, Instruction, Module, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word};
 
+use super::operations::{ids, operation};
+use super::signature::{glsl_call, type_name};
+
 /// What the names of worst.glsl's functions begin with.
 const PREFIX: &str = "worst_";
 
@@ -64,24 +67,6 @@ pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
     }
     rewriter.finish(&mut module);
     Ok(module.assemble())
-}
-
-/// `worst_add(vf3;vf3;u1;` as a call that GLSL understands.
-fn glsl_call(signature: &str) -> Result<String> {
-    let (name, types) = signature.split_once('(').context("no parameters")?;
-    let arguments = types.split_terminator(';').map(|of| {
-        let (kind, size) = of.split_at(of.len() - if of.starts_with('m') { 2 } else { 1 });
-        let letter = kind.chars().last().context("no type")?;
-        let scalar = ["float", "double", "int", "uint", "bool"];
-        let scalar = scalar.iter().find(|name| name.starts_with(letter)).context("no such type")?;
-        let prefix = if letter == 'f' { "" } else { &scalar[..1] };
-        Ok(match kind.chars().next() {
-            Some('v') => format!("{prefix}vec{size}(0)"),
-            Some('m') => format!("{prefix}mat{}x{}(0)", &size[..1], &size[1..]),
-            _ => format!("{scalar}(0)"),
-        })
-    });
-    Ok(format!("{name}({});", arguments.collect::<Result<Vec<_>>>()?.join(", ")))
 }
 
 /// What is known of a module while it is rewritten.
@@ -324,15 +309,23 @@ impl Rewriter {
         self.seed.is_some_and(|seed| (seed ^ self.place.wrapping_mul(0x9e37_79b9)) & 1 == 1)
     }
 
+    /// A type by the name that glslang gives it, which the module may not have yet.
     fn type_named(&mut self, wanted: &str) -> Result<Word> {
         if let Some((id, _)) = self.names.iter().find(|(_, name)| *name == wanted) {
             return Ok(*id);
         }
-        let size = wanted.chars().last().and_then(|c| c.to_digit(10)).context("a vector's size")?;
-        let scalar = self.type_named(&format!("{}1", &wanted[1..2]))?;
+        let (op, operands) = match (wanted, wanted.strip_prefix('v')) {
+            ("b1", _) => (Op::TypeBool, Vec::new()),
+            ("u1", _) => (Op::TypeInt, vec![Operand::LiteralBit32(32), Operand::LiteralBit32(0)]),
+            (_, Some(of)) => {
+                let size = of[1..].parse().context("a vector's size")?;
+                let scalar = self.type_named(&format!("{}1", &of[..1]))?;
+                (Op::TypeVector, vec![Operand::IdRef(scalar), Operand::LiteralBit32(size)])
+            }
+            _ => bail!("no type is named {wanted}"),
+        };
         let id = self.fresh();
-        let operands = vec![Operand::IdRef(scalar), Operand::LiteralBit32(size)];
-        self.constants.push(Instruction::new(Op::TypeVector, None, Some(id), operands));
+        self.constants.push(Instruction::new(op, None, Some(id), operands));
         self.names.insert(id, wanted.to_owned());
         Ok(id)
     }
@@ -345,7 +338,8 @@ impl Rewriter {
         let (op, operands) = match size {
             None => (Op::Constant, vec![Operand::LiteralBit32(value)]),
             Some(size) => {
-                let one = Operand::IdRef(self.splat(self.uint, None, value)?);
+                let uint = self.type_named("u1")?;
+                let one = Operand::IdRef(self.splat(uint, None, value)?);
                 (Op::ConstantComposite, vec![one; size as usize])
             }
         };
@@ -464,143 +458,4 @@ fn meets_triangles(module: &Module) -> bool {
     let model = module.entry_points.first().and_then(|entry| entry.operands.first());
     let stages = [ExecutionModel::ClosestHitKHR, ExecutionModel::AnyHitKHR];
     stages.iter().any(|stage| model == Some(&Operand::ExecutionModel(*stage)))
-}
-
-fn ids(operands: &[Operand]) -> Vec<Word> {
-    let ids = operands.iter().filter_map(|operand| match operand {
-        Operand::IdRef(id) => Some(*id),
-        _ => None,
-    });
-    ids.collect()
-}
-
-/// A type as glslang writes it in a function's name; `None` of what no operation takes.
-fn type_name(of: &Instruction, names: &HashMap<Word, String>) -> Option<String> {
-    Some(match (of.class.opcode, &of.operands[..]) {
-        (Op::TypeBool, _) => "b1".to_owned(),
-        (Op::TypeFloat, [Operand::LiteralBit32(32), ..]) => "f1".to_owned(),
-        (Op::TypeFloat, [Operand::LiteralBit32(64), ..]) => "d1".to_owned(),
-        (Op::TypeInt, [Operand::LiteralBit32(32), Operand::LiteralBit32(0)]) => "u1".to_owned(),
-        (Op::TypeInt, [Operand::LiteralBit32(32), _]) => "i1".to_owned(),
-        (Op::TypeVector, [Operand::IdRef(of), Operand::LiteralBit32(count)]) => {
-            format!("v{}{count}", names.get(of)?.trim_end_matches('1'))
-        }
-        (Op::TypeMatrix, [Operand::IdRef(column), Operand::LiteralBit32(columns)]) => {
-            // vf3 of 4 columns: mf43.
-            let column = names.get(column)?.strip_prefix('v')?;
-            let (of, rows) = column.split_at(1);
-            format!("m{of}{columns}{rows}")
-        }
-        _ => return None,
-    })
-}
-
-/// The function for an instruction and the operands that it takes; `None` if it computes nothing that
-/// could be inexact.
-fn operation(instruction: &Instruction) -> Result<Option<(&'static str, Vec<Word>)>> {
-    let mut operands = ids(&instruction.operands);
-    let name = match instruction.class.opcode {
-        Op::FAdd => "worst_add",
-        Op::FSub => "worst_sub",
-        Op::FMul
-        | Op::VectorTimesScalar
-        | Op::MatrixTimesScalar
-        | Op::VectorTimesMatrix
-        | Op::MatrixTimesVector
-        | Op::MatrixTimesMatrix => "worst_mul",
-        Op::FDiv => "worst_div",
-        Op::FMod => "worst_mod",
-        Op::Dot => "worst_dot",
-        Op::IsNan => "worst_isnan",
-        Op::IsInf => "worst_isinf",
-        Op::FOrdEqual => "worst_equal",
-        Op::FUnordNotEqual => "worst_not_equal",
-        Op::FOrdLessThan => "worst_less",
-        Op::FOrdLessThanEqual => "worst_less_equal",
-        Op::FOrdGreaterThan => "worst_greater",
-        Op::FOrdGreaterThanEqual => "worst_greater_equal",
-        Op::ConvertSToF | Op::ConvertUToF => "worst_convert",
-        Op::ExtInst => {
-            operands.remove(0);
-            match instruction.operands.get(1) {
-                Some(Operand::LiteralExtInstInteger(number)) => match extended(*number)? {
-                    Some(name) => name,
-                    None => return Ok(None),
-                },
-                _ => bail!("an extended instruction without a number"),
-            }
-        }
-        Op::FConvert => "worst_convert",
-        op @ (Op::FRem
-        | Op::OuterProduct
-        | Op::FOrdNotEqual
-        | Op::FUnordEqual
-        | Op::FUnordLessThan
-        | Op::FUnordLessThanEqual
-        | Op::FUnordGreaterThan
-        | Op::FUnordGreaterThanEqual
-        | Op::QuantizeToF16) => bail!("worst.glsl has no {op:?}"),
-        // A change of sign is exact; so is what neither adds nor rounds.
-        _ => return Ok(None),
-    };
-    Ok(Some((name, operands)))
-}
-
-/// The function for an instruction of GLSL.std.450.
-fn extended(number: u32) -> Result<Option<&'static str>> {
-    use rspirv::spirv::GlslStd450Op as GLOp;
-    let op = GLOp::from_u32(number).with_context(|| format!("no extended instruction {number}"))?;
-    Ok(Some(match op {
-        GLOp::Round => "worst_round",
-        GLOp::RoundEven => "worst_round_even",
-        GLOp::Trunc => "worst_trunc",
-        GLOp::FAbs => "worst_abs",
-        GLOp::FSign => "worst_sign",
-        GLOp::Floor => "worst_floor",
-        GLOp::Ceil => "worst_ceil",
-        GLOp::Fract => "worst_fract",
-        GLOp::Sin => "worst_sin",
-        GLOp::Cos => "worst_cos",
-        GLOp::Tan => "worst_tan",
-        GLOp::Asin => "worst_asin",
-        GLOp::Acos => "worst_acos",
-        GLOp::Atan => "worst_atan",
-        GLOp::Atan2 => "worst_atan2",
-        GLOp::Pow => "worst_pow",
-        GLOp::Exp => "worst_exp",
-        GLOp::Log => "worst_log",
-        GLOp::Exp2 => "worst_exp2",
-        GLOp::Log2 => "worst_log2",
-        GLOp::Sqrt => "worst_sqrt",
-        GLOp::InverseSqrt => "worst_inversesqrt",
-        GLOp::FMin => "worst_min",
-        GLOp::FMax => "worst_max",
-        GLOp::FClamp => "worst_clamp",
-        GLOp::FMix => "worst_mix",
-        GLOp::Step => "worst_step",
-        GLOp::SmoothStep => "worst_smoothstep",
-        GLOp::Fma => "worst_fma",
-        GLOp::Length => "worst_length",
-        GLOp::Distance => "worst_distance",
-        GLOp::Cross => "worst_cross",
-        GLOp::Normalize => "worst_normalize",
-        GLOp::FaceForward => "worst_faceforward",
-        GLOp::Reflect => "worst_reflect",
-        GLOp::Refract => "worst_refract",
-        // Of whole numbers and of bits.
-        GLOp::SAbs
-        | GLOp::SSign
-        | GLOp::UMin
-        | GLOp::SMin
-        | GLOp::UMax
-        | GLOp::SMax
-        | GLOp::UClamp
-        | GLOp::SClamp
-        | GLOp::PackDouble2x32
-        | GLOp::UnpackDouble2x32
-        | GLOp::FindILsb
-        | GLOp::FindSMsb
-        | GLOp::FindUMsb => return Ok(None),
-        other => bail!("worst.glsl has no {other:?}"),
-    }))
 }

@@ -14,7 +14,7 @@ use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
 use crate::gpu::reflection::Reflection;
 use crate::gpu::shader::Shader;
 use crate::gpu::texture::TextureTable;
-use crate::gpu::{Executable, Gpu};
+use crate::gpu::{Arithmetic, Executable, Gpu};
 
 /// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`].
 pub struct PipelineBuilder<'a> {
@@ -131,9 +131,11 @@ impl<'a> PipelineBuilder<'a> {
     }
 
     /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
-    /// by `#ifdef ROUNDING_MODE_RTE`. The worst device cannot be told.
+    /// by `#ifdef ROUNDING_MODE_RTE`. With `worst-by-place` the device cannot, so that both kinds of shaders
+    /// are tried.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
-        match gpu.limits.rounding_to_nearest_even && !gpu.arithmetic.is_worst() {
+        let is_offered = gpu.arithmetic != Arithmetic::WorstByPlace;
+        match gpu.limits.rounding_to_nearest_even && is_offered {
             true => self.define("ROUNDING_MODE_RTE", 1),
             false => self,
         }

@@ -33,6 +33,16 @@ float result(float x, float y, float z) {
         case 18: return isnan(x / y) ? 1.0 : 0.0;
         // The same quotient in two places.
         case 19: exact = x / y - x / y; return exact;
+        case 20: return tan(x);
+        case 21: return asin(x);
+        case 22: return acos(x);
+        case 23: return mix(x, y, z);
+        case 24: return smoothstep(x, y, z);
+        case 25: return refract(vec2(x, y), vec2(0.0, 1.0), z).y;
+        case 26: return mod(x, y);
+        case 27: return min(x, y);
+        case 28: return max(x, y);
+        case 29: return clamp(x, y, z);
         default: return float(floatBitsToUint(x));
     }
 }
