@@ -5,6 +5,7 @@
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
+//! - `measure`: runs what gave the pages' figures, and fills those in
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -22,15 +23,20 @@ mod command;
 mod diff;
 mod exercise;
 mod fault;
+mod figure;
 mod gallery;
 mod laboratory;
 mod markdown;
+mod measurement;
 mod mention;
 mod mistake;
 mod moved;
 mod new;
+mod note;
+mod number;
 mod page;
 mod panels;
+mod passage;
 mod picture;
 mod placeholder;
 mod program;
@@ -39,6 +45,7 @@ mod reference;
 mod shader;
 mod sheet;
 mod show;
+mod stored;
 mod stray;
 mod survey;
 mod taught;
@@ -121,6 +128,12 @@ enum Command {
         #[arg(long, value_name = "NAME", num_args = 0..)]
         pictures: Option<Vec<String>>,
     },
+    /// Run the commands that gave the figures of these pages or measurements, such as `05` or
+    /// `05_shadow_miss/acne`, or of all that are out of date, and fill the figures in
+    Measure {
+        /// Chapters, pages, measurements; a time is measured again only if it is named
+        names: Vec<String>,
+    },
     /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
     /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
     Survey {
@@ -168,8 +181,9 @@ fn parse() -> Result<Arguments> {
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line =
-            line.unwrap_or("no command; there is list, diff, new, sync, survey, mistake, check");
+        let line = line.unwrap_or(
+            "no command; there is list, diff, new, sync, measure, survey, mistake, check",
+        );
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }
@@ -209,6 +223,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Mistake { name, list, out, check } => {
             mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
+        Command::Measure { names } => measure(&project, names),
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;
@@ -251,6 +266,19 @@ fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
         })?;
         faults.extend(failed);
     }
+    report(&faults)
+}
+
+fn measure(project: &Project, names: &[String]) -> Result<()> {
+    let programs = Programs::beside_this(&project.root)?;
+    let mut faults = Book::open(project, &programs)?.measure(names, |line| {
+        let _ = print(&format!("{line}\n"));
+    })?;
+    let (changed, others) = Book::open(project, &programs)?.sync()?;
+    for file in changed {
+        print(&format!("{file}: renewed\n"))?;
+    }
+    faults.extend(others);
     report(&faults)
 }
 

@@ -105,8 +105,15 @@ impl Fixture {
 
     /// Runs the tool on the project.
     pub fn run(&self, arguments: &[&str]) -> Outcome {
+        run(&mut self.command(arguments))
+    }
+
+    /// A command that runs the tool on the project.
+    pub fn command(&self, arguments: &[&str]) -> Command {
         let tool = PROGRAMS.path().join(format!("chapters{EXE_SUFFIX}"));
-        run(Command::new(tool).args(arguments).arg("--root").arg(self.path("")))
+        let mut command = Command::new(tool);
+        command.args(arguments).arg("--root").arg(self.path(""));
+        command
     }
 
     /// What `check` says of it: nothing if all is well.
@@ -213,6 +220,7 @@ Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_o
 | what | X-ray |
 |---|---|
 | a ULP | 0.05 |
+<!-- explains 0.05 -->
 
 ## Try it
 

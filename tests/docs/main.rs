@@ -1,6 +1,8 @@
 //! The book is what the code says: the real one, and that every fault in a small one is found.
 
 mod author;
+#[cfg(unix)]
+mod figures;
 mod fixture;
 mod mistakes;
 mod named;
