@@ -78,6 +78,13 @@ pub fn check(page: &Page, stored: &All, unbound: &[String]) -> Vec<Fault> {
     }
     for Note { span, names } in &found.notes {
         let note = &text[span.clone()];
+        if !names.is_empty() && one_day(names, stored).is_none() {
+            let told = |name: &String| format!("{} of {}", stored::file(name), stored[name].date);
+            let told: Vec<String> = names.iter().map(told).collect();
+            let what = format!("this note is of several days: {}", told.join(", "));
+            found.faults.push(fault(span.start, what, "give each day a note of its own"));
+            continue;
+        }
         for name in names {
             let Some(word) = note::unknown_word(note, &stored[name]) else { continue };
             let told = note::told(&stored[name]);
@@ -111,8 +118,8 @@ pub fn filled(page: &Page, stored: &All) -> Page {
     let figure = |bound: &Bound| (bound.number.span.clone(), bound.number.like(bound.value));
     let mut changes: Vec<(Range<usize>, String)> = found.bound.iter().map(figure).collect();
     changes.extend(found.notes.iter().filter_map(|Note { span, names }| {
-        let date = stored[names.last()?].date.clone();
-        Some((span.end - note::DAY..span.end, date))
+        let day = one_day(names, stored)?;
+        Some((span.end - note::DAY..span.end, day.to_owned()))
     }));
     changes.sort_by_key(|(span, _)| span.start);
     let mut lines = page.lines.clone();
@@ -193,6 +200,11 @@ impl Found {
         let mut fault = |at: usize, what: String, remedy: &str| {
             self.faults.push(Fault::new(&*page.path, line(text, at), what, remedy));
         };
+        if let Some((name, _)) = names.iter().find(|(name, _)| !stored.contains_key(name)) {
+            let at = passage.text.first().map_or(0, |part| part.start);
+            fault(at, format!("there is no {}", stored::file(name)), &stored::renew(name));
+            return;
+        }
         let all = numbers.len() == names.len();
         let needed = |number: &Number| all || passage.counts_small || !number.small;
         let numbers: Vec<Number> = numbers.into_iter().filter(needed).collect();
@@ -209,18 +221,13 @@ impl Found {
             }
             (at, names) if names.len() != count => {
                 let at = at.or(passage.text.first().map(|part| part.start)).unwrap_or(0);
-                let what =
-                    format!("{} values are named below for {count} numbers: {list}", names.len());
-                fault(at, what, "name a value for each, in order");
+                let what = format!("below stand {} names for {count} numbers: {list}", names.len());
+                fault(at, what, "name a value of a measurement for each, in order");
             }
             _ => {
                 for (number, (name, key)) in numbers.into_iter().zip(names) {
                     let at = number.span.start;
-                    let Some(known) = stored.get(name) else {
-                        let what = format!("there is no {}", stored::file(name));
-                        fault(at, what, &stored::renew(name));
-                        continue;
-                    };
+                    let known = &stored[name];
                     match known.value(key) {
                         Some(value) => {
                             let (name, key) = (name.clone(), key.clone());
@@ -237,6 +244,12 @@ impl Found {
             }
         }
     }
+}
+
+/// The day of all these measurements, if it is one.
+fn one_day<'a>(names: &BTreeSet<String>, stored: &'a All) -> Option<&'a str> {
+    let days: BTreeSet<&str> = names.iter().map(|name| &*stored[name].date).collect();
+    days.first().copied().filter(|_| days.len() == 1)
 }
 
 /// The measurement and the value for each number of a passage.

@@ -228,9 +228,13 @@ type Given = BTreeMap<String, Stored>;
 fn run(project: &Project, programs: &Programs, command: &str) -> Result<Given> {
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let words = shlex::split(command).unwrap_or_default();
+    // What stands before is the environment, `NAME=value`.
+    let start = words.iter().take_while(|word| word.contains('=')).count();
+    let (environment, words) = words.split_at(start);
     if words.iter().map(String::as_str).take(2).eq(["cargo", "test"]) {
         let mut test = Command::new("cargo");
         test.args(&words[1..]).current_dir(&project.root).env("FIGURES", folder.path());
+        test.envs(environment.iter().filter_map(|word| word.split_once('=')));
         finish(&mut test)?;
         return held(folder.path());
     }
@@ -330,6 +334,14 @@ fn reported(report: &Value) -> Result<Stored> {
             ];
             let prefix = if families.len() == 1 { String::new() } else { format!("{family}.") };
             values.extend(figures.map(|(name, value)| (format!("{prefix}{name}"), json!(value))));
+            // Of several programs each by itself, too, in the compiler's order.
+            let programs = rows.iter().filter(|row| row["family"] == **family);
+            for (number, row) in (1..).zip(programs.filter(|_| figures[0].1 != Some(1))) {
+                let own = figures[1..].iter();
+                values.extend(
+                    own.map(|(name, _)| (format!("{prefix}{number}.{name}"), row[name].clone())),
+                );
+            }
         }
         let generation = |family: &&str| match *family {
             "navi21" => "RDNA2",
@@ -347,9 +359,11 @@ fn reported(report: &Value) -> Result<Stored> {
             values.insert(format!("{name}.{part}"), report[key][part].clone());
         }
     }
-    for name in ["primary_rays_per_second", "first_frame_milliseconds", "pipeline_milliseconds"] {
+    for name in ["primary_rays_per_second", "acceleration_structure_bytes"] {
         values.insert(name.to_owned(), report[name].clone());
     }
+    let first = report["first_frame_milliseconds"].as_f64().unwrap_or_default();
+    values.insert("first_frame_seconds".to_owned(), (first / 1e3).into());
     Ok(measured(true, device, values))
 }
 

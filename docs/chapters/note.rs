@@ -71,7 +71,10 @@ mod tests {
     #[test]
     fn a_note_is_a_device_and_a_day() {
         let text = format!("At 480×300; {NOTE}, on two cores. On llvmpipe. On 2026-11-21");
-        let [note] = &found(&text, &[0..text.len()], &["llvmpipe"])[..] else { panic!() };
+        let [note] = &found(&text, std::slice::from_ref(&(0..text.len())), &["llvmpipe"])[..]
+        else {
+            panic!()
+        };
         assert_eq!(&text[note.clone()], NOTE);
     }
 

@@ -46,7 +46,7 @@ pub struct Number {
     pub written: String,
     /// Whether it is whole, small and without a unit.
     pub small: bool,
-    /// What it is to be multiplied by: 0.01 before a percent sign, a million before that word.
+    /// What its value is counted in: hundredths before a percent sign, millions before that word and MB.
     scale: Scale,
     /// Whether it is only about so much: then zeros at its end are no digits.
     about: bool,
@@ -75,7 +75,7 @@ pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
         let signed = before.ends_with(['-', '−']);
         let scale = match word {
             "%" => Scale::Percent,
-            "million" => Scale::Million,
+            "million" | "MB" => Scale::Million,
             _ => Scale::One,
         };
         Number {

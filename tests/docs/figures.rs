@@ -122,7 +122,7 @@ fn what_is_no_longer_what_was_measured_is_named() {
 
 #[test]
 fn what_only_an_author_can_mend_is_named() {
-    let cases: [Case; 12] = [
+    let cases: [Case; 13] = [
         (
             "a figure without a measurement",
             |f| f.replace(PAGE, BELOW, &format!("It has 77 rows and 2 ms.\n\n{BELOW}")),
@@ -162,6 +162,21 @@ fn what_only_an_author_can_mend_is_named() {
             &[(
                 "docs/02_basic.md:13: this note says 26.0.1, docs/figures/02_basic/rows.json is of ll",
                 "; correct it",
+            )],
+        ),
+        (
+            "two days",
+            |f| {
+                f.replace(PAGE, "measure rows", "measure rows more");
+                f.replace(PAGE, "rows: all off part", "rows: all off; more: part");
+                let text = f.read(FILE);
+                let (head, rest) = text.split_once("\"date\": \"").unwrap();
+                let other = format!("{head}\"date\": \"2025-01-02{}", &rest[10..]);
+                f.write("docs/figures/02_basic/more.json", &other);
+            },
+            &[(
+                "docs/02_basic.md:13: this note is of several days: docs/figures/02_basic/more.json of 2025-01-02, ",
+                "; give each day a note of its own",
             )],
         ),
         (
