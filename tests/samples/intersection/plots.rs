@@ -4,12 +4,13 @@ use common::app::Picture;
 use common::scene::Camera;
 use glam::DVec3;
 use reference::sphere::Sphere;
+use serde_json::Map;
 
 use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
 use super::shapes::SceneKind;
 use super::{picture, shapes};
-use run::root;
+use run::{figures, root};
 
 /// The page's table and its error maps: `UPDATE=1` writes the picture.
 #[test]
@@ -24,6 +25,7 @@ fn errors_at_every_distance() {
         height: 4 * SIDE,
         pixels: vec![[1.0; 4]; (12 * SIDE * SIDE) as usize],
     };
+    let mut table = Map::new();
     println!("| rung | distance | p50 | p99 | max | false hits | false misses |");
     for (column, distance) in distances.into_iter().enumerate() {
         for rung in RUNGS {
@@ -47,6 +49,9 @@ fn errors_at_every_distance() {
                 errors.ulp.extend(one.ulp);
             }
             println!("| {rung} | {distance} | {} |", errors.row());
+            let name = format!("{distance}.{}", rung.replace(' ', "-"));
+            let figures = errors.figures();
+            table.extend(figures.map(|(figure, value)| (format!("{name}.{figure}"), value.into())));
             let Some(row) = ["textbook", "stable"].iter().position(|&shown| shown == rung) else {
                 continue;
             };
@@ -59,6 +64,7 @@ fn errors_at_every_distance() {
             }
         }
     }
+    figures::hold("08_intersection/errors", table.into());
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         sheet.save(&root().join("docs/images/08_errors.png")).expect("the picture can be written");
     }
