@@ -78,16 +78,18 @@ pub fn check(page: &Page, stored: &All, unbound: &[String]) -> Vec<Fault> {
     }
     for Note { span, names } in &found.notes {
         let note = &text[span.clone()];
-        if !names.is_empty() && one_day(names, stored).is_none() {
+        let Some(day) = day(names, stored) else {
+            let timed = names.iter().filter(|name| stored[*name].timed);
             let told = |name: &String| format!("{} of {}", stored::file(name), stored[name].date);
-            let told: Vec<String> = names.iter().map(told).collect();
-            let what = format!("this note is of several days: {}", told.join(", "));
+            let told: Vec<String> = timed.map(told).collect();
+            let what = format!("this note is of times of several days: {}", told.join(", "));
             found.faults.push(fault(span.start, what, "give each day a note of its own"));
             continue;
-        }
+        };
         for name in names {
-            let Some(word) = note::unknown_word(note, &stored[name]) else { continue };
-            let told = note::told(&stored[name]);
+            let of_day = Stored { date: day.to_owned(), ..stored[name].clone() };
+            let Some(word) = note::unknown_word(note, &of_day) else { continue };
+            let told = note::told(&of_day);
             let what = format!("this note says {word}, {} is of {told}", stored::file(name));
             let remedy = if note.ends_with(word) { SYNC } else { "correct it" };
             found.faults.push(fault(span.start, what, remedy));
@@ -118,7 +120,7 @@ pub fn filled(page: &Page, stored: &All) -> Page {
     let figure = |bound: &Bound| (bound.number.span.clone(), bound.number.like(bound.value));
     let mut changes: Vec<(Range<usize>, String)> = found.bound.iter().map(figure).collect();
     changes.extend(found.notes.iter().filter_map(|Note { span, names }| {
-        let day = one_day(names, stored)?;
+        let day = day(names, stored).filter(|_| !names.is_empty())?;
         Some((span.end - note::DAY..span.end, day.to_owned()))
     }));
     changes.sort_by_key(|(span, _)| span.start);
@@ -246,10 +248,19 @@ impl Found {
     }
 }
 
-/// The day of all these measurements, if it is one.
-fn one_day<'a>(names: &BTreeSet<String>, stored: &'a All) -> Option<&'a str> {
-    let days: BTreeSet<&str> = names.iter().map(|name| &*stored[name].date).collect();
-    days.first().copied().filter(|_| days.len() == 1)
+/// The day for a note of these measurements: that of the times among them, which must be one, else the
+/// last. What is no time comes out again on any day.
+fn day<'a>(names: &BTreeSet<String>, stored: &'a All) -> Option<&'a str> {
+    let days = |timed: bool| -> BTreeSet<&'a str> {
+        let of = names.iter().filter_map(|name| stored.get(name));
+        of.filter(|stored| stored.timed == timed).map(|stored| &*stored.date).collect()
+    };
+    let timed = days(true);
+    match timed.len() {
+        0 => Some(days(false).last().copied().unwrap_or_default()),
+        1 => timed.first().copied(),
+        _ => None,
+    }
 }
 
 /// The measurement and the value for each number of a passage.

@@ -20,7 +20,7 @@ use crate::fault::Fault;
 use crate::page::Page;
 use crate::picture::{self, Sources};
 use crate::program::{BUILD, Programs};
-use crate::project::Project;
+use crate::project::{Chapter, Project};
 use crate::stored::{self, Stored};
 
 /// A command on a page that gives figures.
@@ -125,18 +125,21 @@ impl Measurement {
         let chapter = chapters()
             .find(|chapter| is_meant(&chapter.name, chapter.module()))
             .or_else(|| chapters().find(|chapter| chapter.page() == self.page));
-        let chapter = chapter.map_or(String::new(), |chapter| sources.of(project, &chapter.name));
         let target = after("--test").and_then(|rest| rest.first());
         let target = project.tests.iter().find(|test| Some(&test.name) == target);
         let folder = target.and_then(|test| test.path.rsplit_once('/')).map(|(folder, _)| folder);
         let files = folder.map_or(Vec::new(), |folder| {
             let mut files = project.files(folder);
-            let own = [format!("{folder}/{module}.rs"), format!("{folder}/{module}/")];
-            if files.contains(&own[0]) {
+            // The test's module is named, or is the chapter's; else it may be any.
+            let modules = [Some(module), chapter.map(Chapter::module)];
+            let own = |module| [format!("{folder}/{module}.rs"), format!("{folder}/{module}/")];
+            let own = modules.into_iter().flatten().map(own).find(|own| files.contains(&own[0]));
+            if let Some(own) = own {
                 files.retain(|file| *file == own[0] || file.starts_with(&own[1]));
             }
             files
         });
+        let chapter = chapter.map_or(String::new(), |chapter| sources.of(project, &chapter.name));
         let test = picture::of_files(project, &files);
         picture::hash([chapter.as_bytes(), test.as_bytes()])
     }

@@ -165,17 +165,18 @@ fn what_only_an_author_can_mend_is_named() {
             )],
         ),
         (
-            "two days",
+            "times of two days",
             |f| {
                 f.replace(PAGE, "measure rows", "measure rows more");
                 f.replace(PAGE, "rows: all off part", "rows: all off; more: part");
+                f.replace(FILE, "\"timed\": false", "\"timed\": true");
                 let text = f.read(FILE);
                 let (head, rest) = text.split_once("\"date\": \"").unwrap();
                 let other = format!("{head}\"date\": \"2025-01-02{}", &rest[10..]);
                 f.write("docs/figures/02_basic/more.json", &other);
             },
             &[(
-                "docs/02_basic.md:13: this note is of several days: docs/figures/02_basic/more.json of 2025-01-02, ",
+                "docs/02_basic.md:13: this note is of times of several days: docs/figures/02_basic/more.json of 2025-01-02, ",
                 "; give each day a note of its own",
             )],
         ),
