@@ -29,10 +29,12 @@ static TEXT: LazyLock<Regex> = LazyLock::new(|| {
         // A word: `R2`, `RDNA3`, `32-bit`, `100,000th`.
         r"[A-Za-z_][A-Za-z_0-9-]*",
         r"\d[\d,.]*-?[A-Za-z_][A-Za-z_0-9-]*",
+        // A number with a point: 1989.2 is no year.
+        r"(?P<parts>(?:\d{1,3}(?:,\d{3})+|\d+)\.\d+)",
         // A chapter's number, and a year.
         r"0\d+",
         r"(?:19|20)\d\d\b",
-        r"(?P<plain>(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?)",
+        r"(?P<whole>\d{1,3}(?:,\d{3})+|\d+)",
     ];
     Regex::new(&parts.join("|")).expect("the pattern is right")
 });
@@ -46,6 +48,8 @@ pub struct Number {
     pub written: String,
     /// Whether it is whole, small and without a unit.
     pub small: bool,
+    /// Whether a minus stands before it.
+    negative: bool,
     /// What its value is counted in: hundredths before a percent sign, millions before that word and MB.
     scale: Scale,
     /// Whether it is only about so much: then zeros at its end are no digits.
@@ -63,7 +67,8 @@ enum Scale {
 /// Every number in a part of a text that is not the name or the number of something.
 pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
     let captures = TEXT.captures_iter(&text[part.clone()]);
-    let groups = captures.filter_map(|found| found.name("power").or(found.name("plain")));
+    let groups = captures
+        .filter_map(|found| found.name("power").or(found.name("parts")).or(found.name("whole")));
     let number = |found: regex_lite::Match| {
         let span = part.start + found.start()..part.start + found.end();
         let (before, after) = (&text[..span.start], text[span.end..].trim_start_matches(' '));
@@ -72,15 +77,18 @@ pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
         let written = found.as_str().to_owned();
         let whole = written.bytes().all(|byte| byte.is_ascii_digit());
         let unit = UNITS.contains(&word) || before.ends_with("× ");
-        let signed = before.ends_with(['-', '−']);
+        // Not that of a range: 5-7.
+        let minus = before.strip_suffix(['-', '−']);
+        let negative = minus.is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()));
         let scale = match word {
             "%" => Scale::Percent,
             "million" | "MB" => Scale::Million,
             _ => Scale::One,
         };
         Number {
-            small: whole && !unit && !signed && written.parse().is_ok_and(|n: f64| n <= SMALL),
+            small: whole && !unit && !negative && written.parse().is_ok_and(|n: f64| n <= SMALL),
             about: before.ends_with("about "),
+            negative,
             span,
             written,
             scale,
@@ -92,6 +100,7 @@ pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
 impl Number {
     /// A value as this number is written: rounded to its digits, with its separators and its exponent.
     pub fn like(&self, value: f64) -> String {
+        let value = if self.negative { -value } else { value };
         let value = match self.scale {
             Scale::One => value,
             Scale::Percent => 100.0 * value,
@@ -149,7 +158,7 @@ mod tests {
             ("In 02, chapter 24, chapters 1 to 30 and exercise 14, 2026-11-22", ""),
             ("Mesa 25.0.7 (LLVM 15), Vulkan 1.2 at 480×300 in 32-bit floats", ""),
             ("R2 of Welford 1962, RDNA3, p99, the 10,000th, gfx1201", ""),
-            ("1,997 or 31 million", "1,997 31"),
+            ("1,997 or 31 million in 1989.2 ms of 1989.", "1,997 31 1989.2"),
         ];
         for (text, expected) in cases {
             assert_eq!(written(text), expected, "{text}");
@@ -171,6 +180,8 @@ mod tests {
             ("about 2,000", 1_951.0, "2,000"),
             ("2,000", 1_951.0, "1,951"),
             ("0", 0.0, "0"),
+            ("−0.50", -0.498, "0.50"),
+            ("−0.50", 0.498, "-0.50"),
         ];
         for (text, value, expected) in cases {
             assert_eq!(all(text)[0].like(value), expected, "{text}");

@@ -135,4 +135,12 @@ mod tests {
             assert!(at == line && what.starts_with(start), "{at}: {what}");
         }
     }
+
+    #[test]
+    fn values_come_back_to_the_last_bit() {
+        let value = 3.105_392_059_055_134_3e-7_f64;
+        let text = serde_json::json!({ "a": value }).to_string();
+        let read: Map<String, Value> = serde_json::from_str(&text).unwrap();
+        assert_eq!(read["a"].as_f64().unwrap().to_bits(), value.to_bits());
+    }
 }
