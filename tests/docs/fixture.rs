@@ -219,8 +219,7 @@ Chapter 02 goes on, chapter 03 (planned) ends it. `main.rs` calls, `shaders/01_o
 
 | what | X-ray |
 |---|---|
-| a ULP | 0.05 |
-<!-- explains 0.05 -->
+| a ULP | half |
 
 ## Try it
 
