@@ -126,7 +126,7 @@ fn errors() {
         FRAMES.map(|frames| (frames, of(frames)))
     });
     println!(
-        "| sequence | ms a frame | 1 | 4 | 16 | 64 | 256 | falls as |\n|---|---|---|---|---|---|---|---|"
+        "| sequence | ms a frame | 1 | 4 | 16 | 64 | 256 | power of $N$ |\n|---|---|---|---|---|---|---|---|"
     );
     let (mut held, mut spans) = (Map::new(), Map::new());
     for (((sequence, ..), time), curve) in SEQUENCES.iter().zip(&times).zip(&curves) {
@@ -138,7 +138,7 @@ fn errors() {
         );
         held.insert(format!("{sequence}.slope"), slope.into());
         spans.insert((*sequence).to_owned(), (*time).into());
-        println!("| {sequence} | {time:.2} | {shown} | N^{slope:.2} |");
+        println!("| {sequence} | {time:.2} | {shown} | {slope:.2} |");
     }
     figures::hold("04_jitter_camera/errors", held.into());
     figures::give_timed("04_jitter_camera/milliseconds", spans.into());
