@@ -1,6 +1,6 @@
 //! The whole book: what its generated parts should say, what is wrong, and mending what can be mended.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::Result;
 
@@ -8,13 +8,16 @@ use crate::anchor::anchors;
 use crate::body::body;
 use crate::exercise::Exercise;
 use crate::fault::Fault;
+use crate::figure;
 use crate::markdown::{Markdown, check_formulas, check_links, local};
+use crate::measurement::{self, Measurement};
 use crate::mistake::Mistake;
 use crate::page::{Kind, Page};
 use crate::picture::{Picture, Sources};
 use crate::program::Programs;
 use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
+use crate::stored::{self, Stored};
 use crate::trial::Trial;
 use crate::{
     agree, card, command, exercise, gallery, mention, placeholder, stray, taught, test, try_it,
@@ -71,6 +74,7 @@ impl<'a> Book<'a> {
             linked.insert(mistake.picture());
         }
         faults.extend(self.wrong_exercises(&files));
+        faults.extend(self.wrong_figures(&mut sources));
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
         let summary = gallery::summary(self.project);
@@ -105,8 +109,11 @@ impl<'a> Book<'a> {
             anyhow::Ok(())
         };
         self.ask_programs();
+        let (stored, _) = Stored::all(self.project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
+            let old = page.with_bodies(&[]);
+            let page = &figure::filled(page, &stored);
             let bodies: Vec<Option<String>> = page
                 .blocks
                 .iter()
@@ -118,7 +125,7 @@ impl<'a> Book<'a> {
                     }
                 })
                 .collect();
-            write(&page.path, &page.with_bodies(&[]), &page.with_bodies(&bodies))?;
+            write(&page.path, &old, &page.with_bodies(&bodies))?;
         }
         let summary = self.project.read(SUMMARY).unwrap_or_default();
         if self.project.root.join("docs").is_dir() {
@@ -174,6 +181,86 @@ impl<'a> Book<'a> {
             faults.extend(wrong.map(|fault| Fault { file: exercise.patch.file.clone(), ..fault }));
         }
         faults
+    }
+
+    /// Figures that are not what was measured, and measurements that are out of date.
+    fn wrong_figures(&self, sources: &mut Sources) -> Vec<Fault> {
+        let (stored, mut faults) = Stored::all(self.project);
+        // What a damaged file's page shows, nobody knows.
+        let is_known = |page: &&Page| {
+            let folder = format!("{}/{}/", stored::FOLDER, page.stem());
+            !faults.iter().any(|fault| fault.file.starts_with(&folder))
+        };
+        let pages: Vec<&Page> = self.pages.iter().filter(is_known).collect();
+        let (measurements, wrong) = self.measurements();
+        faults.extend(wrong);
+        for measurement in &measurements {
+            let known = stored.get(&measurement.name);
+            // A file that is damaged has been told as that.
+            if known.is_some() || !self.project.has(&measurement.file()) {
+                faults.extend(measurement.stale(self.project, known, sources));
+            }
+        }
+        faults.extend(measurement::strays(&measurements, &stored));
+        let unbound = stored::unbound(self.project);
+        for path in unbound.iter().filter(|path| !self.pages.iter().any(|page| page.path == **path))
+        {
+            let what = format!("there is no page '{path}'");
+            faults.push(Fault::new(stored::UNBOUND, 1, what, "take it out"));
+        }
+        faults.extend(pages.into_iter().flat_map(|page| figure::check(page, &stored, &unbound)));
+        faults
+    }
+
+    /// Every measurement that a page makes, and what is wrong with their markers.
+    fn measurements(&self) -> (Vec<Measurement>, Vec<Fault>) {
+        let (mut measurements, mut faults) = (BTreeMap::<String, Measurement>::new(), Vec::new());
+        for page in &self.pages {
+            let (found, wrong) = measurement::of(page);
+            faults.extend(wrong);
+            for measurement in found {
+                if let Some(other) = measurements.get(&measurement.name) {
+                    let what =
+                        format!("{} is already made in line {}", measurement.name, other.line);
+                    faults.push(Fault::new(&*page.path, measurement.line, what, "rename one"));
+                } else {
+                    measurements.insert(measurement.name.clone(), measurement);
+                }
+            }
+        }
+        (measurements.into_values().collect(), faults)
+    }
+
+    /// Renews the measurements of these pages and names, or with none those that are out of date.
+    ///
+    /// # Errors
+    /// If a name is unknown.
+    pub fn measure(&self, names: &[String], done: impl FnMut(&str)) -> Result<Vec<Fault>> {
+        let (stored, _) = Stored::all(self.project);
+        let (measurements, mut faults) = self.measurements();
+        let mut sources = Sources::default();
+        let names: Vec<&str> = names
+            .iter()
+            .map(|name| self.project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name))
+            .collect();
+        let is_of = |measurement: &Measurement, name: &&str| {
+            measurement.name == *name || measurement.page_name() == *name
+        };
+        if let Some(name) = names.iter().find(|name| !measurements.iter().any(|m| is_of(m, name))) {
+            let there: Vec<&str> = measurements.iter().map(|m| &*m.name).collect();
+            let what = format!("nothing measures '{name}'; there is {}", there.join(", "));
+            return Err(common::usage::Usage(what).into());
+        }
+        let mut wanted = |measurement: &&Measurement| match names[..] {
+            [] => {
+                let known = stored.get(&measurement.name);
+                measurement.stale(self.project, known, &mut sources).is_some()
+            }
+            _ => names.iter().any(|name| is_of(measurement, name)),
+        };
+        let wanted: Vec<&Measurement> = measurements.iter().filter(|m| wanted(m)).collect();
+        faults.extend(measurement::renew(self.project, self.programs, &wanted, &stored, done)?);
+        Ok(faults)
     }
 
     fn ask_programs(&self) {

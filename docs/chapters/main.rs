@@ -6,6 +6,7 @@
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
+//! - `measure`: runs what gave the pages' figures, and fills those in
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -27,14 +28,19 @@ mod edition;
 mod exercise;
 mod expectation;
 mod fault;
+mod figure;
 mod gallery;
 mod laboratory;
 mod markdown;
+mod measurement;
 mod mention;
 mod mistake;
 mod moved;
 mod new;
+mod note;
+mod number;
 mod page;
+mod passage;
 mod patch;
 mod picture;
 mod placeholder;
@@ -49,6 +55,7 @@ mod sheet;
 mod shot;
 mod show;
 mod shrink;
+mod stored;
 mod stray;
 mod survey;
 mod taught;
@@ -134,6 +141,12 @@ enum Command {
         #[arg(long, value_name = "NAME", num_args = 0..)]
         pictures: Option<Vec<String>>,
     },
+    /// Run the commands that gave the figures of these pages or measurements, such as `05` or
+    /// `05_shadow_miss/acne`, or of all that are out of date, and fill the figures in
+    Measure {
+        /// Chapters, pages, measurements; a time is measured again only if it is named
+        names: Vec<String>,
+    },
     /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
     /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
     Survey {
@@ -184,7 +197,7 @@ fn parse() -> Result<Arguments> {
         // Without a command clap's error is the help, in which no line says what is missing.
         let line = text.lines().find_map(|line| line.strip_prefix("error: "));
         let line = line.unwrap_or(
-            "no command; there is list, diff, new, sync, survey, mistake, exercise, check",
+            "no command; there is list, diff, new, sync, measure, survey, mistake, exercise, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })
@@ -226,6 +239,7 @@ fn run(arguments: &Arguments) -> Result<()> {
             mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
         Command::Exercise(practice) => practice.run(&project),
+        Command::Measure { names } => measure(&project, names),
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;
@@ -268,6 +282,19 @@ fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
         })?;
         faults.extend(failed);
     }
+    report(&faults)
+}
+
+fn measure(project: &Project, names: &[String]) -> Result<()> {
+    let programs = Programs::beside_this(&project.root)?;
+    let mut faults = Book::open(project, &programs)?.measure(names, |line| {
+        let _ = print(&format!("{line}\n"));
+    })?;
+    let (changed, others) = Book::open(project, &programs)?.sync()?;
+    for file in changed {
+        print(&format!("{file}: renewed\n"))?;
+    }
+    faults.extend(others);
     report(&faults)
 }
 

@@ -177,6 +177,11 @@ impl Page {
         next
     }
 
+    /// The name of its file, without folder and extension.
+    pub fn stem(&self) -> &str {
+        self.path.rsplit('/').next().unwrap_or_default().trim_end_matches(".md")
+    }
+
     /// The page with other bodies in its blocks; `None`, or nothing, leaves one as it is.
     pub fn with_bodies(&self, bodies: &[Option<String>]) -> String {
         let mut text = String::new();

@@ -204,20 +204,23 @@ impl Sources {
             };
             files.extend(project.files("samples/assets").into_iter().filter(asset));
         }
-        let mut hash = FNV_OFFSET;
-        for file in files {
-            hash = fnv(hash, file.as_bytes());
-            match project.read(&file) {
-                Ok(text) => {
-                    hash = essential(&text).fold(hash, |hash, line| fnv(hash, line.as_bytes()))
-                }
-                Err(_) => hash = fnv(hash, &fs::read(project.root.join(&file)).unwrap_or_default()),
-            }
-        }
-        let hash = format!("{hash:016x}");
+        let hash = of_files(project, &files);
         self.0.insert(chapter.to_owned(), hash.clone());
         hash
     }
+}
+
+/// A hash of files, comments and blanks left out.
+pub fn of_files(project: &Project, files: &[String]) -> String {
+    let mut hash = FNV_OFFSET;
+    for file in files {
+        hash = fnv(hash, file.as_bytes());
+        match project.read(file) {
+            Ok(text) => hash = essential(&text).fold(hash, |hash, line| fnv(hash, line.as_bytes())),
+            Err(_) => hash = fnv(hash, &fs::read(project.root.join(file)).unwrap_or_default()),
+        }
+    }
+    format!("{hash:016x}")
 }
 
 /// The lines that have an effect: no comments, no unit tests.

@@ -9,6 +9,7 @@ use crate::gallery::is_other_page;
 use crate::mistake;
 use crate::project::{Project, SUMMARY};
 use crate::shader;
+use crate::stored;
 
 /// The folders in which every file has to be of use.
 const FOLDERS: [&str; 5] = ["docs", "samples", "shaders", "tests/golden", "tests/samples"];
@@ -60,6 +61,7 @@ fn why(
         // Whether they are whole, their own check says.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),
+        _ if file.starts_with(stored::FOLDER) => (true, ""),
         _ if name == "Cargo.toml" => {
             let member = format!("\"{folder}\",");
             (project.manifest.contains(&member), "it is no member of the workspace")

@@ -2,6 +2,8 @@
 
 mod author;
 mod exercises;
+#[cfg(unix)]
+mod figures;
 mod fixture;
 mod mistakes;
 mod named;

@@ -13,7 +13,7 @@ fn placeholders_are_named_with_file_and_line() {
         ),
         (
             "a cell that is an X",
-            |f| f.replace("docs/01_one.md", "| a ULP | 0.05 |", "| a ULP | X |"),
+            |f| f.replace("docs/01_one.md", "| a ULP | half |", "| a ULP | X |"),
             "docs/01_one.md:29: 'X' holds a place for something",
             "; write what belongs here",
         ),

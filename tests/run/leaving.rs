@@ -7,6 +7,7 @@ use reference::Ray;
 use reference::hit::Hit;
 use reference::scene::Scene;
 use reference::verdict::Answer;
+use serde_json::{Value, json};
 
 /// What became of a ray that left a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -185,8 +186,8 @@ pub struct Tally {
     pub lost: usize,
     /// Those of the lost that left a sliver, and passed an edge nearer than they had to be moved.
     pub slivers: usize,
-    /// The last of these slivers, and how far the start was moved.
-    sliver: String,
+    /// Length and width of the last of these slivers, and by how many gaps the start was moved.
+    sliver: [f64; 3],
     /// The first that is wrong and not excused.
     pub first: Option<String>,
 }
@@ -206,7 +207,7 @@ impl Tally {
                 if matches!(again, Some(Outcome::Right | Outcome::Close)) {
                     self.slivers += 1;
                     let ((length, width), moved) = (leaving.left(), leaving.moved());
-                    self.sliver = format!("{length:.3e} by {width:.3e}, moved {moved:.2} gaps");
+                    self.sliver = [length, width, moved];
                     return;
                 }
             }
@@ -217,12 +218,27 @@ impl Tally {
     }
 }
 
+impl Tally {
+    /// All of it as figures for a page.
+    pub fn figures(&self) -> Value {
+        let Self { rays, close, self_hits, lost, slivers, sliver: [length, width, moved], .. } =
+            self;
+        json!({ "rays": rays, "self_hits": self_hits, "lost": lost, "close": close,
+                "slivers": slivers, "length": length, "width": width, "moved": moved })
+    }
+}
+
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { rays, close, self_hits, lost, slivers, sliver, .. } = self;
+        let Self { rays, close, self_hits, lost, slivers, sliver: [length, width, moved], .. } =
+            self;
         write!(f, "{rays} rays, {self_hits} self-hits, {lost} lost, {close} close")?;
         if *slivers > 0 {
-            write!(f, "; {slivers} of the lost on slivers, the last {sliver}")?;
+            write!(
+                f,
+                "; {slivers} of the lost on slivers, the last {length:.3e} by {width:.3e}, "
+            )?;
+            write!(f, "moved {moved:.2} gaps")?;
         }
         Ok(())
     }

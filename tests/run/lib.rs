@@ -1,5 +1,6 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
+pub mod figures;
 pub mod leaving;
 pub mod narrow;
 pub mod plot;
@@ -56,9 +57,20 @@ pub fn program(name: &str) -> PathBuf {
 
 /// Renders headless under validation; a failure or a message is a failed test.
 pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
+    rendered(command(name), name, size, arguments)
+}
+
+/// Renders as [`render`] does, by the shaders of another folder.
+pub fn render_by(shaders: &Path, name: &str, size: &str, arguments: &[&str]) -> Run {
+    let mut command = command(name);
+    command.env("SHADERS", shaders);
+    rendered(command, name, size, arguments)
+}
+
+fn rendered(mut command: Command, name: &str, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
-    let output = command(name)
+    let output = command
         .args(["--headless", "--validate", "--report", "-", "--size", size, "--out"])
         .arg(&out)
         .args(arguments)
@@ -95,15 +107,7 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     );
     std::fs::write(folder.path().join("02_basic/camera.rgen"), text)
         .expect("a copy can be written");
-    let out = folder.path().join("out.exr");
-    let output = command("02_basic")
-        .env("SHADERS", folder.path())
-        .args(["--headless", "--validate", "--size", size, "--out"])
-        .arg(&out)
-        .output()
-        .expect("the sample starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    Picture::open_exr(&out).expect("the picture is an EXR")
+    render_by(folder.path(), "02_basic", size, &[]).picture
 }
 
 /// A copy of `shaders/` that a test may change.

@@ -9,6 +9,7 @@ use reference::scene::{Instance, Scene};
 use reference::transform::Transform;
 use reference::ulp::ulp_error;
 use reference::verdict::{Answer, Verdict};
+use serde_json::{Value, json};
 
 /// The reference's copy of a scene: the same f32 positions and matrices.
 pub fn reference(scene: &scene::Scene) -> Scene {
@@ -58,13 +59,28 @@ pub struct Tally {
     pub ulp_errors: Vec<f64>,
 }
 
+impl Tally {
+    /// The errors' median, what 99 of 100 are below, and the largest.
+    fn errors(&self) -> [f64; 3] {
+        let mut errors = self.ulp_errors.clone();
+        errors.sort_by(f64::total_cmp);
+        let at = |part: f64| errors.get((errors.len() as f64 * part) as usize).copied();
+        [at(0.5), at(0.99), errors.last().copied()].map(Option::unwrap_or_default)
+    }
+
+    /// All of it as figures for a page.
+    pub fn figures(&self) -> Value {
+        let Self { agree, ties, grazes, wrong, .. } = self;
+        let [half, most, worst] = self.errors();
+        json!({ "agree": agree, "ties": ties, "edges": grazes, "wrong": wrong,
+                "median": half, "p99": most, "most": worst })
+    }
+}
+
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { agree, ties, grazes, wrong, .. } = self;
-        let mut errors = self.ulp_errors.clone();
-        errors.sort_by(f64::total_cmp);
-        let at = |part: f64| errors.get((errors.len() as f64 * part) as usize).unwrap_or(&0.0);
-        let (half, most, worst) = (at(0.5), at(0.99), errors.last().unwrap_or(&0.0));
+        let [half, most, worst] = self.errors();
         write!(f, "{agree} rays agree, {ties} ties, {grazes} at edges, {wrong} wrong; ")?;
         write!(f, "t is off by {half:.1} ULP (median), {most:.1} (p99), {worst:.1} (most)")
     }

@@ -3,9 +3,10 @@
 use common::app::Picture;
 use common::scene::{Model, Scene, Texture};
 use reference::Ray;
+use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const NAME: &str = "03_any_hit";
 const SIZE: &str = "240x150";
@@ -39,6 +40,13 @@ fn differences(a: &Picture, b: &Picture) -> (usize, usize) {
 fn the_picture_is_the_golden_one() {
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &render(NAME, SIZE, &[]).picture, 0.002);
+}
+
+#[test]
+fn the_screen_is_few_triangles() {
+    let model = Scene::chess().unwrap().model;
+    let screen = model.meshes.iter().find(|mesh| mesh.name == "screen").unwrap();
+    figures::hold_exact("03_any_hit/screen", json!({ "triangles": screen.triangles.len() }));
 }
 
 #[test]
@@ -98,9 +106,11 @@ fn transparency_at_random_does_not_depend_on_the_order() {
     let unordered = hits(&["--set", "mode=random", "--unordered"]);
     let (ties, others) = differences(&ordered, &unordered);
     println!("{ties} ties");
+    let pixels = ordered.pixels.len();
+    figures::hold("03_any_hit/ties", json!({ "ties": ties, "pixels": pixels }));
     assert_eq!(others, 0, "pixels that differ though their distances do");
     // The feet of the pieces lie in the plane of the board: those ties are there, and no more.
-    assert!(ties < ordered.pixels.len() / 50, "{ties} ties");
+    assert!(ties < pixels / 50, "{ties} ties");
 }
 
 #[test]

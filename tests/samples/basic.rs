@@ -1,9 +1,10 @@
 //! 02_basic: the picture, and primary visibility held to the reference pixel by pixel.
 
 use common::scene::Scene;
+use serde_json::json;
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const SIZE: &str = "240x150";
 
@@ -27,9 +28,32 @@ fn every_hit_agrees_with_the_reference() {
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     println!("{tally}");
+    figures::hold("02_basic/hits", tally.figures());
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
     // Edges are thin: where more than one ray in five hundred needs an excuse, something is wrong.
     assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
     // The scene is no empty sky: most rays must have met something.
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
+}
+
+#[test]
+fn pieces_are_instances_of_few_meshes() {
+    let scene = Scene::chess().unwrap();
+    figures::hold_exact("02_basic/scene", json!({ "instances": scene.instances.len() }));
+    assert_eq!(scene.model.meshes.len(), 11);
+}
+
+/// How long a frame takes with its triangles in order, over how long it takes as they come.
+#[test]
+#[ignore = "takes times"]
+fn the_order_of_the_triangles_in_time() {
+    let time = |more: &[&str]| {
+        let run = render("02_basic", "800x600", &[&["--frames", "5"], more].concat());
+        run.report["gpu_milliseconds"]["min"].as_f64().unwrap()
+    };
+    let mut ratios: Vec<f64> = (0..20).map(|_| time(&[]) / time(&["--unordered"])).collect();
+    ratios.sort_by(f64::total_cmp);
+    let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);
+    println!("{ratio:.2}, middle half {low:.2} to {high:.2}");
+    figures::give_timed("02_basic/order", json!({ "ratio": ratio, "low": low, "high": high }));
 }

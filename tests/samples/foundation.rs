@@ -2,8 +2,9 @@
 //! program tells.
 
 use glam::DVec3;
+use serde_json::json;
 
-use run::{bits, command, golden, refused, render};
+use run::{bits, command, figures, golden, refused, render};
 
 const NAME: &str = "01_foundation";
 const SIZE: &str = "240x150";
@@ -48,6 +49,10 @@ fn every_pixel_agrees_with_the_ray_and_the_triangle_in_double_precision() {
         }
         assert!(hits > 1000 && misses > 1000, "{hits} hits, {misses} misses");
         println!("{size}: {hits} hits, {misses} misses, largest error {worst:e}");
+        if size == SIZE {
+            let found = json!({ "hits": hits, "misses": misses, "error": worst });
+            figures::hold("01_foundation/pixels", found);
+        }
     }
 }
 
@@ -71,6 +76,14 @@ fn the_report_holds_the_same_story() {
     let report = render(NAME, SIZE, &[]).report;
     let story = report["chapter"].as_array().unwrap();
     assert!(story.iter().any(|line| line.as_str().unwrap().starts_with("table")), "{report}");
+    let told = |word: &str| {
+        let line = story.iter().find_map(|line| line.as_str()?.strip_prefix("limits")).unwrap();
+        let number = line.split_once(&format!("{word} ")).unwrap().1.split([' ', ',', ';']).next();
+        number.unwrap().parse::<u32>().unwrap()
+    };
+    let limits =
+        json!({ "handle": told("handle"), "record": told("record"), "region": told("region") });
+    figures::hold("01_foundation/limits", limits);
     assert_eq!(report["groups"], 3);
     assert_eq!(report["stages"].as_array().unwrap().len(), 3);
     assert!(report["acceleration_structure_bytes"].as_u64().unwrap() > 0);

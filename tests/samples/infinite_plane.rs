@@ -10,9 +10,10 @@ use glam::{DVec3, Vec3};
 use reference::plane::Plane;
 use reference::ulp::ulp_error;
 use reference::{Ray, Surface};
+use serde_json::{Map, json};
 
 use run::primary_hits::{rays, reference};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -198,6 +199,7 @@ fn each_rung_is_as_good_as_it_promises() {
             }
         }
     }
+    let mut table = Map::new();
     for (rung, errors) in
         [("pov", &errors.pov), ("point", &errors.point), ("compensated", &errors.compensated)]
     {
@@ -215,8 +217,14 @@ fn each_rung_is_as_good_as_it_promises() {
                 at(0.5),
                 at(0.99)
             );
+            for (figure, value) in [("p50", at(0.5)), ("p99", at(0.99)), ("max", worst)] {
+                let name = format!("{rung}.{name}.{figure}").replace(' ', "-");
+                table.insert(name, (*value).into());
+            }
         }
     }
+    figures::hold("12_infinite_plane/errors", table.into());
+    figures::hold("12_infinite_plane/rays", json!({ "hits": hits }));
     println!("{hits} hits, {grazing} below 1e-5, {lost} cut off; pov at {worst_pov:.2} of its bar");
     assert!(grazing > 50 && lost > 50, "{grazing} {lost}");
     anchored.sort_by(f64::total_cmp);

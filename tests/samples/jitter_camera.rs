@@ -8,10 +8,11 @@ mod points;
 use common::app::Picture;
 use common::scene::Scene;
 use glam::DVec3;
+use serde_json::json;
 
 use self::points::{Scrambling, Sequence, sample_point};
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const NAME: &str = "04_jitter_camera";
 const SIZE: &str = "240x150";
@@ -274,6 +275,23 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
         println!("{sequence}: neighbours correlate by {most:.3} at most");
         assert!(most < 4.0 / (points.len() as f64).sqrt(), "{sequence}: {most}");
     }
+}
+
+/// What the page says of a key that is not reversed: its low bits, which are related, decide first.
+#[test]
+fn keys_that_are_not_reversed_relate_the_first_points_of_neighbours() {
+    let naive = |key: u32| f64::from(points::owen(0, key.reverse_bits())) * 0.5f64.powi(32) - 0.5;
+    let at = |x: u32, y: u32, axis: usize| naive(points::hash([x, y, 0, 1])[axis]);
+    let correlation = |axis: usize, (dx, dy): (u32, u32)| {
+        let places = (0..150).flat_map(|y| (0..240).map(move |x| (x, y)));
+        let products = places.map(|(x, y)| 12.0 * at(x, y, axis) * at(x + dx, y + dy, axis));
+        products.sum::<f64>() / (240.0 * 150.0)
+    };
+    let near = [(1, 0), (0, 1), (1, 1), (2, 0), (0, 2)];
+    let all = near.iter().flat_map(|&place| [0, 1].map(|axis| correlation(axis, place).abs()));
+    let most = all.fold(0.0, f64::max);
+    println!("{most:.2}");
+    figures::hold_exact("04_jitter_camera/neighbours", json!({ "correlation": most }));
 }
 
 #[test]

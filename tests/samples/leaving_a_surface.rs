@@ -2,6 +2,8 @@
 
 mod plots;
 
+use std::path::PathBuf;
+
 use common::app::Picture;
 use common::scene::{Camera, Light, Placement, Scene, Sun};
 use glam::DVec3;
@@ -10,7 +12,7 @@ use reference::scene::Scene as Exact;
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, golden, render};
+use run::{bits, golden, render, render_by};
 
 const NAME: &str = "26_leaving_a_surface";
 const SIZE: &str = "120x75";
@@ -64,6 +66,8 @@ struct Setting<'a> {
     camera: Camera,
     directions: Picture,
     hits: Picture,
+    /// The folder of other shaders, by which the rays leave.
+    shaders: Option<PathBuf>,
 }
 
 impl<'a> Setting<'a> {
@@ -82,12 +86,20 @@ impl<'a> Setting<'a> {
         let show = |view: &str| computed(arithmetic, size, &[&sets[..], &[view]].concat());
         let (directions, hits) = (show("show=ray direction"), show("show=hit"));
         let (exact, camera) = (reference(&scene), scene.camera);
-        Self { arithmetic, exact, camera, sets, size, directions, hits }
+        Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: None }
     }
 
     fn show(&self, rule: &str, sets: &[&str]) -> Picture {
         let rule = format!("origin={rule}");
-        computed(self.arithmetic, self.size, &[&self.sets[..], &[&rule], sets].concat())
+        let sets = [&self.sets[..], &[&rule], sets].concat();
+        match &self.shaders {
+            None => computed(self.arithmetic, self.size, &sets),
+            Some(shaders) => {
+                let arguments: Vec<&str> =
+                    sets.into_iter().flat_map(|set| ["--set", set]).collect();
+                render_by(shaders, NAME, self.size, &arguments).picture
+            }
+        }
     }
 
     /// Judges the ray number `bounce` of every pixel that starts by this rule, and the shadow ray of

@@ -7,10 +7,11 @@ use common::gpu::{Gpu, GpuOptions, RayTracingPipeline, Requirements};
 use common::scene::{Light, Scene, Sun};
 use glam::{DVec3, Vec3};
 use reference::Ray;
+use serde_json::json;
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, golden, refused, render};
+use run::{bits, figures, golden, refused, render};
 
 const NAME: &str = "06_reflection";
 const SIZE: &str = "120x75";
@@ -161,6 +162,11 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
             shadows.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
         }
     }
+    let both =
+        json!({ "rays": mirrored.rays + shadows.rays, "lost": mirrored.lost + shadows.lost });
+    figures::hold("06_reflection/mirrored", mirrored.figures());
+    figures::hold("06_reflection/shadows", shadows.figures());
+    figures::hold("06_reflection/both", both);
     for tally in [mirrored, shadows] {
         println!("{tally}");
         // The height of a sliver is larger than what the reference allows; 26 has a smaller one.

@@ -1,13 +1,16 @@
 //! 05_shadow_miss: shadows held to the reference, and what each choice must not change.
 
+mod offsets;
+
 use common::app::Picture;
 use common::scene::{PointLight, Scene, Sun};
 use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::scene::Scene as Exact;
+use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const NAME: &str = "05_shadow_miss";
 const SIZE: &str = "240x150";
@@ -106,6 +109,11 @@ fn every_shadow_ray_gets_the_reference_s_answer() {
             println!(
                 "{light}, {terminator}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away"
             );
+            if (light, terminator) == ("light=directional", "smooth terminator=off") {
+                let found =
+                    json!({ "surfaces": all, "lit": lit, "edges": edges, "turned_away": sides });
+                figures::hold("05_shadow_miss/rays", found);
+            }
             assert!(lit > all / 4 && lit < all * 9 / 10, "{lit} of {all}");
             // Most of those start beside an edge that the own triangle shares with one in the same plane.
             assert!(edges * 100 < all, "{edges} of {all}");
@@ -168,6 +176,11 @@ fn shadows_are_those_of_the_exact_hit_points() {
             "{light}: {differ} of {all} differ; origins are {highest:.1e} high at most, \
              {highest_on_slivers:.1e} on slivers, {farthest:.1e} from the exact hit"
         );
+        if light == "light=directional" {
+            let found = json!({ "differ": differ, "surfaces": all, "height": highest,
+                                "height_on_slivers": highest_on_slivers, "moved": farthest });
+            figures::hold("05_shadow_miss/origins", found);
+        }
         assert!(differ * 500 < all, "{differ} of {all}");
         // A board's square is 1: a shadow begins where the piece stands.
         assert!(highest < 1e-4 && highest_on_slivers < 2e-3, "{highest} {highest_on_slivers}");
@@ -192,6 +205,7 @@ fn lifting_the_origin_changes_only_what_turns_away_from_the_light() {
     }
     let all = flat.len();
     println!("{lifted} of {all} lifted by up to {highest:.1e}; {lit} became lit, {dark} dark");
+    figures::hold("05_shadow_miss/lift", json!({ "height": highest }));
     assert!(lit > 10 && lit * 20 < all && dark * 100 < all, "{lit} lit, {dark} dark");
     // The pieces are turned from 32 sides or so: r·(1 - cos(π/32)) is below a hundredth.
     assert!(highest < 0.01, "{highest}");

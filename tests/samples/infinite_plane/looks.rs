@@ -3,10 +3,11 @@
 use common::scene::Camera;
 use glam::DVec3;
 use reference::sphere::Sphere;
+use serde_json::json;
 
 use super::{Octahedron, PLANE, level, shown};
-use run::bits;
 use run::primary_hits::rays;
+use run::{bits, figures};
 
 #[test]
 fn inside_and_outside_are_told_apart() {
@@ -136,6 +137,8 @@ fn the_checker_board_is_averaged_over_each_pixel() {
         "{count} pixels: filtered off by {filtered_error:.3} (most {worst:.2}), \
          at the middle by {point_error:.3}"
     );
+    let found = json!({ "rays": FINE * FINE, "filtered": filtered_error, "point": point_error });
+    figures::hold("12_infinite_plane/checker", found);
     assert!(count > 1000 && filtered_error < 0.06 && point_error > 4.0 * filtered_error);
     // Towards the horizon all is grey, and nothing is cut off.
     let horizon = filtered.iter().filter(|pixel| pixel[0] == PLANE && pixel[2] > 60.0);

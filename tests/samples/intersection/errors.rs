@@ -30,6 +30,14 @@ impl Errors {
         sorted.get(place).or(sorted.last()).copied().unwrap_or(0.0)
     }
 
+    /// The figures of a row of the page's table; rays are counted as parts of all.
+    pub fn figures(&self) -> [(&'static str, f64); 5] {
+        let part = |count: usize| count as f64 / self.rays as f64;
+        let [p50, p99, max] = [0.5, 0.99, 1.0].map(|part| self.at(part));
+        let [hits, misses] = [self.false_hits, self.false_misses].map(part);
+        [("p50", p50), ("p99", p99), ("max", max), ("false_hits", hits), ("false_misses", misses)]
+    }
+
     /// A row of the page's table.
     pub fn row(&self) -> String {
         format!(

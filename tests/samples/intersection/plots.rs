@@ -4,11 +4,13 @@ use common::app::Picture;
 use common::scene::Camera;
 use glam::DVec3;
 use reference::sphere::Sphere;
+use serde_json::Map;
 
 use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
 use super::shapes::SceneKind;
 use super::{picture, shapes};
+use run::figures;
 use run::plot::{Shown, draw_panels};
 
 /// The page's table and its error maps: `UPDATE=1` writes the picture.
@@ -20,6 +22,7 @@ fn errors_at_every_distance() {
     let distances = [1.0, 1e2, 1e4];
     let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
     let mut rows: [Vec<(String, Picture)>; 4] = Default::default();
+    let mut table = Map::new();
     println!("| rung | distance | p50 | p99 | max | false hits | false misses |");
     for distance in distances {
         for rung in RUNGS {
@@ -43,6 +46,9 @@ fn errors_at_every_distance() {
                 errors.ulp.extend(one.ulp);
             }
             println!("| {rung} | {distance} | {} |", errors.row());
+            let name = format!("{distance}.{}", rung.replace(' ', "-"));
+            let figures = errors.figures();
+            table.extend(figures.map(|(figure, value)| (format!("{name}.{figure}"), value.into())));
             let Some(row) = ["textbook", "stable"].iter().position(|&shown| shown == rung) else {
                 continue;
             };
@@ -52,6 +58,7 @@ fn errors_at_every_distance() {
             rows[2 * row + 1].push((errors.label(), map));
         }
     }
+    figures::hold("08_intersection/errors", table.into());
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         draw_panels("08_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
     }

@@ -5,6 +5,7 @@ use glam::DVec3;
 use reference::Ray;
 use reference::sphere::Sphere;
 use reference::ulp::ulp_error;
+use serde_json::{Map, json};
 
 use super::errors::Errors;
 use super::reference_shapes::ReferenceShapes;
@@ -12,7 +13,7 @@ use super::shapes::SceneKind;
 use super::{NAME, SIZE, picture, shapes};
 use common::app::Picture;
 use run::primary_hits::{answer, rays};
-use run::render;
+use run::{figures, render};
 
 /// The rays and t of a picture that shows ray directions: t below 0 is a miss.
 pub fn with_t(camera: &Camera, picture: &Picture) -> Vec<(Ray, Option<f32>)> {
@@ -69,6 +70,7 @@ fn each_rung_keeps_its_bar_at_every_distance() {
 fn the_hosts_c_keeps_a_planet() {
     let exact = ReferenceShapes::new(SceneKind::Planet, 0);
     let camera = shapes::camera(SceneKind::Planet, Camera::default(), 0, 0.0);
+    let mut table = Map::new();
     for rung in RUNGS {
         let set = format!("sphere rung={rung}");
         let sets = ["scene=planet", &set];
@@ -84,10 +86,14 @@ fn the_hosts_c_keeps_a_planet() {
             }
         }
         println!("| {rung} | planet | {} |", errors.row());
+        let name = rung.replace(' ', "-");
+        let figures = errors.figures().into_iter().take(3);
+        table.extend(figures.map(|(figure, value)| (format!("{name}.{figure}"), value.into())));
         assert!(errors.ulp.len() > 3000, "{rung}: {} hits", errors.ulp.len());
         let p99 = errors.at(0.99);
         assert!(if rung == "host c" { p99 <= 10.0 } else { p99 > 1000.0 }, "{rung}: {p99}");
     }
+    figures::hold("08_intersection/planet", table.into());
 }
 
 #[test]
@@ -150,6 +156,8 @@ fn a_ray_along_a_wall_hits_it_only_by_division() {
     };
     let (reciprocal, division) = (count("reciprocal"), count("division"));
     println!("rays along a wall: {reciprocal} hits by reciprocals, {division} by division");
+    let found = json!({ "reciprocal": reciprocal, "division": division });
+    figures::hold("08_intersection/walls", found);
     assert!(division > 30 && reciprocal < division / 2, "{reciprocal} {division}");
 }
 
@@ -168,11 +176,12 @@ fn the_margin_offers_every_hit() {
         }
         println!("{margin}: of {hits} rays that hit a grain, {never} were offered none");
         assert!(hits > 200, "{hits}");
-        never
+        (hits, never)
     };
-    assert_eq!(count("margin=on"), 0);
+    assert_eq!(count("margin=on").1, 0);
     // What llvmpipe does without; a device that widens boxes by itself may do better.
-    let never = count("margin=off");
+    let (hits, never) = count("margin=off");
+    figures::hold("08_intersection/margin", json!({ "hits": hits, "never": never }));
     let device = render(NAME, "8x5", &[]).report["device"].as_str().unwrap().to_owned();
     assert!(never > 20 || !device.contains("llvmpipe"), "{never}");
 }

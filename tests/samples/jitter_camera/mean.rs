@@ -2,8 +2,10 @@
 
 use common::app::Picture;
 
+use serde_json::Map;
+
 use super::{SMALL, run};
-use run::{bits, render};
+use run::{bits, figures, render};
 
 /// Frames after which the mean must still be right.
 const MANY: u32 = 100_000;
@@ -111,6 +113,7 @@ fn the_mean_is_right_after_a_hundred_thousand_frames() {
     println!(
         "| a pixel's frames | sum, divided | running mean | the mean's bound |\n|---|---|---|---|"
     );
+    let mut errors = Map::new();
     for (name, value) in inputs() {
         let mut means = Means::default();
         for i in 0..MANY {
@@ -119,6 +122,9 @@ fn the_mean_is_right_after_a_hundred_thousand_frames() {
         let [sum, mean] = means.errors();
         let bound = means.bound / f64::from(MANY) / means.exact();
         println!("| {name} | {sum:.1e} | {mean:.1e} | {bound:.1e} |");
+        for (figure, value) in [("sum", sum), ("mean", mean), ("bound", bound)] {
+            errors.insert(format!("{name}: {figure}").replace(' ', "-"), value.into());
+        }
         assert!(mean <= bound, "{name}: {mean} above {bound}");
         // Each frame's weight is positive, so that rounding cannot weigh more than n times U.
         assert!(bound <= f64::from(MANY) * U * 1.01, "{name}: the bound is {bound}");
@@ -127,13 +133,14 @@ fn the_mean_is_right_after_a_hundred_thousand_frames() {
             assert!(sum > 1e-4, "the sum is better than its reputation: {sum}");
         }
     }
+    figures::hold_exact("04_jitter_camera/means", errors.into());
 }
 
 #[test]
 fn a_running_sum_stalls_and_the_mean_does_not() {
     println!("| frames of 0.1 | sum | sum, divided | running mean |\n|---|---|---|---|");
     let mut means = Means::default();
-    let mut stalled = None;
+    let (mut stalled, mut sums) = (None, Map::new());
     for frame in 1..=50_000_000u32 {
         let before = means.sum;
         means.add(0.1);
@@ -143,11 +150,16 @@ fn a_running_sum_stalls_and_the_mean_does_not() {
         let shown = [1_000, 100_000, 1_000_000, 10_000_000, 50_000_000].contains(&frame);
         if shown || stalled == Some(frame) {
             let Means { count, mean, sum, .. } = means;
-            println!("| {count} | {sum} | {} | {mean} |", f64::from(sum) / f64::from(count));
+            let divided = f64::from(sum) / f64::from(count);
+            println!("| {count} | {sum} | {divided} | {mean} |");
+            sums.insert(format!("{count}.sum"), sum.into());
+            sums.insert(format!("{count}.divided"), divided.into());
+            sums.insert(format!("{count}.mean"), mean.into());
         }
     }
     // Above 2^21 floats are a quarter apart, and a tenth is less than half of that.
     assert_eq!(means.sum, (1u32 << 21) as f32);
     assert!(stalled.is_some());
     assert_eq!(means.mean, 0.1);
+    figures::hold_exact("04_jitter_camera/sums", sums.into());
 }

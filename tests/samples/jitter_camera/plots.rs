@@ -2,12 +2,13 @@
 //! `cargo test --test samples jitter_camera::plots -- --ignored --nocapture`.
 
 use common::app::Picture;
+use serde_json::Map;
 
 use super::converging::shrunk;
 use super::points::{Scrambling, Sequence, sample_point};
 use super::{NAME, error, offsets, part_below, run};
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
-use run::render;
+use run::{figures, render};
 
 /// The sequences, each with the scrambling that suits it.
 const SEQUENCES: [(&str, &str, Sequence, Scrambling); 4] = [
@@ -112,10 +113,15 @@ fn scrambling() {
     });
     draw_panels("04_scrambling.png", 4, &[row.collect()]);
     println!("| pixels averaged | none | Owen |\n|---|---|---|");
+    let mut blocks = Map::new();
     for side in [1, 2, 4, 8, 16] {
         let error = |picture| error(&shrunk(picture, side), &shrunk(&reference, side));
-        println!("| {side}×{side} | {:.5} | {:.5} |", error(&pictures[0]), error(&pictures[1]));
+        let [none, owen] = [&pictures[0], &pictures[1]].map(error);
+        println!("| {side}×{side} | {none:.5} | {owen:.5} |");
+        blocks.insert(format!("{side}.none"), none.into());
+        blocks.insert(format!("{side}.Owen"), owen.into());
     }
+    figures::hold("04_jitter_camera/blocks", blocks.into());
 }
 
 #[test]
@@ -131,14 +137,22 @@ fn errors() {
         FRAMES.map(|frames| (frames, of(frames)))
     });
     println!(
-        "| sequence | ms a frame | 1 | 4 | 16 | 64 | 256 | falls as |\n|---|---|---|---|---|---|---|---|"
+        "| sequence | ms a frame | 1 | 4 | 16 | 64 | 256 | power of $N$ |\n|---|---|---|---|---|---|---|---|"
     );
+    let (mut held, mut spans) = (Map::new(), Map::new());
     for (((sequence, ..), time), curve) in SEQUENCES.iter().zip(&times).zip(&curves) {
         let shown = [0, 2, 4, 6, 8].map(|i| format!("{:.4}", curve[i].1)).join(" | ");
         // From 4 samples on: the first ones are too few for a pattern.
         let slope = (curve[9].1 / curve[2].1).log2() / 7.0;
-        println!("| {sequence} | {time:.2} | {shown} | N^{slope:.2} |");
+        held.extend(
+            [0, 2, 4, 6, 8].map(|i| (format!("{sequence}.{}", curve[i].0), curve[i].1.into())),
+        );
+        held.insert(format!("{sequence}.slope"), slope.into());
+        spans.insert((*sequence).to_owned(), (*time).into());
+        println!("| {sequence} | {time:.2} | {shown} | {slope:.2} |");
     }
+    figures::hold("04_jitter_camera/errors", held.into());
+    figures::give_timed("04_jitter_camera/milliseconds", spans.into());
     let y = Axis {
         label: "root mean squared error",
         ticks: &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1],

@@ -2,8 +2,10 @@
 //! `cargo test --test samples reflection::plots -- --ignored --nocapture`.
 
 use common::app::Picture;
+use serde_json::Map;
 
 use super::picture;
+use run::figures;
 use run::plot::{Shown, draw_panels};
 
 #[test]
@@ -33,10 +35,19 @@ fn table_of_depths() {
         picture("960x600", &[&format!("depth={depth}"), &minimum])
     };
     let deepest = show(8, "0");
-    for depth in 0..8 {
-        println!("| {depth} | {:.5} |", error(&show(depth, "0"), &deepest));
+    let mut errors = Map::new();
+    for depth in 0..=8 {
+        let error = error(&show(depth, "0"), &deepest);
+        println!("| {depth} | {error:.5} |");
+        errors.insert(format!("depth.{depth}"), error.into());
     }
     for minimum in ["0", "0.001953125", "0.01", "0.05"] {
-        println!("| {minimum} | {:.5} |", error(&show(8, minimum), &deepest));
+        let error = error(&show(8, minimum), &deepest);
+        println!("| {minimum} | {error:.5} |");
+        errors.insert(format!("minimum.{minimum}"), error.into());
     }
+    let of = |name: &str| errors[name].as_f64().unwrap();
+    let times = of("depth.4") / of("minimum.0.001953125");
+    errors.insert("times".to_owned(), times.into());
+    figures::hold("06_reflection/errors", errors.into());
 }

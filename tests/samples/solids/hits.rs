@@ -6,12 +6,14 @@ use reference::Ray;
 use reference::solid::Solid as ReferenceSolid;
 use reference::solid::bound::Stray;
 use reference::transform::{Transform, U};
+use serde_json::{Map, json};
 
 use super::counterpart::{counterpart, largest};
 use super::shapes::SHAPES;
 use super::stub::Stub;
-use super::tally::{Tally, at};
+use super::tally::{Tally, at, figures};
 use super::{FIELD_OF_VIEW, INSIDE, OUTSIDE, is_endless, shape};
+use run::figures as held;
 use run::primary_hits::rays;
 
 /// Holds views of solids to the exact ones.
@@ -47,6 +49,11 @@ fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
 fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
     let all = all_shapes(&Stub::new(), &[]);
     println!("all: {all}");
+    let (near, wrong) = (all.near, all.wrong.len());
+    let counts = json!({ "hits": all.hits, "misses": all.misses, "near": near, "wrong": wrong });
+    held::hold("22_solids/hits", counts);
+    let errors = [figures("planes", &all.planes), figures("balls", &all.balls)];
+    held::hold("22_solids/errors", errors.into_iter().flatten().collect::<Map<_, _>>().into());
     assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
     assert!(all.hits > 12_000 && all.near * 2000 < all.hits, "{all}");
     // Three roundings that all add up: height, slope, quotient.
@@ -62,6 +69,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
     let directions = stub.seen(far, "cube", &["show=ray direction", field]);
     let far_rays: Vec<Ray> = rays(&Camera::new(far.0, far.1, 2.5), &directions).collect();
     let near_rays = stub.rays(OUTSIDE);
+    let mut table = Map::new();
     for rung in ["pov", "point", "compensated"] {
         let set = format!("rung={rung}");
         for (place, view, rays, more) in
@@ -78,6 +86,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
                 }
             }
             println!("{rung:12} {place}: {tally}");
+            table.extend(figures(&format!("{rung}.{place}"), &tally.planes));
             assert!(tally.wrong.is_empty() && tally.hits > 500, "{tally}, {:?}", tally.wrong);
             let worst = at(&tally.planes, 1.0);
             // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.
@@ -88,6 +97,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
             assert!(promised, "{rung} {place}: {worst} ULP");
         }
     }
+    held::hold("22_solids/sums", table.into());
 }
 
 /// Where the solid stands: turned by 33 degrees, so many times as large, and moved.
@@ -138,6 +148,9 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
             }
         }
         println!("{sets:?}: {all}");
+        if moved == far {
+            held::hold("22_solids/far", json!({ "p50": at(&all.planes, 0.5) }));
+        }
         assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
         // Ten thousand away, a step of f32 is a seventieth of a pixel.
         let most = if moved == DVec3::ZERO { all.hits / 500 } else { all.hits / 5 };

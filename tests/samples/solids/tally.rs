@@ -6,6 +6,7 @@ use reference::Ray;
 use reference::solid::Solid as ReferenceSolid;
 use reference::solid::bound::{Found, Stray, Verdict};
 use reference::ulp::ulp_error;
+use serde_json::Value;
 
 /// How the answers of a picture came out.
 #[derive(Default)]
@@ -61,6 +62,12 @@ impl Tally {
         self.planes.extend(other.planes);
         self.balls.extend(other.balls);
     }
+}
+
+/// The errors' median, what 99 of 100 are below, and the largest, as figures for a page.
+pub fn figures(name: &str, errors: &[f64]) -> [(String, Value); 3] {
+    let part = |(figure, part)| (format!("{name}.{figure}"), at(errors, part).into());
+    [("p50", 0.5), ("p99", 0.99), ("max", 1.0)].map(part)
 }
 
 /// The error that so large a part stays below.

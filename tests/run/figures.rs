@@ -1,0 +1,63 @@
+//! Figures that pages print: a test holds them to what `docs/figures` has stored of them.
+//!
+//! `cargo chapters measure` runs the test with the environment variable `FIGURES`: then what it gave goes
+//! to that folder, and the tool stores it.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use serde_json::{Value, json};
+
+use crate::{render, root};
+
+/// The device that the samples take, and its driver.
+static DEVICE: LazyLock<(Value, Value)> = LazyLock::new(|| {
+    let mut report = render("01_foundation", "16x10", &[]).report;
+    (report["device"].take(), report["driver"].take())
+});
+
+/// Holds figures that this device gives in every run: `values` is an object of numbers, in the order in
+/// which the page shows them, and `name` such as `05_shadow_miss/acne`.
+///
+/// Another device than that of the stored ones may give others.
+pub fn hold(name: &str, values: Value) {
+    let (device, driver) = &*DEVICE;
+    settle(name, false, (device.clone(), driver.clone()), values);
+}
+
+/// Holds figures that the test computes by itself: they are the same everywhere.
+pub fn hold_exact(name: &str, values: Value) {
+    settle(name, false, ("host".into(), "".into()), values);
+}
+
+/// Gives figures that differ from run to run, such as times: nothing is compared.
+pub fn give_timed(name: &str, values: Value) {
+    if std::env::var_os("FIGURES").is_some() {
+        let (device, driver) = &*DEVICE;
+        settle(name, true, (device.clone(), driver.clone()), values);
+    }
+}
+
+fn settle(name: &str, timed: bool, (device, driver): (Value, Value), values: Value) {
+    let given = json!({ "timed": timed, "device": device, "driver": driver, "values": values });
+    let numbers = values.as_object().expect("figures are an object");
+    assert!(numbers.values().all(Value::is_number), "{name}: not all are numbers: {values}");
+    if let Some(folder) = std::env::var_os("FIGURES") {
+        let file = Path::new(&folder).join(format!("{name}.json"));
+        std::fs::create_dir_all(file.parent().expect("a page's folder")).expect("a folder");
+        std::fs::write(&file, given.to_string()).expect("figures can be written");
+        return;
+    }
+    let file = root().join(format!("docs/figures/{name}.json"));
+    let renew = format!("run: cargo chapters measure {name}");
+    let text = std::fs::read_to_string(&file)
+        .unwrap_or_else(|error| panic!("no {}: {error}; {renew}", file.display()));
+    let stored: Value = serde_json::from_str(&text)
+        .unwrap_or_else(|error| panic!("{} is damaged: {error}; {renew}", file.display()));
+    let others = [&stored["device"], &stored["driver"]] != [&given["device"], &given["driver"]];
+    if others {
+        println!("{name}: stored of {}, {}; here {values}", stored["device"], stored["driver"]);
+        return;
+    }
+    assert_eq!(stored["values"], values, "{name} is not what {} has; {renew}", file.display());
+}

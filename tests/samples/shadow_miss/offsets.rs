@@ -1,0 +1,77 @@
+//! Where shadow rays start in patched copies of the shaders: what the bound on the offset prevents and costs.
+
+use std::fs;
+
+use common::app::Picture;
+use serde_json::{Map, json};
+
+use super::NAME;
+use run::{copy_of_shaders, figures, render_by};
+
+/// Runs with a line of a shader replaced, and returns a picture of 480×300 and the milliseconds of a frame.
+fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
+    let shaders = copy_of_shaders();
+    let path = shaders.path().join(NAME).join(file);
+    let text = fs::read_to_string(&path).unwrap();
+    assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
+    fs::write(&path, text.replace(from, to)).unwrap();
+    let sets = [&["--set", "smooth terminator=off"], more].concat();
+    let run = render_by(shaders.path(), NAME, "480x300", &sets);
+    let milliseconds = run.report["gpu_milliseconds"]["min"].as_f64().unwrap();
+    (run.picture, milliseconds)
+}
+
+/// The bound of `place.glsl`, and the line of `shade.rchit` after which a hit has its place.
+const BOUND: &str = "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);";
+const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
+
+/// What becomes dark by mistake where the origin is nearer to the surface than the bound says.
+#[test]
+fn specks_come_where_the_bound_is_not_kept() {
+    let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
+    let right = shadow("place.glsl", BOUND, BOUND);
+    let is_lit = |pixel: &&[f32; 4]| pixel[0] == 1.0 && pixel[2] == 1.0;
+    let lit = right.pixels.iter().filter(is_lit).count();
+    let dark = |picture: &Picture| {
+        let pairs = right.pixels.iter().zip(&picture.pixels);
+        pairs.filter(|(before, after)| is_lit(before) && after[0] == 0.0).count()
+    };
+    let mut scaled = Map::new();
+    for factor in ["1.0", "0.3", "0.1", "0.03", "0.01", "0.0"] {
+        let picture = shadow(
+            "place.glsl",
+            BOUND,
+            &BOUND.replace("ROUNDING", &format!("{factor} * ROUNDING")),
+        );
+        scaled.insert(factor.to_owned(), dark(&picture).into());
+    }
+    println!("{lit} lit; dark by the offset's factor: {scaled:?}");
+    let from_t = format!(
+        "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
+         hit.height = 0.0;\n"
+    );
+    let acne = dark(&shadow("shade.rchit", PLACED, &from_t));
+    println!("{acne} dark where the ray starts at o + t d");
+    figures::hold("05_shadow_miss/scaled", scaled.into());
+    figures::hold("05_shadow_miss/acne", json!({ "lit": lit, "dark": acne }));
+    assert!(acne > lit / 10, "{acne} of {lit}");
+}
+
+/// A frame's time with the bound, over that with an offset that is chosen by eye.
+#[test]
+#[ignore = "takes times"]
+fn the_bound_in_time() {
+    let by_eye = format!(
+        "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
+         hit.height = 0.001;\n"
+    );
+    let time = |to: &str| patched("shade.rchit", PLACED, to, &["--frames", "5"]).1;
+    let mut ratios: Vec<f64> = (0..20).map(|_| time(PLACED) / time(&by_eye)).collect();
+    ratios.sort_by(f64::total_cmp);
+    let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);
+    println!("{ratio:.2}, middle half {low:.2} to {high:.2}");
+    figures::give_timed(
+        "05_shadow_miss/bound",
+        json!({ "ratio": ratio, "low": low, "high": high }),
+    );
+}
