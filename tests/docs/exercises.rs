@@ -82,11 +82,16 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         (
             "Takes: shader",
             "Takes: time",
-            "3: an exercise takes no 'time'; write look, shader or Rust",
+            "3: an exercise takes no 'time'; write look, shader, file or Rust",
         ),
         (
             "Takes: shader",
             "Takes: Rust",
+            "3: the diff changes shaders alone; write `Takes: shader`",
+        ),
+        (
+            "Takes: shader",
+            "Takes: file",
             "3: the diff changes shaders alone; write `Takes: shader`",
         ),
         (
