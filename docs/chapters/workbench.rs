@@ -135,7 +135,9 @@ impl<'a> Workbench<'a> {
             Takes::Look => return String::new(),
             Takes::Shader => format!("Edit in {shown}, a copy of the shaders: {places}"),
             Takes::File | Takes::Rust => {
-                format!("Edit in the project itself, and undo it with `git restore`: {places}")
+                format!(
+                    "Edit in the project itself; `git restore` undoes it, but for new files: {places}"
+                )
             }
         };
         format!(
