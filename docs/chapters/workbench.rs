@@ -67,7 +67,12 @@ impl<'a> Workbench<'a> {
     pub fn set_up(&self) -> Result<bool> {
         let built = || self.programs.command(&self.exercise.chapter);
         match self.exercise.takes {
-            Takes::Look => built().map(|_| true).map_err(|what| anyhow!("{what}; {BUILD}")),
+            Takes::Look => {
+                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                // Where the command that is told writes its picture.
+                fs::create_dir_all(self.project.root.join("target/exercises"))?;
+                Ok(true)
+            }
             Takes::Shader => {
                 built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
                 let filled =
