@@ -11,12 +11,13 @@ use common::app::Picture;
 
 use crate::command::quoted;
 use crate::edition::{Edition, Patched};
-use crate::exercise::{Exercise, Run, Step, Takes, sized};
+use crate::exercise::{Exercise, Takes};
 use crate::expectation::{Expectation, Other};
 use crate::picture::hash;
 use crate::program::Programs;
 use crate::project::Project;
 use crate::seen::Seen;
+use crate::step::{Run, Step, sized};
 
 /// How long a program may take.
 const LIMIT: Duration = Duration::from_secs(60);

@@ -6,10 +6,9 @@ use anyhow::Result;
 
 use crate::anchor::anchors;
 use crate::body::body;
-use crate::exercise::Exercise;
 use crate::fault::Fault;
 use crate::figure;
-use crate::markdown::{Markdown, check_formulas, check_links, local};
+use crate::markdown::{Markdown, local};
 use crate::measurement::{self, Measurement};
 use crate::mistake::Mistake;
 use crate::page::{Kind, Page};
@@ -19,9 +18,7 @@ use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
 use crate::stored::{self, Stored};
 use crate::trial::Trial;
-use crate::{
-    agree, card, command, exercise, gallery, mention, placeholder, stray, taught, test, try_it,
-};
+use crate::{agree, card, exercise, gallery, stray, taught, text, try_it};
 
 /// The book of a project.
 pub struct Book<'a> {
@@ -54,7 +51,7 @@ impl<'a> Book<'a> {
             faults.extend(self.stale_blocks(page));
             faults.extend(try_it::check(self.project, page));
             let written = Markdown::parse(&page.written());
-            faults.extend(self.wrong_texts(&files, page, &written));
+            faults.extend(text::check(self.project, self.programs, &files, page, &written));
             faults.extend(self.title(page, &written));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }
@@ -73,7 +70,8 @@ impl<'a> Book<'a> {
             faults.extend(mistake.stale(self.project, &mut sources));
             linked.insert(mistake.picture());
         }
-        faults.extend(self.wrong_exercises(&files));
+        faults.extend(exercise::check(self.project));
+        faults.extend(text::check_exercises(self.project, self.programs, &files));
         faults.extend(self.wrong_figures(&mut sources));
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
@@ -156,31 +154,6 @@ impl<'a> Book<'a> {
             }
         }
         (pictures, faults)
-    }
-
-    /// What a text names and is not there, or is not as it says.
-    fn wrong_texts(&self, files: &Files, page: &Page, written: &Markdown) -> Vec<Fault> {
-        let (project, path) = (self.project, &*page.path);
-        let mut faults = placeholder::check(page);
-        faults.extend(mention::check(project, page));
-        faults.extend(check_links(project, path, &written.links));
-        faults.extend(check_formulas(path, &written.formulas));
-        faults.extend(command::check(project, self.programs, path, &written.code));
-        faults.extend(test::check(project, path, &written.code));
-        faults.extend(files.check(page, written));
-        faults
-    }
-
-    /// What is wrong with the exercises, and with what their texts name.
-    fn wrong_exercises(&self, files: &Files) -> Vec<Fault> {
-        let mut faults = exercise::check(self.project);
-        for exercise in Exercise::all(self.project).0 {
-            let texts = try_it::texts(self.project, &exercise);
-            let written = Markdown::parse(&texts.written());
-            let wrong = self.wrong_texts(files, &texts, &written).into_iter();
-            faults.extend(wrong.map(|fault| Fault { file: exercise.patch.file.clone(), ..fault }));
-        }
-        faults
     }
 
     /// Figures that are not what was measured, and measurements that are out of date.

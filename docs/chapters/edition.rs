@@ -19,7 +19,7 @@ const COPY: &str = "target/mistakes/copy";
 const BUILT: &str = "target/mistakes/build";
 const LOCK: &str = "target/mistakes/lock";
 
-/// How long tests may take.
+/// How long tests may take once they are built.
 const LIMIT: Duration = Duration::from_secs(600);
 
 /// An edition.
@@ -128,6 +128,12 @@ impl Edition {
         programs: &Programs,
         (program, filter): (&str, &str),
     ) -> Result<Tested> {
+        // A build may take as long as it will, and only once.
+        let (mut build, _) = self.cargo("test", project, programs);
+        let built = build.args(["--no-run", "--test", program]).output();
+        let built = built.context("cargo does not start")?;
+        let said = String::from_utf8_lossy(&built.stderr);
+        ensure!(built.status.success(), "the tests do not build: {}", first_error(&said));
         let (mut cargo, _) = self.cargo("test", project, programs);
         cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
         let ended = child::run(&mut cargo, LIMIT).context("cargo does not start")?;
@@ -138,7 +144,7 @@ impl Edition {
         let results = tested.said.lines().filter_map(|line| line.strip_prefix("test result: "));
         let results: Vec<&str> = results.collect();
         if results.is_empty() {
-            bail!("the tests do not build: {}", first_error(&ended.said));
+            bail!("the tests do not run: {}", first_error(&ended.said));
         }
         let count = |word: &str| -> usize {
             let found = results.iter().flat_map(|line| line.split([';', '.']));

@@ -9,10 +9,11 @@ use std::fmt;
 use anyhow::Result;
 use common::usage::Usage;
 
-use crate::expectation::{Expectation, FORMS, number};
+use crate::amount::{Amount, number};
 use crate::fault::Fault;
 use crate::patch::{Field, Patch};
 use crate::project::{Chapter, Project};
+use crate::step::{Run, Step, steps};
 
 /// Where the exercises lie.
 pub const FOLDER: &str = "docs/exercises";
@@ -21,12 +22,6 @@ pub const FOLDER: &str = "docs/exercises";
 const FORM: &str = "write a title, a blank line, `Takes: shader`, `Text`, `Check`, `Hint`, `Run` with its \
     `Expect` lines, a blank line, the diff that solves it";
 
-/// The size of pictures where a run gives none.
-const SIZE: [&str; 2] = ["--size", "160x100"];
-
-/// Arguments that the tool gives itself.
-const GIVEN: [&str; 4] = ["--headless", "--validate", "--out", "--report"];
-
 /// What an exercise takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
@@ -34,26 +29,10 @@ pub enum Takes {
     Look,
     /// Edits of shaders alone.
     Shader,
+    /// Edits of files that programs read, such as scenes.
+    File,
     /// Edits of Rust code, and a build.
     Rust,
-}
-
-/// What is run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Run {
-    /// The chapter's program with these arguments.
-    Program(Vec<String>),
-    /// The tests of a test program whose names hold a filter.
-    Test(String, String),
-}
-
-/// A run, and what must hold of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// What is run.
-    pub run: Run,
-    /// What must hold.
-    pub expectations: Vec<Expectation>,
 }
 
 /// An exercise.
@@ -143,12 +122,13 @@ impl Exercise {
         let takes = match takes.trim_end_matches(", test") {
             "look" => Takes::Look,
             "shader" => Takes::Shader,
+            "file" => Takes::File,
             "Rust" => Takes::Rust,
             _ => {
                 return wrong(
                     line,
                     &format!("an exercise takes no '{takes}'"),
-                    "write look, shader or Rust",
+                    "write look, shader, file or Rust",
                 );
             }
         };
@@ -171,8 +151,14 @@ impl Exercise {
             (Takes::Shader, ..) if !patch.is_in_shaders() => {
                 Some(("the diff changes more than shaders", "write `Takes: Rust`"))
             }
-            (Takes::Rust, ..) if patch.is_in_shaders() => {
+            (Takes::File | Takes::Rust, ..) if patch.is_in_shaders() => {
                 Some(("the diff changes shaders alone", "write `Takes: shader`"))
+            }
+            (Takes::File, ..) if patch.is_in_rust() => {
+                Some(("the diff changes Rust code", "write `Takes: Rust`"))
+            }
+            (Takes::Rust, ..) if !patch.is_in_rust() => {
+                Some(("the diff changes no Rust code", "write `Takes: file`"))
             }
             _ if steps.is_empty() => Some(("nothing tells when it is solved", FORM)),
             _ => None,
@@ -191,6 +177,7 @@ impl Exercise {
         let word = match self.takes {
             Takes::Look => "look",
             Takes::Shader => "shader",
+            Takes::File => "file",
             Takes::Rust => "Rust",
         };
         let test = if self.runs_tests() { ", test" } else { "" };
@@ -206,12 +193,9 @@ impl Exercise {
     pub fn accepts(&self, answer: &str) -> bool {
         let given = plain(answer);
         self.answers.iter().map(|right| plain(right)).any(|right| {
-            let ends = right.split_once(" to ").unwrap_or((&right, &right));
-            match (number(ends.0), number(ends.1)) {
-                (Some(low), Some(high)) => {
-                    number(&given).is_some_and(|given| (low..=high).contains(&given))
-                }
-                _ => given == right,
+            match Amount::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
+                Some(amount) => number(&given).is_some_and(|given| amount.holds(given)),
+                None => given == right,
             }
         })
     }
@@ -262,63 +246,6 @@ pub fn check(project: &Project) -> Vec<Fault> {
     faults
 }
 
-/// The runs and what must hold of each.
-fn steps(file: &str, fields: Vec<Field>) -> Result<Vec<Step>, Fault> {
-    let mut steps: Vec<Step> = Vec::new();
-    for Field { line, key, value } in fields {
-        let wrong = |what: String, remedy: &str| Err(Fault::new(file, line, what, remedy));
-        if key == "Run" {
-            let Some(run) = run(&value) else {
-                let remedy = "write the program's arguments as in a shell, or (test) NAME";
-                return wrong(format!("'{value}' is no run"), remedy);
-            };
-            if let Run::Program(arguments) = &run
-                && let Some(given) = arguments.iter().find(|word| GIVEN.contains(&word.as_str()))
-            {
-                return wrong(format!("{given} is added to every run"), "remove it");
-            }
-            steps.push(Step { run, expectations: Vec::new() });
-            continue;
-        }
-        let Some(expectation) = Expectation::parse(&value) else {
-            return wrong(format!("'{value}' is no expectation"), FORMS);
-        };
-        let Some(step) = steps.last_mut() else {
-            return wrong("nothing is run above this".to_owned(), "write `Run: …` first");
-        };
-        if matches!(step.run, Run::Test(..)) != expectation.is_of_tests() {
-            let what = format!("'{value}' does not belong to this run");
-            return wrong(what, "of tests it is `passes` or `fails`, of programs anything else");
-        }
-        step.expectations.push(expectation);
-    }
-    Ok(steps)
-}
-
-fn run(text: &str) -> Option<Run> {
-    let Some((program, filter)) = text.strip_prefix("(test").and_then(|rest| rest.split_once(')'))
-    else {
-        return arguments(text).map(Run::Program);
-    };
-    let (program, filter) = (program.trim(), filter.trim());
-    let program = if program.is_empty() { "samples" } else { program };
-    let word = |text: &str| !text.is_empty() && !text.contains(char::is_whitespace);
-    (word(program) && word(filter)).then(|| Run::Test(program.to_owned(), filter.to_owned()))
-}
-
-/// The words of a run's arguments.
-fn arguments(text: &str) -> Option<Vec<String>> {
-    shlex::split(text).map(sized)
-}
-
-/// Arguments with the usual size where they give none.
-pub fn sized(mut arguments: Vec<String>) -> Vec<String> {
-    if !arguments.iter().any(|word| word == "--size" || word.starts_with("--size=")) {
-        arguments.extend(SIZE.map(str::to_owned));
-    }
-    arguments
-}
-
 /// An answer in small letters, without articles and final point.
 fn plain(answer: &str) -> String {
     let answer = answer.trim().trim_end_matches('.').to_lowercase();
@@ -364,24 +291,5 @@ mod tests {
         assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 10]);
         assert_eq!(wrong.map(|answer| exercise.accepts(answer)), [false; 8]);
         assert_eq!(exercise.to_string(), "05.2");
-    }
-
-    #[test]
-    fn a_run_is_arguments_or_a_test() {
-        let program =
-            |words: &[&str]| Some(Run::Program(words.iter().map(|w| (*w).to_owned()).collect()));
-        let test =
-            |program: &str, filter: &str| Some(Run::Test(program.to_owned(), filter.to_owned()));
-        for (text, expected) in [
-            ("", program(&["--size", "160x100"])),
-            ("--set \"a b=c\" --size 3x2", program(&["--set", "a b=c", "--size", "3x2"])),
-            ("(test) basic::normals", test("samples", "basic::normals")),
-            ("(test numerics) hard", test("numerics", "hard")),
-            ("(test) two words", None),
-            ("(test)", None),
-            ("--set \"a", None),
-        ] {
-            assert_eq!(run(text), expected, "{text}");
-        }
     }
 }

@@ -1,11 +1,10 @@
 //! What must hold of a run once an exercise is solved.
 
-use std::ops::RangeInclusive;
-
 use anyhow::{Context, Result, anyhow, ensure};
 use common::app::Picture;
 use serde_json::Value;
 
+use crate::amount::Amount;
 use crate::edition::Tested;
 use crate::seen::{Seen, mean_difference, pixels_apart, same_bits};
 
@@ -27,19 +26,19 @@ pub struct Other {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
     /// The mean difference of the pictures over all channels in sRGB, of 1.
-    DiffersBy(RangeInclusive<f64>, Other),
+    DiffersBy(Amount, Other),
     /// The number of pixels that differ in 8 bits.
-    DiffersIn(RangeInclusive<f64>, Other),
+    DiffersIn(Amount, Other),
     /// The pictures are the same to the bit.
     Same(Other),
     /// The 8-bit colour of a pixel, from the upper left.
-    Pixel([u32; 2], [RangeInclusive<f64>; 3]),
+    Pixel([u32; 2], [Amount; 3]),
     /// How many pixels have an 8-bit colour.
-    Pixels([u8; 3], RangeInclusive<f64>),
+    Pixels([u8; 3], Amount),
     /// The largest float in a channel.
-    Largest(usize, RangeInclusive<f64>),
+    Largest(usize, Amount),
     /// The number at a dotted key of the report.
-    Number(String, RangeInclusive<f64>),
+    Number(String, Amount),
     /// The text at a dotted key of the report.
     Text(String, String),
     /// A line that is printed holds this.
@@ -54,35 +53,12 @@ pub enum Expectation {
     Fails(String),
 }
 
-/// A number with commas between thousands or without, or `A to B`, or `A` alone with what `alone` makes of it.
-fn range(words: &[&str], alone: fn(f64) -> RangeInclusive<f64>) -> Option<RangeInclusive<f64>> {
-    match words {
-        [only] => number(only).map(alone),
-        [low, "to", high] => Some(number(low)?..=number(high)?),
-        _ => None,
-    }
-}
-
-/// A number, with commas between thousands or without.
-pub fn number(word: &str) -> Option<f64> {
-    let plain = word.replace([',', '\u{202f}', '\u{2009}'], "").replace('−', "-");
-    plain.parse::<f64>().ok().filter(|number| number.is_finite())
-}
-
-fn exactly(number: f64) -> RangeInclusive<f64> {
-    number..=number
-}
-
-fn at_least(number: f64) -> RangeInclusive<f64> {
-    number..=f64::INFINITY
-}
-
 /// Three values, each a number or `A to B`.
-fn channels(words: &[&str]) -> Option<[RangeInclusive<f64>; 3]> {
+fn channels(words: &[&str]) -> Option<[Amount; 3]> {
     let (mut rest, mut found) = (words, Vec::new());
     while !rest.is_empty() {
         let count = if rest.get(1) == Some(&"to") { 3 } else { 1 };
-        found.push(range(rest.get(..count)?, exactly)?);
+        found.push(Amount::exactly(rest.get(..count)?)?);
         rest = &rest[count..];
     }
     found.try_into().ok()
@@ -118,8 +94,8 @@ impl Expectation {
         if let Some(rest) = after("report ") {
             let (key, value) = rest.split_once(' ')?;
             let words: Vec<&str> = value.split_whitespace().collect();
-            return Some(match range(&words, exactly) {
-                Some(range) => Self::Number(key.to_owned(), range),
+            return Some(match Amount::exactly(&words) {
+                Some(amount) => Self::Number(key.to_owned(), amount),
                 None => Self::Text(key.to_owned(), value.trim().to_owned()),
             });
         }
@@ -133,9 +109,9 @@ impl Expectation {
             };
             let words: Vec<&str> = amount.split_whitespace().collect();
             return match &words[..] {
-                ["by", amount @ ..] => Some(Self::DiffersBy(range(amount, at_least)?, from)),
+                ["by", amount @ ..] => Some(Self::DiffersBy(Amount::at_least(amount)?, from)),
                 ["in", amount @ .., "pixels" | "pixel"] => {
-                    Some(Self::DiffersIn(range(amount, exactly)?, from))
+                    Some(Self::DiffersIn(Amount::exactly(amount)?, from))
                 }
                 _ => None,
             };
@@ -151,11 +127,11 @@ impl Expectation {
             ["pixels", r, g, b, count @ ..] => {
                 let blue = b.strip_suffix(':')?;
                 let color = [r.parse().ok()?, g.parse().ok()?, blue.parse().ok()?];
-                Some(Self::Pixels(color, range(count, exactly)?))
+                Some(Self::Pixels(color, Amount::exactly(count)?))
             }
             ["largest", channel, "is", amount @ ..] => {
                 let channel = ["r", "g", "b", "a"].iter().position(|name| name == channel)?;
-                Some(Self::Largest(channel, range(amount, exactly)?))
+                Some(Self::Largest(channel, Amount::exactly(amount)?))
             }
             _ => None,
         }
@@ -195,52 +171,52 @@ impl Expectation {
         };
         let held = |holds: bool, what: String| Ok((!holds).then_some(what));
         match self {
-            Self::DiffersBy(range, with) => {
+            Self::DiffersBy(amount, with) => {
                 let (own, other) = pictures(with)?;
                 let by = mean_difference(own, &other);
-                held(range.contains(&by), format!("differs by {by:.4}, not {}", shown(range)))
+                held(amount.holds(by), format!("differs by {by:.4}, not {}", amount))
             }
-            Self::DiffersIn(range, with) => {
+            Self::DiffersIn(amount, with) => {
                 let (own, other) = pictures(with)?;
                 let pixels = pixels_apart(own, &other);
-                let what = format!("differs in {pixels} pixels, not in {}", shown(range));
-                held(range.contains(&(pixels as f64)), what)
+                let what = format!("differs in {pixels} pixels, not in {}", amount);
+                held(amount.holds(pixels as f64), what)
             }
             Self::Same(with) => {
                 let (own, other) = pictures(with)?;
                 let pixels = pixels_apart(own, &other);
                 held(same_bits(own, &other), format!("not the same: {pixels} pixels differ"))
             }
-            Self::Pixel([x, y], ranges) => {
+            Self::Pixel([x, y], amounts) => {
                 let picture = picture()?;
                 let inside = *x < picture.width && *y < picture.height;
                 ensure!(inside, "{x} {y} is no pixel of {}x{}", picture.width, picture.height);
                 let at = 3 * (y * picture.width + x) as usize;
                 let color = &picture.srgb()[at..at + 3];
                 let holds =
-                    ranges.iter().zip(color).all(|(range, c)| range.contains(&f64::from(*c)));
-                let wanted: Vec<String> = ranges.iter().map(shown).collect();
+                    amounts.iter().zip(color).all(|(amount, c)| amount.holds(f64::from(*c)));
+                let wanted: Vec<String> = amounts.iter().map(Amount::to_string).collect();
                 held(holds, format!("pixel {x} {y} is {color:?}, not [{}]", wanted.join(", ")))
             }
-            Self::Pixels(color, range) => {
+            Self::Pixels(color, amount) => {
                 let pixels = picture()?.srgb();
                 let count = pixels.chunks(3).filter(|pixel| pixel == color).count();
-                let what = format!("{count} pixels are {color:?}, not {}", shown(range));
-                held(range.contains(&(count as f64)), what)
+                let what = format!("{count} pixels are {color:?}, not {}", amount);
+                held(amount.holds(count as f64), what)
             }
-            Self::Largest(channel, range) => {
+            Self::Largest(channel, amount) => {
                 let values = picture()?.pixels.iter().map(|pixel| pixel[*channel]);
                 let largest = values.fold(f32::NEG_INFINITY, f32::max);
-                let what = format!("the largest value is {largest}, not {}", shown(range));
-                held(range.contains(&f64::from(largest)), what)
+                let what = format!("the largest value is {largest}, not {}", amount);
+                held(amount.holds(f64::from(largest)), what)
             }
-            Self::Number(key, range) => {
+            Self::Number(key, amount) => {
                 let value = at_key(&seen.report, key)?;
                 let number =
                     value.as_f64().or_else(|| value.as_array().map(|list| list.len() as f64));
                 let number =
                     number.with_context(|| format!("'{key}' of the report is no number"))?;
-                held(range.contains(&number), format!("{key} is {number}, not {}", shown(range)))
+                held(amount.holds(number), format!("{key} is {number}, not {}", amount))
             }
             Self::Text(key, text) => {
                 let value = at_key(&seen.report, key)?;
@@ -288,14 +264,6 @@ fn at_key<'a>(report: &'a Value, key: &str) -> Result<&'a Value> {
     };
     let found = key.split('.').try_fold(report, step);
     found.with_context(|| format!("the report has no '{key}'"))
-}
-
-fn shown(range: &RangeInclusive<f64>) -> String {
-    match (range.start(), range.end()) {
-        (low, high) if low == high => low.to_string(),
-        (low, high) if *high == f64::INFINITY => format!("at least {low}"),
-        (low, high) => format!("{low} to {high}"),
-    }
 }
 
 #[cfg(test)]

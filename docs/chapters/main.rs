@@ -15,6 +15,7 @@
 //! in their blocks is made ([`body`], [`diff`], [`gallery`]) and compared or written ([`book`]).
 
 mod agree;
+mod amount;
 mod anchor;
 mod attempt;
 mod body;
@@ -22,6 +23,7 @@ mod book;
 mod card;
 mod child;
 mod command;
+mod copy;
 mod crew;
 mod diff;
 mod edition;
@@ -30,6 +32,7 @@ mod expectation;
 mod fault;
 mod figure;
 mod gallery;
+mod hunk;
 mod laboratory;
 mod markdown;
 mod measurement;
@@ -55,17 +58,20 @@ mod sheet;
 mod shot;
 mod show;
 mod shrink;
+mod step;
 mod stored;
 mod stray;
 mod survey;
 mod taught;
 mod test;
+mod text;
 mod trial;
 mod try_it;
+mod watch;
 mod workbench;
 
 use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -76,7 +82,6 @@ use common::usage::Usage;
 use book::Book;
 use diff::Parts;
 use fault::Fault;
-use mistake::Mistake;
 use new::New;
 use practice::Practice;
 use program::Programs;
@@ -236,7 +241,7 @@ fn run(arguments: &Arguments) -> Result<()> {
             }
         }
         Command::Mistake { name, list, out, check } => {
-            mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
+            trial::mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
         Command::Exercise(practice) => practice.run(&project),
         Command::Measure { names } => measure(&project, names),
@@ -296,48 +301,6 @@ fn measure(project: &Project, names: &[String]) -> Result<()> {
     }
     faults.extend(others);
     report(&faults)
-}
-
-fn mistake(
-    project: &Project,
-    name: Option<&str>,
-    list: bool,
-    out: Option<&Path>,
-    check: bool,
-) -> Result<()> {
-    let mistakes = match name {
-        Some(name) => vec![Mistake::named(project, name)?],
-        None => Mistake::whole(project)?,
-    };
-    if list {
-        let line = |m: &Mistake| format!("{:24} {:20} {}\n", m.name, m.chapter, m.title);
-        return print(&mistakes.iter().map(line).collect::<String>());
-    }
-    if check {
-        let programs = Programs::beside_this(&project.root)?;
-        let wanted = |mistake: &Mistake| name.is_some() || mistake.is_in_shaders();
-        let mistakes: Vec<Mistake> = mistakes.into_iter().filter(wanted).collect();
-        return check_mistakes(project, &programs, &mistakes);
-    }
-    let (Some(name), [mistake]) = (name, &mistakes[..]) else {
-        let names: Vec<String> = mistakes.into_iter().map(|mistake| mistake.name).collect();
-        return Err(Usage(format!("no mistake is named; there is {}", names.join(", "))).into());
-    };
-    let folder = out.map_or_else(|| format!("target/mistakes/{name}").into(), Path::to_owned);
-    mistake.copy_to(project, &std::path::absolute(&folder)?)?;
-    print(&format!("{}: {}\n{}\n", mistake.title, mistake.cause, mistake.run(&folder)))
-}
-
-fn check_mistakes(project: &Project, programs: &Programs, mistakes: &[Mistake]) -> Result<()> {
-    let mut failed = 0;
-    for line in trial::check_all(project, programs, mistakes) {
-        failed += usize::from(line.is_err());
-        print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))?;
-    }
-    match failed {
-        0 => Ok(()),
-        _ => bail!("{failed} of {} mistakes are not what their files say", mistakes.len()),
-    }
 }
 
 /// Prints what is wrong; an error if anything is.

@@ -1,17 +1,14 @@
 //! A patch with a heading: a title, fields `Key: value`, and a unified diff, which any tool applies.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
+use crate::copy::{copy_code, copy_shaders};
 use crate::fault::Fault;
+use crate::hunk::{Hunk, hunks};
 use crate::project::Project;
-
-/// The folders of which a copy that can be built and tested is made, and the files beside them.
-const FOLDERS: [&str; 5] = ["common", "docs/chapters", "samples", "shaders", "tests"];
-const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 
 /// A field.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,34 +19,6 @@ pub struct Field {
     pub key: String,
     /// What stands behind it.
     pub value: String,
-}
-
-/// Lines of a file, and what stands there instead.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Hunk {
-    /// Its line in the diff, from 1.
-    line: usize,
-    file: String,
-    /// Whether there is no such file before.
-    new_file: bool,
-    /// Where its lines stood when the patch was made, from 0.
-    at: usize,
-    old: Vec<String>,
-    new: Vec<String>,
-}
-
-impl Hunk {
-    /// Where its old lines stand, from 0: where they stand once, or else where they stood.
-    fn place(&self, lines: &[String]) -> Option<usize> {
-        let old = self.old.len();
-        let mut found = (0..(lines.len() + 1).saturating_sub(old))
-            .filter(|&at| lines[at..at + old] == self.old[..]);
-        let first = found.next()?;
-        match found.next() {
-            None => Some(first),
-            Some(second) => [first, second].into_iter().chain(found).find(|at| *at == self.at),
-        }
-    }
 }
 
 /// A patch.
@@ -150,6 +119,11 @@ impl Patch {
         self.hunks.iter().all(|hunk| hunk.file.starts_with("shaders/"))
     }
 
+    /// Whether it changes Rust code.
+    pub fn is_in_rust(&self) -> bool {
+        self.hunks.iter().any(|hunk| hunk.file.ends_with(".rs"))
+    }
+
     /// The files that it changes, each with the item in which each change stands; a new file has none.
     pub fn places(&self, project: &Project) -> Vec<(String, Vec<String>)> {
         let mut places: Vec<(String, Vec<String>)> = Vec::new();
@@ -158,7 +132,7 @@ impl Patch {
             if places.last().is_none_or(|(file, _)| *file != hunk.file) {
                 places.push((hunk.file.clone(), Vec::new()));
             }
-            if let (Some((_, items)), Some(item)) = (places.last_mut(), item(&text, hunk))
+            if let (Some((_, items)), Some(item)) = (places.last_mut(), hunk.item(&text))
                 && !items.contains(&item)
             {
                 items.push(item);
@@ -219,122 +193,10 @@ impl Patch {
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
         let patched = self.patched_in(project).map_err(Fault::error)?;
         match self.is_in_shaders() {
-            true => copy(project, folder, &patched, (&["shaders"], &[]), "shaders/"),
-            false => copy(project, folder, &patched, (&FOLDERS, &FILES), ""),
+            true => copy_shaders(project, folder, &patched),
+            false => copy_code(project, folder, &patched),
         }
     }
-}
-
-/// Makes a folder a copy of the shaders.
-///
-/// # Errors
-/// If it cannot be written.
-pub fn copy_shaders(project: &Project, folder: &Path) -> Result<()> {
-    copy(project, folder, &BTreeMap::new(), (&["shaders"], &[]), "shaders/")
-}
-
-/// Makes a folder a copy of some folders and files, of which `patched` replaces some.
-///
-/// A file that is right already is left alone, so that Cargo builds only what has changed; one that the
-/// copy has too many is removed.
-fn copy(
-    project: &Project,
-    folder: &Path,
-    patched: &BTreeMap<String, String>,
-    (folders, beside): (&[&str], &[&str]),
-    without: &str,
-) -> Result<()> {
-    let mut files: BTreeMap<String, Option<&String>> = BTreeMap::new();
-    let found = folders.iter().flat_map(|part| project.files(part));
-    let found = found.chain(beside.iter().map(|file| (*file).to_owned()));
-    files.extend(found.map(|file| (file, None)));
-    files.extend(patched.iter().map(|(file, text)| (file.clone(), Some(text))));
-    let place = |file: &str| folder.join(file.trim_start_matches(without));
-    let kept: BTreeSet<PathBuf> = files.keys().map(|file| place(file)).collect();
-    for old in files_below(folder).iter().filter(|old| !kept.contains(*old)) {
-        fs::remove_file(old).with_context(|| format!("cannot remove '{}'", old.display()))?;
-    }
-    for (file, text) in files {
-        let to = place(&file);
-        let bytes = match text {
-            Some(text) => text.clone().into_bytes(),
-            None => fs::read(project.root.join(&file))?,
-        };
-        if fs::read(&to).is_ok_and(|there| there == bytes) {
-            continue;
-        }
-        let parent = to.parent().context("a file lies in a folder")?;
-        fs::create_dir_all(parent)
-            .with_context(|| format!("cannot make '{}'", parent.display()))?;
-        fs::write(&to, bytes).with_context(|| format!("cannot write '{}'", to.display()))?;
-    }
-    Ok(())
-}
-
-/// Every file below a folder.
-pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
-}
-
-/// The item of a text in which a hunk's first change stands, as its first line names it.
-fn item(text: &str, hunk: &Hunk) -> Option<String> {
-    let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let same = hunk.old.iter().zip(&hunk.new).take_while(|(old, new)| old == new).count();
-    let words = ["fn ", "struct ", "enum ", "impl ", "const ", "static "];
-    let item = |line: &&String| {
-        let line = line.trim_start().trim_start_matches("pub ");
-        let in_shader =
-            line.ends_with(") {") && line.starts_with(|c: char| c.is_ascii_alphabetic());
-        let control = CONTROL.iter().any(|word| line.starts_with(word));
-        words.iter().any(|word| line.starts_with(word)) || in_shader && !control
-    };
-    let end = (hunk.place(&lines)? + same + 1).min(lines.len());
-    let found = lines[..end].iter().rev().find(item)?;
-    Some(found.trim().split(['(', '{', '=', ':']).next().unwrap_or_default().trim().to_owned())
-}
-
-/// What begins a line of a shader that looks like a function and is none.
-const CONTROL: [&str; 4] = ["if ", "for ", "while ", "switch "];
-
-/// The hunks of a unified diff, or the line with what is wrong in it.
-fn hunks(text: &str) -> Result<Vec<Hunk>, (usize, String)> {
-    let mut hunks: Vec<Hunk> = Vec::new();
-    let (mut file, mut new_file) = (None, false);
-    for (index, line) in text.lines().enumerate() {
-        if let Some(path) = line.strip_prefix("+++ ") {
-            let path = path.split('\t').next().unwrap_or_default().trim().to_owned();
-            if path == "/dev/null" {
-                return Err((index + 1, "a patch removes no file".to_owned()));
-            }
-            file = Some(path);
-        } else if let Some(path) = line.strip_prefix("--- ") {
-            (file, new_file) = (None, path.trim() == "/dev/null");
-        } else if let (true, Some(file)) = (line.starts_with("@@"), &file) {
-            // The numbers behind `+` count the lines that earlier hunks have added.
-            let start = line.split_once('+').map_or("", |(_, rest)| rest);
-            let digits = start.bytes().take_while(u8::is_ascii_digit).count();
-            let Ok(start) = start[..digits].parse::<usize>() else {
-                return Err((index + 1, format!("'{line}' does not begin a hunk")));
-            };
-            let (file, at) = (file.clone(), start.saturating_sub(1));
-            hunks.push(Hunk { line: index + 1, file, new_file, at, old: vec![], new: vec![] });
-        } else if let (Some(_), Some(hunk)) = (&file, hunks.last_mut()) {
-            let (sign, rest) = line.split_at_checked(1).unwrap_or((" ", ""));
-            match sign {
-                "+" => hunk.new.push(rest.to_owned()),
-                "-" => hunk.old.push(rest.to_owned()),
-                " " => {
-                    hunk.old.push(rest.to_owned());
-                    hunk.new.push(rest.to_owned());
-                }
-                // `\ No newline at end of file`
-                "\\" => {}
-                _ => return Err((index + 1, format!("'{line}' is no line of a diff"))),
-            }
-        }
-    }
-    Ok(hunks)
 }
 
 #[cfg(test)]
@@ -342,31 +204,6 @@ mod tests {
     use super::*;
 
     const FORM: &str = "write it";
-
-    fn lines(lines: &[&str]) -> Vec<String> {
-        lines.iter().map(|line| (*line).to_owned()).collect()
-    }
-
-    #[test]
-    fn hunks_hold_what_was_and_what_is() {
-        let text =
-            "T\n\nCause: -x\n\n--- a\n+++ b/c\n@@ -1,2 +1,2 @@\n x\n-y\n+z\n@@ -9 +9 @@\n+w\n";
-        let hunk = |line, at, old: &[&str], new: &[&str]| Hunk {
-            line,
-            file: "b/c".to_owned(),
-            new_file: false,
-            at,
-            old: lines(old),
-            new: lines(new),
-        };
-        let expected = [hunk(7, 0, &["x", "y"], &["x", "z"]), hunk(11, 8, &[], &["w"])];
-        assert_eq!(hunks(text).unwrap(), expected);
-        let patch = Patch::parse("p.diff", text, FORM).unwrap();
-        assert!(patch.diff().starts_with("--- a\n+++ b/c\n"));
-        let text = "pub fn f(z) {\n    if a(b) {\nx\ny\n";
-        assert_eq!(item(text, &expected[0]).unwrap(), "pub fn f");
-        assert_eq!(item("void main() {\nx\ny\n", &expected[0]).unwrap(), "void main");
-    }
 
     #[test]
     fn fields_are_taken_by_key_and_in_order() {

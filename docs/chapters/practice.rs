@@ -139,7 +139,9 @@ impl Practice {
                 exercise.why.as_ref().map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
             let answers = exercise.answers.join(", or ");
             return match exercise.takes {
-                Takes::Look => print(&format!("{answers}: {}\n{why}", exercise.check)),
+                Takes::Look => {
+                    print(&format!("Answer: {answers}\nCheck: {}\n{why}", exercise.check))
+                }
                 _ => print(&format!("{}{why}", exercise.patch.diff())),
             };
         }
@@ -208,7 +210,7 @@ fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Resu
         bail!("'{answer}' is not the answer; --hint helps");
     }
     progress.note(exercise)?;
-    print(&format!("{}\n{}", exercise.check, solved(exercise)))
+    print(&format!("Right: {}\n{}", exercise.check, solved(exercise)))
 }
 
 fn list(project: &Project, exercises: &[Exercise]) -> Result<()> {

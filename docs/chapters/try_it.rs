@@ -1,6 +1,6 @@
 //! The section *Try it* of a chapter's page: the list of its exercises, and nothing that looks like one.
 
-use crate::exercise::{Exercise, Takes};
+use crate::exercise::Exercise;
 use crate::fault::Fault;
 use crate::page::{Kind, Page};
 use crate::project::{Chapter, Project};
@@ -57,24 +57,4 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
 /// The number before the point that begins a numbered item.
 fn number(line: &str) -> Option<usize> {
     line.split_once(". ").and_then(|(number, _)| number.parse().ok())
-}
-
-/// The texts of an exercise as a page of its chapter has them, each on the line that it has in its file:
-/// what they name is held to what is there, as the text of a page is.
-pub fn texts(project: &Project, exercise: &Exercise) -> Page {
-    let shown = |line: &str| {
-        let (key, value) = line.split_once(": ")?;
-        match key {
-            "Text" | "Check" | "Hint" | "Why" => Some(value.to_owned()),
-            // Rust code may add what a program is set to.
-            "Run" if value.starts_with("--set ") && exercise.takes != Takes::Rust => {
-                Some(format!("`{value}`"))
-            }
-            _ => None,
-        }
-    };
-    let heading = exercise.patch.text.lines().take_while(|line| !line.starts_with("--- "));
-    let text: String = heading.map(|line| shown(line).unwrap_or_default() + "\n").collect();
-    let chapter = project.chapters.iter().find(|chapter| chapter.name == exercise.chapter);
-    Page::parse(&chapter.map(Chapter::page).unwrap_or_default(), &text)
 }

@@ -1,31 +1,23 @@
 //! A reader's place to solve an exercise in: a copy of the shaders or the project itself, checked on each
 //! save, with the chapter's window beside it.
 
-use std::collections::hash_map::DefaultHasher;
 use std::fs;
-use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
-use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, ensure};
 use common::app::output::print;
 use common::usage::Usage;
-use notify::{PollWatcher, RecursiveMode, Watcher, recommended_watcher};
 
 use crate::attempt::{Attempt, Originals, Verdict};
+use crate::copy::{Changed, copy_shaders};
 use crate::edition::Edition;
-use crate::exercise::{Exercise, Run, Takes};
-use crate::patch::{copy_shaders, files_below};
+use crate::exercise::{Exercise, Takes};
 use crate::program::{BUILD, Programs};
 use crate::progress::Progress;
 use crate::project::Project;
-
-/// Editors save in several steps; look once they are done.
-const DEBOUNCE: Duration = Duration::from_millis(100);
-/// How often to look where the system does not tell of changes.
-const GLANCE: Duration = Duration::from_millis(500);
+use crate::step::Run;
+use crate::watch::Watch;
 
 /// The place of an exercise.
 pub struct Workbench<'a> {
@@ -51,7 +43,7 @@ impl<'a> Workbench<'a> {
     ) -> Result<Self> {
         if folder.is_some() && exercise.takes != Takes::Shader {
             let what = match exercise.takes {
-                Takes::Rust => "is done in the project itself",
+                Takes::File | Takes::Rust => "is done in the project itself",
                 _ => "changes nothing",
             };
             return Err(Usage(format!("exercise {exercise} {what} and takes no --folder")).into());
@@ -75,7 +67,12 @@ impl<'a> Workbench<'a> {
     pub fn set_up(&self) -> Result<bool> {
         let built = || self.programs.command(&self.exercise.chapter);
         match self.exercise.takes {
-            Takes::Look => built().map(|_| true).map_err(|what| anyhow!("{what}; {BUILD}")),
+            Takes::Look => {
+                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                // Where the command that is told writes its picture.
+                fs::create_dir_all(self.project.root.join("target/exercises"))?;
+                Ok(true)
+            }
             Takes::Shader => {
                 built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
                 let filled =
@@ -91,11 +88,11 @@ impl<'a> Workbench<'a> {
                 fs::create_dir_all(above).with_context(failed)?;
                 // Copied beside it and then renamed: the folder is there whole or not at all.
                 let whole = tempfile::tempdir_in(above).with_context(failed)?;
-                copy_shaders(self.project, whole.path())?;
+                copy_shaders(self.project, whole.path(), &Changed::new())?;
                 fs::rename(whole.keep(), &self.folder).with_context(failed)?;
                 Ok(false)
             }
-            Takes::Rust => {
+            Takes::File | Takes::Rust => {
                 if self.kept().is_dir() {
                     return Ok(true);
                 }
@@ -121,7 +118,7 @@ impl<'a> Workbench<'a> {
         match self.exercise.takes {
             Takes::Look => Edition::Book,
             Takes::Shader => Edition::Shaders(self.folder.clone()),
-            Takes::Rust => Edition::Edited,
+            Takes::File | Takes::Rust => Edition::Edited,
         }
     }
 
@@ -142,8 +139,10 @@ impl<'a> Workbench<'a> {
         let place = match self.exercise.takes {
             Takes::Look => return String::new(),
             Takes::Shader => format!("Edit in {shown}, a copy of the shaders: {places}"),
-            Takes::Rust => {
-                format!("Edit in the project itself, and undo it with `git restore`: {places}")
+            Takes::File | Takes::Rust => {
+                format!(
+                    "Edit in the project itself; `git restore` undoes it, but for new files: {places}"
+                )
             }
         };
         format!(
@@ -156,11 +155,14 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If it cannot be told.
     pub fn verdict(&self) -> Result<Verdict> {
-        let originals = match self.exercise.takes {
-            Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
+        self.verdict_with(&self.originals())
+    }
+
+    fn originals(&self) -> Originals<'a> {
+        match self.exercise.takes {
+            Takes::File | Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
             _ => Originals::new(self.project, self.programs),
-        };
-        self.verdict_with(&originals)
+        }
     }
 
     fn verdict_with(&self, originals: &Originals) -> Result<Verdict> {
@@ -180,38 +182,30 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If the window does not start, or the progress cannot be written.
     pub fn practise(&self, with_window: bool, progress: &mut Progress) -> Result<()> {
-        let watched = match self.exercise.takes {
-            Takes::Rust => {
-                ["common", "samples", "shaders"].map(|f| self.project.root.join(f)).to_vec()
-            }
+        let folders = match self.exercise.takes {
+            Takes::File | Takes::Rust => ["common", "samples", "shaders", "tests"]
+                .map(|f| self.project.root.join(f))
+                .to_vec(),
             _ => vec![self.folder.clone()],
         };
-        let (_watcher, saved) = watch(&watched)?;
-        let originals = match self.exercise.takes {
-            Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
-            _ => Originals::new(self.project, self.programs),
-        };
+        let mut watch = Watch::of(folders)?;
+        let originals = self.originals();
         let mut window = with_window.then(|| self.window()).transpose()?;
-        let mut last = None;
         loop {
-            let now = contents(&watched);
-            if last.replace(now) != Some(now) {
-                // A program that runs cannot be built anew everywhere.
-                let again = self.exercise.takes == Takes::Rust && window.take().is_some();
-                let missed = match self.verdict_with(&originals) {
-                    Ok(verdict) => verdict.missed,
-                    Err(error) => Some(format!("{error:#}")),
-                };
-                if again {
-                    window = self.window().ok();
-                }
-                match missed {
-                    None => break,
-                    Some(missed) => print(&format!("not yet: {missed}\n"))?,
-                }
+            watch.wait()?;
+            // A program that runs cannot be built anew everywhere.
+            let again = self.exercise.takes != Takes::Shader && window.take().is_some();
+            let missed = match self.verdict_with(&originals) {
+                Ok(verdict) => verdict.missed,
+                Err(error) => Some(format!("{error:#}")),
+            };
+            if again {
+                window = self.window().ok();
             }
-            saved.recv().context("the folder cannot be watched any more")?;
-            while saved.recv_timeout(DEBOUNCE).is_ok() {}
+            match missed {
+                None => break,
+                Some(missed) => print(&format!("not yet: {missed}\n"))?,
+            }
         }
         progress.note(self.exercise)?;
         print(&solved(self.exercise))?;
@@ -309,40 +303,4 @@ impl Drop for Window {
 pub fn has_display() -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")
-}
-
-/// Tells of every change below some folders.
-fn watch(folders: &[PathBuf]) -> Result<(Box<dyn Watcher>, Receiver<()>)> {
-    let (sender, saved) = channel();
-    let tell = move |event: notify::Result<notify::Event>| {
-        // Rendering reads the files: what is only read has not changed.
-        if event.is_ok_and(|event| !event.kind.is_access()) {
-            // Nobody waits any more once the exercise is solved.
-            let _ = sender.send(());
-        }
-    };
-    let mut watcher: Box<dyn Watcher> = match recommended_watcher(tell.clone()) {
-        Ok(watcher) => Box::new(watcher),
-        Err(_) => {
-            let settings = notify::Config::default().with_poll_interval(GLANCE);
-            Box::new(PollWatcher::new(tell, settings).context("no folder can be watched")?)
-        }
-    };
-    for folder in folders {
-        let failed = || format!("cannot watch '{}'", folder.display());
-        watcher.watch(folder, RecursiveMode::Recursive).with_context(failed)?;
-    }
-    Ok((watcher, saved))
-}
-
-/// A hash of every file below some folders.
-fn contents(folders: &[PathBuf]) -> u64 {
-    let mut files: Vec<PathBuf> = folders.iter().flat_map(|folder| files_below(folder)).collect();
-    files.sort();
-    let mut hasher = DefaultHasher::new();
-    for file in files {
-        let bytes = fs::read(&file).unwrap_or_default();
-        (file, bytes).hash(&mut hasher);
-    }
-    hasher.finish()
 }

@@ -82,11 +82,16 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         (
             "Takes: shader",
             "Takes: time",
-            "3: an exercise takes no 'time'; write look, shader or Rust",
+            "3: an exercise takes no 'time'; write look, shader, file or Rust",
         ),
         (
             "Takes: shader",
             "Takes: Rust",
+            "3: the diff changes shaders alone; write `Takes: shader`",
+        ),
+        (
+            "Takes: shader",
+            "Takes: file",
             "3: the diff changes shaders alone; write `Takes: shader`",
         ),
         (
@@ -270,7 +275,7 @@ fn hints_solutions_and_answers_are_given() {
     assert_eq!(ask(&["02.1", "--check"]).code, 0);
     assert_eq!(
         ask(&["2.2", "--solution"]).out,
-        "up, or +y, or to the sky, or 40 to 44: It looks up.\n"
+        "Answer: up, or +y, or to the sky, or 40 to 44\nCheck: It looks up.\n"
     );
     let told = ask(&["02.2", "--headless"]).out;
     assert!(
@@ -281,7 +286,7 @@ fn hints_solutions_and_answers_are_given() {
     assert_eq!((wrong.code, &*wrong.err), (1, "error: 'down' is not the answer; --hint helps\n"));
     assert_eq!(ask(&["02.2", "--check"]).code, 1);
     let right = ask(&["02.2", "--answer", "To the sky."]);
-    assert_eq!((right.code, &*right.out), (0, "It looks up.\n02.2 is solved.\n"));
+    assert_eq!((right.code, &*right.out), (0, "Right: It looks up.\n02.2 is solved.\n"));
     assert_eq!(ask(&["02.2", "--check"]).code, 0);
 }
 
