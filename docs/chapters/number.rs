@@ -29,6 +29,8 @@ static TEXT: LazyLock<Regex> = LazyLock::new(|| {
         // A word: `R2`, `RDNA3`, `32-bit`, `100,000th`.
         r"[A-Za-z_][A-Za-z_0-9-]*",
         r"\d[\d,.]*-?[A-Za-z_][A-Za-z_0-9-]*",
+        // No year, though it may begin like one: `1989.2`.
+        r"(?P<decimal>\d+\.\d+)",
         // A chapter's number, and a year.
         r"0\d+",
         r"(?:19|20)\d\d\b",
@@ -63,7 +65,8 @@ enum Scale {
 /// Every number in a part of a text that is not the name or the number of something.
 pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
     let captures = TEXT.captures_iter(&text[part.clone()]);
-    let groups = captures.filter_map(|found| found.name("power").or(found.name("plain")));
+    let groups = captures
+        .filter_map(|found| ["power", "decimal", "plain"].iter().find_map(|name| found.name(name)));
     let number = |found: regex_lite::Match| {
         let span = part.start + found.start()..part.start + found.end();
         let (before, after) = (&text[..span.start], text[span.end..].trim_start_matches(' '));
@@ -150,6 +153,7 @@ mod tests {
             ("Mesa 25.0.7 (LLVM 15), Vulkan 1.2 at 480×300 in 32-bit floats", ""),
             ("R2 of Welford 1962, RDNA3, p99, the 10,000th, gfx1201", ""),
             ("1,997 or 31 million", "1,997 31"),
+            ("1989.2 ms in 1989, 0.5 in 2015.", "1989.2 0.5"),
         ];
         for (text, expected) in cases {
             assert_eq!(written(text), expected, "{text}");
