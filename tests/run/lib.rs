@@ -57,9 +57,15 @@ pub fn program(name: &str) -> PathBuf {
 
 /// Renders headless under validation; a failure or a message is a failed test.
 pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
+    render_by(&mut command(name), size, arguments)
+}
+
+/// The same by a command that may have another environment.
+pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
-    let output = command(name)
+    let name = sample.get_program().to_string_lossy().into_owned();
+    let output = sample
         .args(["--headless", "--validate", "--report", "-", "--size", size, "--out"])
         .arg(&out)
         .args(arguments)
@@ -111,6 +117,16 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
 pub fn copy_of_shaders() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     copy(&root().join("shaders"), folder.path());
+    folder
+}
+
+/// A copy of `shaders/` with one line of a file replaced.
+pub fn shaders_with(file: &str, from: &str, to: &str) -> tempfile::TempDir {
+    let folder = copy_of_shaders();
+    let path = folder.path().join(file);
+    let text = std::fs::read_to_string(&path).expect("a shader can be read");
+    assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
+    std::fs::write(&path, text.replace(from, to)).expect("a copy can be written");
     folder
 }
 

@@ -2,8 +2,10 @@
 //! `cargo test --test samples leaving_a_surface::plots -- --ignored --nocapture`.
 
 use common::app::Picture;
+use serde_json::Map;
 
 use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
+use run::figures;
 use run::plot::crops;
 
 /// The whole of a picture.
@@ -37,8 +39,9 @@ fn leaks() {
 #[test]
 #[ignore = "prints what becomes of rays that start by each rule"]
 fn table_of_origins() {
-    for (setting, (place, _)) in SETTINGS.iter().enumerate() {
-        let setting = Setting::new(setting, "240x150", HIGH);
+    let (mut table, mut height) = (Map::new(), Map::new());
+    for (number, (place, _)) in SETTINGS.iter().enumerate() {
+        let setting = Setting::new(number, "240x150", HIGH);
         for rule in RULES.into_iter().chain(["height"]) {
             let tallies = [setting.reflected(rule, 1), setting.shadow(rule)];
             let percent = |count: fn(&Tally) -> usize| {
@@ -50,6 +53,13 @@ fn table_of_origins() {
                 "| {} | {rule} | {acne:.2} | {lost:.2} | {dark:.2} | {lit:.2} |",
                 place.join(", ")
             );
+            let row = [("acne", acne), ("lost", lost), ("dark", dark), ("lit", lit)];
+            table.extend(row.map(|(key, part)| (format!("{number}.{rule}.{key}"), part.into())));
+            if rule == "height" {
+                height.insert(number.to_string(), (lost / 100.0).into());
+            }
         }
     }
+    figures::hold("26_leaving_a_surface/origins", table.into());
+    figures::hold("26_leaving_a_surface/height", height.into());
 }

@@ -7,15 +7,11 @@ use common::app::Picture;
 use serde_json::{Map, Value, json};
 
 use super::NAME;
-use run::{command, copy_of_shaders, figures};
+use run::{command, figures, shaders_with};
 
 /// Runs with a line of a shader replaced, and returns a picture of 480×300 and the milliseconds of a frame.
 fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
-    let shaders = copy_of_shaders();
-    let path = shaders.path().join(NAME).join(file);
-    let text = fs::read_to_string(&path).unwrap();
-    assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
-    fs::write(&path, text.replace(from, to)).unwrap();
+    let shaders = shaders_with(&format!("{NAME}/{file}"), from, to);
     let [out, report] = ["out.exr", "report.json"].map(|name| shaders.path().join(name));
     let run = command(NAME)
         .env("SHADERS", shaders.path())
