@@ -4,9 +4,10 @@ use std::env::consts::EXE_SUFFIX;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 
-use run::{copy, program};
-use serde_json::Value;
+use run::{copy, figures, program, root};
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::fixture::{Fixture, Outcome, run};
@@ -282,4 +283,16 @@ fn what_is_no_card_is_refused() {
         ),
     ];
     expect(&cases, &[]);
+}
+
+#[test]
+#[ignore = "takes the time of a whole survey, minutes"]
+fn the_whole_survey_in_time() {
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(program("chapters"));
+    command.arg("survey").arg("--out").arg(cards.path()).arg("--root").arg(root());
+    let start = Instant::now();
+    let outcome = run(&mut command);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    figures::give_timed("devices/survey", json!({ "seconds": start.elapsed().as_secs_f64() }));
 }

@@ -30,6 +30,11 @@ pub fn hold_exact(name: &str, values: Value) {
     settle(name, false, ("host".into(), "".into()), values);
 }
 
+/// Holds figures of a GPU's compiler, which it gives in every run, for a generation such as `RDNA3`.
+pub fn hold_compiled(name: &str, compiler: &str, generation: &str, values: Value) {
+    settle(name, false, ("RADV".into(), format!("{compiler}, {generation}").into()), values);
+}
+
 /// Gives figures that differ from run to run, such as times: nothing is compared.
 pub fn give_timed(name: &str, values: Value) {
     if std::env::var_os("FIGURES").is_some() {

@@ -57,20 +57,15 @@ pub fn program(name: &str) -> PathBuf {
 
 /// Renders headless under validation; a failure or a message is a failed test.
 pub fn render(name: &str, size: &str, arguments: &[&str]) -> Run {
-    rendered(command(name), name, size, arguments)
+    render_by(&mut command(name), size, arguments)
 }
 
-/// Renders as [`render`] does, by the shaders of another folder.
-pub fn render_by(shaders: &Path, name: &str, size: &str, arguments: &[&str]) -> Run {
-    let mut command = command(name);
-    command.env("SHADERS", shaders);
-    rendered(command, name, size, arguments)
-}
-
-fn rendered(mut command: Command, name: &str, size: &str, arguments: &[&str]) -> Run {
+/// The same by a command that may have another environment.
+pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("out.exr");
-    let output = command
+    let name = sample.get_program().to_string_lossy().into_owned();
+    let output = sample
         .args(["--headless", "--validate", "--report", "-", "--size", size, "--out"])
         .arg(&out)
         .args(arguments)
@@ -107,13 +102,23 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     );
     std::fs::write(folder.path().join("02_basic/camera.rgen"), text)
         .expect("a copy can be written");
-    render_by(folder.path(), "02_basic", size, &[]).picture
+    render_by(command("02_basic").env("SHADERS", folder.path()), size, &[]).picture
 }
 
 /// A copy of `shaders/` that a test may change.
 pub fn copy_of_shaders() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     copy(&root().join("shaders"), folder.path());
+    folder
+}
+
+/// A copy of `shaders/` with one line of a file replaced.
+pub fn shaders_with(file: &str, from: &str, to: &str) -> tempfile::TempDir {
+    let folder = copy_of_shaders();
+    let path = folder.path().join(file);
+    let text = std::fs::read_to_string(&path).expect("a shader can be read");
+    assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
+    std::fs::write(&path, text.replace(from, to)).expect("a copy can be written");
     folder
 }
 

@@ -9,10 +9,11 @@ use common::scene::{Camera, Light, Placement, Scene, Sun};
 use glam::DVec3;
 use reference::Ray;
 use reference::scene::Scene as Exact;
+use serde_json::{Map, json};
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, golden, render, render_by};
+use run::{bits, command, figures, golden, render, render_by, shaders_with};
 
 const NAME: &str = "26_leaving_a_surface";
 const SIZE: &str = "120x75";
@@ -24,9 +25,12 @@ fn picture(size: &str, sets: &[&str]) -> Picture {
 
 /// The same in an arithmetic.
 fn computed(arithmetic: &str, size: &str, sets: &[&str]) -> Picture {
+    render(NAME, size, &arguments(arithmetic, sets)).picture
+}
+
+fn arguments<'a>(arithmetic: &'a str, sets: &[&'a str]) -> Vec<&'a str> {
     let sets = sets.iter().flat_map(|&set| ["--set", set]);
-    let arguments: Vec<&str> = ["--arithmetic", arithmetic].into_iter().chain(sets).collect();
-    render(NAME, size, &arguments).picture
+    ["--arithmetic", arithmetic].into_iter().chain(sets).collect()
 }
 
 #[test]
@@ -66,7 +70,7 @@ struct Setting<'a> {
     camera: Camera,
     directions: Picture,
     hits: Picture,
-    /// The folder of other shaders, by which the rays leave.
+    /// A copy of the shaders that says where rays start, if not the book's.
     shaders: Option<PathBuf>,
 }
 
@@ -92,14 +96,9 @@ impl<'a> Setting<'a> {
     fn show(&self, rule: &str, sets: &[&str]) -> Picture {
         let rule = format!("origin={rule}");
         let sets = [&self.sets[..], &[&rule], sets].concat();
-        match &self.shaders {
-            None => computed(self.arithmetic, self.size, &sets),
-            Some(shaders) => {
-                let arguments: Vec<&str> =
-                    sets.into_iter().flat_map(|set| ["--set", set]).collect();
-                render_by(shaders, NAME, self.size, &arguments).picture
-            }
-        }
+        let mut sample = command(NAME);
+        sample.envs(self.shaders.iter().map(|folder| ("SHADERS", folder)));
+        render_by(&mut sample, self.size, &arguments(self.arithmetic, &sets)).picture
     }
 
     /// Judges the ray number `bounce` of every pixel that starts by this rule, and the shadow ray of
@@ -212,6 +211,7 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
     const LOW: [&str; 3] =
         ["camera eye=-8.2,2.9,5.2", "camera target=-0.2,0.35,0.8", "field of view=32"];
     let (mut all, mut slivers) = (0, 0);
+    let mut gaps = Map::new();
     for (number, camera) in (0..4).flat_map(|number| [(number, HIGH), (number, LOW)]) {
         let setting = Setting::new(number, "400x250", camera);
         let tallies = [1, 2, 3].map(|bounce| setting.reflected("bound", bounce));
@@ -220,9 +220,41 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
             assert_eq!((tally.self_hits, tally.lost - tally.slivers), (0, 0), "{:?}", tally.first);
             all += tally.rays;
             slivers += tally.slivers;
+            if tally.slivers > 0 {
+                let found = tally.figures();
+                gaps.insert(format!("{number}.gaps"), found["moved"].clone());
+                if number == 1 {
+                    figures::hold("26_leaving_a_surface/sliver", found);
+                }
+            }
         }
     }
     println!("{all} rays, {slivers} on slivers moved past an edge");
+    figures::hold("26_leaving_a_surface/gaps", gaps.into());
+    figures::hold("26_leaving_a_surface/million", json!({ "rays": all, "slivers": slivers }));
     // A bound that were too large would have many more.
     assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
+}
+
+#[test]
+#[ignore = "takes a table of the page"]
+fn a_smaller_step_ends_in_self_hits() {
+    const STEP: &str = "return Start(from.position + step * from.normal, 0.0);";
+    let mut settings = [0, 1, 2, 3].map(|number| Setting::new(number, SIZE, HIGH));
+    let (mut table, mut all) = (Map::new(), 0);
+    for factor in ["1.0", "0.3", "0.1", "0.03", "0.01"] {
+        let smaller = STEP.replace("step", &format!("{factor} * step"));
+        let shaders = shaders_with("26_leaving_a_surface/origin.glsl", STEP, &smaller);
+        for (number, setting) in settings.iter_mut().enumerate() {
+            setting.shaders = Some(shaders.path().into());
+            let tally = setting.reflected("bound", 1);
+            println!("{factor}, {}: {tally}", SETTINGS[number].0.join(", "));
+            assert!(factor != "1.0" || tally.self_hits == 0, "{:?}", tally.first);
+            assert!(all == 0 || all == tally.rays, "where a ray starts, the camera does not see");
+            table.insert(format!("{factor}.{number}"), tally.self_hits.into());
+            all = tally.rays;
+        }
+    }
+    figures::hold("26_leaving_a_surface/steps", table.into());
+    figures::hold("26_leaving_a_surface/reflected", json!({ "rays": all }));
 }

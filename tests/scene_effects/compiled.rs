@@ -1,8 +1,8 @@
 //! What a GPU's own compiler makes of each scene's pipeline, against that which has everything.
 
 use effects::Effect;
-use run::compiled_for;
-use serde_json::Value;
+use run::{compiled_for, figures};
+use serde_json::{Map, Value};
 
 use super::{NAME, SCENES};
 
@@ -84,7 +84,8 @@ fn each_scene_is_one_program_that_fits_its_registers_and_is_no_larger_than_that_
 #[ignore = "prints a table of the page"]
 fn table() {
     let everything = compiled("one sphere", "everything", "all").expect("the compiler is there");
-    println!("{}\n", everything[0]["compiler"].as_str().unwrap());
+    let compiler = everything[0]["compiler"].as_str().unwrap();
+    println!("{compiler}\n");
     let own = SCENES.map(|(scene, ..)| compiled(scene, "specialised", "all").unwrap());
     for family in FAMILIES {
         println!("| {family} | instructions | registers | spilled | waves |");
@@ -97,6 +98,16 @@ fn table() {
             Figures::of(&everything, family).cells()
         );
     }
+    let mut held = Map::new();
+    let rows = SCENES.iter().map(|(scene, ..)| *scene).zip(&own);
+    for (scene, own) in rows.chain([("any scene", &everything)]) {
+        let Figures { instructions, registers, spilled, waves, .. } = Figures::of(own, "navi31");
+        let row = [("instructions", instructions), ("registers", registers)];
+        let row = row.into_iter().chain([("spilled", spilled), ("waves", waves)]);
+        let name = scene.replace(' ', "-");
+        held.extend(row.map(|(of, value)| (format!("{name}.{of}"), value.into())));
+    }
+    figures::hold_compiled("25_scene_effects/compiled", compiler, "RDNA3", held.into());
     // The pipeline does not depend on the scene, so one row is enough.
     for (scene, ..) in SCENES {
         let other = compiled(scene, "everything", "navi31").unwrap();

@@ -1,11 +1,11 @@
 //! The measured tables of the page and a plot of one. Made when asked for:
 //! `cargo test --test scene_effects plots -- --ignored --nocapture`.
 
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use super::{NAME, SCENES};
-use run::command;
 use run::plot::{Axis, Chart, Series, draw};
+use run::{command, figures};
 
 /// A report of a run without validation, which would be timed as well. The driver's cache is off, so that
 /// each pipeline is compiled.
@@ -39,36 +39,77 @@ fn spirv_kilobytes(report: &Value) -> f64 {
     stages.iter().map(|stage| stage["words"].as_f64().unwrap()).sum::<f64>() * 4.0 / 1024.0
 }
 
+/// What a scene's own pipeline takes, no times.
+fn sizes(scene: &str) -> [(&'static str, Value); 5] {
+    let own = report(scene, "320x200", &[]);
+    let pipeline = &own["chapter"]["pipeline"];
+    let stages = pipeline["stages"].as_array().unwrap();
+    [
+        ("stages", stages.len().into()),
+        ("sbt", pipeline["sbt_bytes"].clone()),
+        ("payload", stages[0]["module"]["payload"].clone()),
+        ("spirv_kilobytes", spirv_kilobytes(&own).into()),
+        ("bytes", own["bytes_allocated"].clone()),
+    ]
+}
+
+/// A name as figures have it.
+fn key(scene: &str, of: &str) -> String {
+    format!("{}.{of}", scene.replace(' ', "-"))
+}
+
+#[test]
+#[ignore = "takes figures of the page"]
+fn pipelines() {
+    let mut table = Map::new();
+    for (name, effects, _) in SCENES {
+        table.insert(key(name, "effects"), effects.len().into());
+        table.extend(sizes(name).map(|(of, size)| (key(name, of), size)));
+    }
+    println!("{}", json!(table));
+    figures::hold("25_scene_effects/pipelines", table.into());
+}
+
+#[test]
+#[ignore = "takes times"]
+fn costs() {
+    let sets = ["--frames", "7", "--set", "measure costs=on"];
+    let report = report("mirror balls", "320x200", &sets);
+    let effects = report["chapter"]["effects"].as_array().unwrap();
+    let mut table = Map::new();
+    for effect in effects.iter().filter(|effect| !effect["cost_milliseconds"].is_null()) {
+        let name = effect["name"].as_str().unwrap();
+        table.insert(key(name, "ms"), effect["cost_milliseconds"].clone());
+        table.insert(key(name, "ratio"), effect["time_without"].clone());
+    }
+    println!("{}", json!(table));
+    figures::give_timed("25_scene_effects/costs", table.into());
+}
+
 #[test]
 #[ignore = "measures for minutes"]
 fn scenes() {
-    println!(
-        "| scene | effects | stages | SBT | payload | SPIR-V | compile | memory | time | everything / own |"
-    );
-    println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
-    for (name, effects, _) in SCENES {
-        let own = report(name, "320x200", &[]);
-        let pipeline = &own["chapter"]["pipeline"];
-        let stages = pipeline["stages"].as_array().unwrap();
+    let mut table = Map::new();
+    println!("| scene | stages | compile | time | everything / own |");
+    println!("|---|---:|---:|---:|---:|");
+    for (name, _, stages) in SCENES {
         let compile = compile_time(name);
         let rounds = ["--frames", "25", "--compare", "pipeline=specialised|everything"];
         let times = report(name, "320x200", &rounds)["comparison"].clone();
         let [time, everything] = [0, 1].map(|value| times["values"][value].clone());
-        let ratio = everything["ratio"].clone();
-        let (milliseconds, median) =
-            (time["milliseconds"].as_f64().unwrap(), ratio["median"].as_f64().unwrap());
+        let [low, median, high] =
+            ["low", "median", "high"].map(|part| everything["ratio"][part].as_f64().unwrap());
+        let milliseconds = time["milliseconds"].as_f64().unwrap();
+        // Every pipeline has `camera.rgen` and `sky.rmiss`.
+        let stages = 2 + stages.len();
         println!(
-            "| {name} | {} | {} | {} B | {} B | {:.0} KB | {compile:.0} ms | {:.2} MB | {milliseconds:.1} ms | **{median:.2}** ({:.2} to {:.2}) |",
-            effects.len(),
-            stages.len(),
-            pipeline["sbt_bytes"],
-            stages[0]["module"]["payload"],
-            spirv_kilobytes(&own),
-            own["bytes_allocated"].as_f64().unwrap() / 1e6,
-            ratio["low"].as_f64().unwrap(),
-            ratio["high"].as_f64().unwrap(),
+            "| {name} | {stages} | {compile:.0} ms | {milliseconds:.1} ms | **{median:.2}** ({low:.2} to {high:.2}) |",
         );
+        let row = [("compile", compile), ("ms", milliseconds)];
+        let row = row.into_iter().chain([("ratio", median), ("low", low), ("high", high)]);
+        table.extend(row.map(|(of, value)| (key(name, of), value.into())));
     }
+    figures::give_timed("25_scene_effects/times", table.into());
 }
 
 /// The columns of the page's table of scenes: the names, and the numbers of four columns.

@@ -1,11 +1,11 @@
 //! What the page of 26_leaving_a_surface shows beside its picture. Drawn when asked for:
 //! `cargo test --test samples leaving_a_surface::plots -- --ignored --nocapture`.
 
-use serde_json::{Map, json};
+use serde_json::Map;
 
-use super::{HIGH, NAME, RULES, SETTINGS, SIZE, Setting, Tally, picture};
+use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
+use run::figures;
 use run::plot::{Shown, draw_panels};
-use run::{copy_of_shaders, figures};
 
 /// The places as a label has room for them, in the order of [`SETTINGS`].
 const PLACES: [&str; 4] = ["0.001", "1", "1000", "moved"];
@@ -44,9 +44,9 @@ fn leaks() {
 #[test]
 #[ignore = "prints what becomes of rays that start by each rule"]
 fn table_of_origins() {
-    let mut table = Map::new();
-    for (setting, (place, _)) in SETTINGS.iter().enumerate() {
-        let setting = Setting::new(setting, "240x150", HIGH);
+    let (mut table, mut height) = (Map::new(), Map::new());
+    for (number, (place, _)) in SETTINGS.iter().enumerate() {
+        let setting = Setting::new(number, "240x150", HIGH);
         for rule in RULES.into_iter().chain(["height"]) {
             let tallies = [setting.reflected(rule, 1), setting.shadow(rule)];
             let percent = |count: fn(&Tally) -> usize| {
@@ -58,38 +58,13 @@ fn table_of_origins() {
                 "| {} | {rule} | {acne:.2} | {lost:.2} | {dark:.2} | {lit:.2} |",
                 place.join(", ")
             );
-            for (figure, percent) in [("acne", acne), ("lost", lost), ("dark", dark), ("lit", lit)]
-            {
-                table.insert(format!("{}.{rule}.{figure}", place.join(",")), percent.into());
+            let row = [("acne", acne), ("lost", lost), ("dark", dark), ("lit", lit)];
+            table.extend(row.map(|(key, part)| (format!("{number}.{rule}.{key}"), part.into())));
+            if rule == "height" {
+                height.insert(number.to_string(), (lost / 100.0).into());
             }
         }
     }
-    figures::hold("26_leaving_a_surface/rules", table.into());
-}
-
-/// The self-hits where the bound's step is so many times as long.
-#[test]
-#[ignore = "prints what shorter steps let through"]
-fn table_of_steps() {
-    let mut table = Map::new();
-    let mut rays = 0;
-    for factor in ["1.0", "0.3", "0.1", "0.03", "0.01"] {
-        let shaders = copy_of_shaders();
-        let file = shaders.path().join(NAME).join("origin.glsl");
-        let text = std::fs::read_to_string(&file).unwrap();
-        let step = "from.position + step * from.normal, 0.0);";
-        let scaled = step.replace("step *", &format!("{factor} * step *"));
-        assert_eq!(text.matches(step).count(), 1);
-        std::fs::write(&file, text.replace(step, &scaled)).unwrap();
-        for (number, (place, _)) in SETTINGS.iter().enumerate() {
-            let shaders = Some(shaders.path().to_owned());
-            let setting = Setting { shaders, ..Setting::new(number, SIZE, HIGH) };
-            let tally = setting.reflected("bound", 1);
-            println!("{factor}, {}: {tally}", place.join(", "));
-            table.insert(format!("{factor}.{}", place.join(",")), tally.self_hits.into());
-            rays = rays.max(tally.rays);
-        }
-    }
-    figures::hold("26_leaving_a_surface/steps", table.into());
-    figures::hold("26_leaving_a_surface/rays", json!({ "rays": rays }));
+    figures::hold("26_leaving_a_surface/origins", table.into());
+    figures::hold("26_leaving_a_surface/height", height.into());
 }

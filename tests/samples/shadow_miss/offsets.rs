@@ -1,24 +1,29 @@
 //! Where shadow rays start in patched copies of the shaders: what the bound on the offset prevents and costs.
 
+use std::ffi::OsStr;
 use std::fs;
 
 use common::app::Picture;
-use serde_json::{Map, json};
+use serde_json::{Map, Value, json};
 
 use super::NAME;
-use run::{copy_of_shaders, figures, render_by};
+use run::{command, figures, shaders_with};
 
 /// Runs with a line of a shader replaced, and returns a picture of 480×300 and the milliseconds of a frame.
 fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
-    let shaders = copy_of_shaders();
-    let path = shaders.path().join(NAME).join(file);
-    let text = fs::read_to_string(&path).unwrap();
-    assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
-    fs::write(&path, text.replace(from, to)).unwrap();
-    let sets = [&["--set", "smooth terminator=off"], more].concat();
-    let run = render_by(shaders.path(), NAME, "480x300", &sets);
-    let milliseconds = run.report["gpu_milliseconds"]["min"].as_f64().unwrap();
-    (run.picture, milliseconds)
+    let shaders = shaders_with(&format!("{NAME}/{file}"), from, to);
+    let [out, report] = ["out.exr", "report.json"].map(|name| shaders.path().join(name));
+    let run = command(NAME)
+        .env("SHADERS", shaders.path())
+        .args(["--headless", "--size", "480x300", "--set", "smooth terminator=off"])
+        .args(more)
+        .args([OsStr::new("--out"), out.as_os_str(), "--report".as_ref(), report.as_ref()])
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let report: Value = serde_json::from_slice(&fs::read(&report).unwrap()).unwrap();
+    let milliseconds = report["gpu_milliseconds"]["min"].as_f64().unwrap();
+    (Picture::open_exr(&out).unwrap(), milliseconds)
 }
 
 /// The bound of `place.glsl`, and the line of `shade.rchit` after which a hit has its place.
