@@ -5,7 +5,8 @@ mod patterns;
 use common::app::Picture;
 use common::scene::Scene;
 
-use run::{bits, compiled_for, golden, render};
+use run::{bits, compiled_for, figures, golden, render};
+use serde_json::Map;
 
 const NAME: &str = "13_callable_shader";
 
@@ -62,6 +63,7 @@ fn patterns_have_the_same_bits_on_the_host_near_and_far() {
 /// A pattern moved by whole cells is the same pattern elsewhere; moved by adding to a float it is a blur.
 #[test]
 fn whole_cells_keep_the_digits_that_a_sum_of_floats_loses() {
+    let mut table = Map::new();
     for (far, least, most) in
         [(100, 0.0, 1e-4), (10_000, 1e-4, 1e-2), (1_000_000, 1e-3, 0.3), (1 << 24, 0.1, 1.0)]
     {
@@ -74,8 +76,10 @@ fn whole_cells_keep_the_digits_that_a_sum_of_floats_loses() {
             error += f64::from((exact - blurred).abs()) / 1000.0;
         }
         println!("| {far} | {error:.5} |");
+        table.insert(far.to_string(), error.into());
         assert!(error >= least && error < most, "{far}: {error}");
     }
+    figures::hold_exact("13_callable_shader/cells", table.into());
 }
 
 #[test]

@@ -7,8 +7,10 @@ use common::app::Picture;
 use common::scene::{Camera, Scene};
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
 
+use serde_json::{Map, Value, json};
+
 use run::primary_hits::{answer, rays};
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
 
 const NAME: &str = "10_position_fetch";
 
@@ -46,6 +48,7 @@ fn positions_cost_no_memory_of_ours() {
     let vertices: usize = meshes.iter().map(|mesh| mesh.vertices.len()).sum();
     let saved = bytes("buffer") - bytes("acceleration structure");
     println!("{vertices} vertices: {saved} bytes less");
+    figures::hold("10_position_fetch/memory", json!({ "vertices": vertices, "saved": saved }));
     // Twelve bytes a vertex, less an address a mesh and what alignment takes.
     let most = 12 * vertices as u64;
     assert!(saved <= most && saved > most - 4096, "{saved} of {most}");
@@ -78,6 +81,20 @@ impl Errors {
             })
         })
     }
+}
+
+/// The figures of a row, under names that begin with where it is of.
+fn figures_of(at: f64, [corners, ray]: &[[(f64, f64); 2]; 2]) -> Map<String, Value> {
+    let parts = [
+        ("corners", corners[0]),
+        ("corners.off", corners[1]),
+        ("ray", ray[0]),
+        ("ray.off", ray[1]),
+    ];
+    let named = parts.into_iter().flat_map(|(name, (median, most))| {
+        [(format!("{at:e}.{name}"), median.into()), (format!("{at:e}.{name}.most"), most.into())]
+    });
+    named.collect()
 }
 
 fn row(at: f64, [corners, ray]: &[[(f64, f64); 2]; 2]) -> String {
@@ -144,6 +161,7 @@ fn in_f64(affine: &Affine3A) -> DAffine3 {
 #[test]
 fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does_not() {
     let scene = Scene::chess().expect("the chess set");
+    let mut table = Map::new();
     let towards = (scene.camera.eye - scene.camera.target).normalize();
     for distance in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
         // A lens so long that the board fills the picture.
@@ -154,6 +172,7 @@ fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does
         };
         let spread = errors(&scene, &camera, None).spread();
         println!("{}", row(distance, &spread));
+        table.extend(figures_of(distance, &spread));
         let [by_corners, along_the_ray] = spread;
         // Coordinates reach 6, where a last place is 4 ULP of 1; the device's weights are off along the plane.
         assert!(by_corners[1].1 < 8.0, "{distance}: {by_corners:?}");
@@ -161,12 +180,14 @@ fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does
         assert!(along_the_ray[1].0 > distance / 100.0, "{distance}: {along_the_ray:?}");
         assert!(along_the_ray[0].1 < 16.0 * distance, "{distance}: {along_the_ray:?}");
     }
+    figures::hold("10_position_fetch/afar", table.into());
 }
 
 #[test]
 fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_not() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let camera = Camera::new(DVec3::new(0.2, 1.0, 0.3), DVec3::ZERO, 40.0);
+    let mut table = Map::new();
     for size in [1e1, 1e2, 1e3, 1e4, 1e5, 1e6] {
         let file = folder.path().join("square.obj");
         // A little crooked, so that no product is exact.
@@ -177,6 +198,7 @@ fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_n
         let scene = Scene::open(&file).expect("a scene");
         let spread = errors(&scene, &camera, file.to_str()).spread();
         println!("{}", row(size, &spread));
+        table.extend(figures_of(size, &spread));
         let [by_corners, along_the_ray] = spread;
         // Weights have 24 bits of 1, which is so much of the triangle's size.
         assert!(by_corners[0].0 > size / 10.0, "{size}: {by_corners:?}");
@@ -184,4 +206,5 @@ fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_n
         assert!(by_corners[1].1 < 1e-6, "{size}: {by_corners:?}");
         assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
     }
+    figures::hold("10_position_fetch/large", table.into());
 }

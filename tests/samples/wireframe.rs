@@ -4,7 +4,8 @@ use std::fs;
 
 use common::app::Picture;
 
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
+use serde_json::Map;
 
 const NAME: &str = "20_wireframe";
 
@@ -94,14 +95,17 @@ fn its_width_does_not_depend_on_size_distance_or_slant() {
         let measured = diamond.measured(3.0, &[]);
         assert!((measured - 3.0).abs() < 1e-3, "a diamond of {size}: {measured}");
     }
+    let mut table = Map::new();
     for distance in [1e1, 1e2, 1e3, 1e4, 1e5] {
         let measured = Diamond { distance, turned: 30.0, ..FRONT }.measured(3.0, &[]);
         println!("| {distance:e} | {measured:.4} |");
+        table.insert(format!("{distance:e}"), measured.into());
         // A pixel is 1/61 over the distance wide, seen from the eye, and each side of the line may be off by
         // a last place of the direction, 2^-24.
         let rounding = 2.0 * 61.0 * distance / f64::from(1 << 24);
         assert!((measured - 3.0).abs() < 1e-3 + rounding, "from {distance}: {measured}");
     }
+    figures::hold("20_wireframe/widths", table.into());
 }
 
 #[test]
