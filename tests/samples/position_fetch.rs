@@ -114,7 +114,7 @@ fn errors(scene: &Scene, camera: &Camera, file: Option<&str>) -> Errors {
             matrix.transform_point3(mesh.vertices[index as usize].position.as_dvec3())
         });
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let (origin, direction) = (DVec3::from(ray.origin), DVec3::from(ray.direction));
+        let (origin, direction) = (ray.origin, ray.direction);
         let t = normal.dot(corners[0] - origin) / normal.dot(direction);
         let exact = origin + t * direction;
         let normal = normal.normalize();
