@@ -1,7 +1,7 @@
 //! What the chapter reports: the effects with their reasons and costs, and what was compiled.
 
 use anyhow::Result;
-use common::gpu::{RayTracingPipeline, Reflection, Stage, Variant};
+use common::gpu::{Pipeline, Reflection, Stage, Variant};
 use effects::Finding;
 use serde_json::{Value, json};
 
@@ -37,7 +37,8 @@ pub fn report(demo: &Demo) -> Result<Value> {
 /// What was compiled, from the very words that the driver got.
 fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
     let Variant { key: recipe, pipeline, sbt } = variant;
-    let RayTracingPipeline { blueprint, groups, build_time, .. } = pipeline;
+    let Pipeline { blueprint, build_time, .. } = &**pipeline;
+    let groups = pipeline.groups;
     let stages = blueprint.stages.iter().map(|Stage { path, words, .. }| {
         let contents = serde_json::to_value(Reflection::of(words)?.contents())?;
         Ok(json!({ "path": path, "words": words.len(), "module": contents }))

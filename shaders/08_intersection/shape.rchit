@@ -19,7 +19,7 @@ hitAttributeEXT vec3 outward;
 // for u·r and then, for the roots to have one sign, needs 6u·r (c) or 29u·r (the foot: 15u·r along the ray,
 // 4u·r across, 10u·r of root and sum): 46u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
-// difference is never wrong. Then the instance's transform, as for triangles (common/place.glsl).
+// difference is never wrong. Then the instance's transform, as for triangles (common/above.glsl).
 void place_on_shape(uint id) {
     precise vec3 point;
     vec3 own;

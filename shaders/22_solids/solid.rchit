@@ -36,7 +36,7 @@ vec3 point_of_face(Face face, out vec3 normal, out vec3 straying) {
     return point;
 }
 
-// From there to the world, as for triangles (common/place.glsl).
+// From there to the world, as for triangles (common/above.glsl).
 void place_on_face(Face face) {
     vec3 normal;
     vec3 own;

@@ -1,92 +1,16 @@
 // Taught by 05_shadow_miss, whose own file this is a copy of.
 //
-// Where a ray may start that leaves a triangle: a point above it that no rounding puts below.
-//
-// The hit's own point, origin + t·direction, is off by as much as t is, and t grows with the distance.
-// The same point from the triangle's corners is off by the rounding of the corners' coordinates alone.
-// (Waechter and Binder, Ray Tracing Gems, chapter 6; NVIDIA's self-intersection avoidance, 2023.)
-//
-// How far may it be from the plane that the next ray is tested against? Below u = 2^-24 is the error of
-// one rounding, relative; L, T the instance's matrix and translation, W the inverse; |x| takes every
-// entry's absolute value. Four things are rounded:
-//
-// 1. The point in the mesh's space, a + (w1·e1 + w2·e2): three roundings of the edges' part, one of
-//    the sum. Wrong weights only shift the point within the plane. u·(|p| + 3·(|e1| + |e2|)), times |L|.
-// 2. The point in the world, L·p + T: a sum of four terms. 4u·(|L||p| + |T|); and u·|L·p + T| when the
-//    offset is added.
-// 3. The next ray, which the device takes back into the mesh's space by an inverse of its own. If that
-//    came from cofactors in 32 bits that do not cancel, it is off by 18u·|W|, which costs
-//    18u·|L||W||L||p|; product and translation are sums of four terms: 7u·|L||W|·(|world| + |T|).
-//    (common/reference/src/transform.rs has the steps, and matrices whose cofactors cancel.)
-// 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
-//    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
-//    quotient, r the longest edge (common/reference/src/bound.rs has the steps), and for the rounded
-//    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room, but none more than r: the
-//    depth that the test finds is a mean of the corners' depths, whatever their weights.
-//
-// 1 to 3 are vectors, and what counts of them is the part along the plane's normal.
+// Where a ray may start that leaves the triangle that was hit, for a closest hit shader: its built-in
+// variables say which ray it was, and where the instance lies.
+#include "above.glsl"
 
-const float ROUNDING = 5.9604645e-8;
-
-mat3 absolute(mat3 m) {
-    return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
-}
-
-// ANCHOR: place
-// Fills position, face and height of a hit, for a closest hit shader: the built-in variables say the rest.
+// Fills position, face and height of a hit.
 void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights) {
-    uvec3 corner = instance.triangles.at[triangle];
-    vec3 a = instance.vertices.at[corner.x].position;
-    vec3 e1 = instance.vertices.at[corner.y].position - a;
-    vec3 e2 = instance.vertices.at[corner.z].position - a;
-    precise vec3 point = a + (weights.x * e1 + weights.y * e2);
-    precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
-
-    mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));
-    mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
-    vec3 shift = abs(gl_ObjectToWorldEXT[3]);
-    vec3 reach = linear * abs(point);
-    vec3 straying = linear * (abs(point) + 3.0 * (abs(e1) + abs(e2)))
-        + 4.0 * (reach + shift) + abs(world)
-        + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
-
-    vec3 across = mat3(gl_ObjectToWorldEXT) * e1;
-    vec3 along = mat3(gl_ObjectToWorldEXT) * e2;
-    float longest = max(max(length(across), length(along)), length(along - across));
-    float area = length(cross(across, along));    // twice the triangle's, which may be rounded to 0
-    area = max(max(area, 2.0 * ROUNDING * longest * longest), 1e-30);
-    float test = longest * (37.0 + 2.0 * longest * longest / area);
-
-    hit.position = world;
-    vec3 face = vec3(cross(e1, e2) * gl_WorldToObjectEXT);
-    // Without an area there is no normal: then the side that the ray came from is up.
-    hit.face = normalize(dot(face, face) > 1e-37 ? face : gl_WorldRayDirectionEXT);
-    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);
+    place(hit, instance, triangle, weights, gl_ObjectToWorldEXT, gl_WorldToObjectEXT,
+        gl_WorldRayDirectionEXT);
 }
-// ANCHOR_END: place
 
-// ANCHOR: lift
-// From the flat triangle to the round surface that its normals pretend: the mean of the point's
-// projections onto the planes through the corners, across their normals, where those lie above it.
-// A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
-// the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
+// From the flat triangle to the round surface that its normals pretend.
 vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weights) {
-    uvec3 corner = instance.triangles.at[triangle];
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
-    Vertex corners[3];
-    vec3 point = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        corners[k] = instance.vertices.at[corner[k]];
-        point += w[k] * corners[k].position;
-    }
-    vec3 up = face * mat3(gl_ObjectToWorldEXT);
-    vec3 lift = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        vec3 normal = corners[k].normal;
-        normal = faceforward(normal, -up, normal);
-        lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
-    }
-    return mat3(gl_ObjectToWorldEXT) * lift;
+    return lift_to_smooth(face, instance, triangle, weights, gl_ObjectToWorldEXT);
 }
-// ANCHOR_END: lift

@@ -13,6 +13,7 @@ mod jitter_camera;
 mod leaving_a_surface;
 mod multi_closest_hit;
 mod position_fetch;
+mod ray_query;
 mod reflection;
 mod settings;
 mod shadow_miss;

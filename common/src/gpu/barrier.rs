@@ -19,7 +19,9 @@ fn memory(gpu: &Gpu, cmd: vk::CommandBuffer, from: (Stage, Access), to: (Stage, 
 }
 
 const BUILD: Stage = Stage::ACCELERATION_STRUCTURE_BUILD_KHR;
-const TRACE: Stage = Stage::RAY_TRACING_SHADER_KHR;
+/// Where rays are traced: in ray tracing pipelines, and by ray queries in compute shaders.
+const TRACE: Stage =
+    Stage::from_raw(Stage::RAY_TRACING_SHADER_KHR.as_raw() | Stage::COMPUTE_SHADER.as_raw());
 
 /// Uploaded bytes become visible to builds (vertices, instances) and to every shader.
 pub fn after_upload(gpu: &Gpu, cmd: vk::CommandBuffer) {
@@ -40,7 +42,7 @@ pub fn build_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu,
         cmd,
         (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR),
-        (TRACE | Stage::COMPUTE_SHADER, Access::ACCELERATION_STRUCTURE_READ_KHR),
+        (TRACE, Access::ACCELERATION_STRUCTURE_READ_KHR),
     );
 }
 

@@ -1,6 +1,6 @@
 //! What a pipeline is made from, as plain data: enough to make it once more, on another device too.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use ash::{Device, khr, vk};
 use serde::{Deserialize, Serialize};
 
@@ -11,10 +11,11 @@ pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
         | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
         | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
         | vk::ShaderStageFlags::INTERSECTION_KHR.as_raw()
-        | vk::ShaderStageFlags::CALLABLE_KHR.as_raw(),
+        | vk::ShaderStageFlags::CALLABLE_KHR.as_raw()
+        | vk::ShaderStageFlags::COMPUTE.as_raw(),
 );
 
-/// A ray tracing pipeline before any driver has seen it. Vulkan's enumerations and flags are their numbers.
+/// A pipeline before any driver has seen it: without groups, a compute pipeline of its one stage. Vulkan's enumerations and flags are their numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Blueprint {
     /// The pipeline's name.
@@ -64,6 +65,14 @@ pub struct Group {
 }
 
 impl Blueprint {
+    /// What the pipeline is bound as.
+    pub fn bind_point(&self) -> vk::PipelineBindPoint {
+        match self.groups.is_empty() {
+            true => vk::PipelineBindPoint::COMPUTE,
+            false => vk::PipelineBindPoint::RAY_TRACING_KHR,
+        }
+    }
+
     /// The layout of set 0.
     ///
     /// # Errors
@@ -150,20 +159,31 @@ impl Blueprint {
                         .specialization_info(&specialization),
                 );
             }
-            let info = [vk::RayTracingPipelineCreateInfoKHR::default()
-                .flags(vk::PipelineCreateFlags::from_raw(self.flags) | flags)
-                .stages(&infos)
-                .groups(&groups)
-                .max_pipeline_ray_recursion_depth(self.recursion)
-                .layout(layout)];
-            // SAFETY: every stage index of the groups is within the stages; all handles are alive.
-            let pipelines = unsafe {
-                ray_tracing_pipeline.create_ray_tracing_pipelines(
-                    vk::DeferredOperationKHR::null(),
-                    cache,
-                    &info,
-                    None,
-                )
+            let flags = vk::PipelineCreateFlags::from_raw(self.flags) | flags;
+            let pipelines = match (self.bind_point(), &infos[..]) {
+                (vk::PipelineBindPoint::COMPUTE, [stage]) => {
+                    let info = [vk::ComputePipelineCreateInfo::default()
+                        .flags(flags)
+                        .stage(*stage)
+                        .layout(layout)];
+                    // SAFETY: all handles are alive.
+                    unsafe { device.create_compute_pipelines(cache, &info, None) }
+                }
+                (vk::PipelineBindPoint::COMPUTE, _) => bail!("a compute pipeline has one stage"),
+                _ => {
+                    let info = [vk::RayTracingPipelineCreateInfoKHR::default()
+                        .flags(flags)
+                        .stages(&infos)
+                        .groups(&groups)
+                        .max_pipeline_ray_recursion_depth(self.recursion)
+                        .layout(layout)];
+                    let deferred = vk::DeferredOperationKHR::null();
+                    // SAFETY: every stage index of the groups is within the stages; all handles are alive.
+                    unsafe {
+                        ray_tracing_pipeline
+                            .create_ray_tracing_pipelines(deferred, cache, &info, None)
+                    }
+                }
             };
             Ok(pipelines.map_err(|(_, error)| error)?[0])
         })();

@@ -25,6 +25,8 @@ pub struct Limits {
     pub max_ray_recursion_depth: u32,
     /// The most rays of one `vkCmdTraceRaysKHR`.
     pub max_ray_dispatch_invocation_count: u32,
+    /// The most invocations of a compute shader's workgroup.
+    pub max_compute_work_group_invocations: u32,
     /// What the scratch address of an acceleration structure build is a multiple of.
     pub min_scratch_offset_alignment: u64,
     /// The most instances of a top level.
@@ -106,6 +108,7 @@ impl Limits {
             max_shader_group_stride: pipeline.max_shader_group_stride.into(),
             max_ray_recursion_depth: pipeline.max_ray_recursion_depth,
             max_ray_dispatch_invocation_count: pipeline.max_ray_dispatch_invocation_count,
+            max_compute_work_group_invocations: core.max_compute_work_group_invocations,
             min_scratch_offset_alignment: acceleration
                 .min_acceleration_structure_scratch_offset_alignment
                 .into(),

@@ -48,7 +48,10 @@ pub use instance::{WindowHandles, load};
 pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use limits::Limits;
 pub use margin::{margin, padded};
-pub use pipeline::{Binding, Descriptor, HitGroup, PipelineBuilder, RayTracingPipeline};
+pub use pipeline::{
+    Band, Binding, ComputePipeline, Descriptor, HitGroup, Pipeline, PipelineBuilder,
+    RayTracingPipeline,
+};
 pub use pipeline_cache::PipelineCache;
 pub use reflection::{Bound, Reflection};
 pub use requirements::{Features, Requirement, Requirements};
@@ -58,4 +61,4 @@ pub use swapchain::{Acquired, Swapchain};
 pub use texture::TextureTable;
 pub use timing::Timer;
 pub use validation::Messages;
-pub use variants::{Make, Variant, Variants};
+pub use variants::{Launch, Make, Variant, Variants};

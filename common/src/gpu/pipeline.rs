@@ -1,8 +1,10 @@
-//! A ray tracing pipeline: shader groups, their stages, what they may bind, how deep they recurse.
+//! Pipelines: their stages, what they may bind, and how they are bound.
 
 mod builder;
+mod compute;
 mod stages;
 
+use std::ops::Deref;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -10,6 +12,7 @@ use anyhow::{Result, ensure};
 use ash::vk;
 
 pub use builder::PipelineBuilder;
+pub use compute::{Band, ComputePipeline};
 pub use stages::HitGroup;
 
 use super::blueprint::{Blueprint, STAGES};
@@ -48,16 +51,14 @@ pub enum Descriptor<'a> {
     StorageBuffer(&'a Buffer),
 }
 
-/// A `VkPipeline` with its layout, freed on drop.
-pub struct RayTracingPipeline {
+/// A `VkPipeline` of any kind with its layout, freed on drop.
+pub struct Pipeline {
     /// The Vulkan handle.
     pub handle: vk::Pipeline,
     /// The pipeline layout.
     pub layout: vk::PipelineLayout,
     /// What it was made from.
     pub blueprint: Arc<Blueprint>,
-    /// How many groups there are of each kind: raygen, miss, hit, callable.
-    pub groups: [usize; 4],
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
     bindings: Vec<Binding>,
@@ -66,12 +67,29 @@ pub struct RayTracingPipeline {
     gpu: Gpu,
 }
 
+/// A pipeline of shader groups, and how deep its rays nest.
+pub struct RayTracingPipeline {
+    /// How many groups there are of each kind: raygen, miss, hit, callable.
+    pub groups: [usize; 4],
+    pipeline: Pipeline,
+}
+
 impl RayTracingPipeline {
     /// An empty pipeline, to be filled line by line; its shaders lie in `shaders/{name}/`.
     pub fn builder(name: &str) -> PipelineBuilder<'_> {
         PipelineBuilder::new(name)
     }
+}
 
+impl Deref for RayTracingPipeline {
+    type Target = Pipeline;
+
+    fn deref(&self) -> &Pipeline {
+        &self.pipeline
+    }
+}
+
+impl Pipeline {
     /// Binds the pipeline, its textures, one descriptor for each binding, and the push constants.
     ///
     /// # Errors
@@ -108,7 +126,7 @@ impl RayTracingPipeline {
                 self.gpu.name
             );
         }
-        let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
+        let point = self.blueprint.bind_point();
         // SAFETY: cmd is being recorded; the pipeline and its descriptors outlive the submission.
         unsafe {
             self.gpu.device.cmd_bind_pipeline(cmd, point, self.handle);
@@ -151,7 +169,7 @@ impl RayTracingPipeline {
                 write.buffer_info(&buffer)
             }
         };
-        let point = vk::PipelineBindPoint::RAY_TRACING_KHR;
+        let point = self.blueprint.bind_point();
         // SAFETY: set 0 was made for push descriptors of these kinds; all handles are alive.
         unsafe {
             self.gpu.push_descriptor.cmd_push_descriptor_set(cmd, point, self.layout, 0, &[write]);
@@ -169,7 +187,7 @@ impl Descriptor<'_> {
     }
 }
 
-impl Drop for RayTracingPipeline {
+impl Drop for Pipeline {
     fn drop(&mut self) {
         // SAFETY: submissions are waited for.
         unsafe {

@@ -28,6 +28,7 @@ pub struct Features {
     acceleration_structure: vk::PhysicalDeviceAccelerationStructureFeaturesKHR<'static>,
     ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
     position_fetch: vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR<'static>,
+    ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
     executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -47,6 +48,7 @@ impl Features {
             acceleration_structure,
             ray_tracing_pipeline,
             position_fetch,
+            ray_query,
             executable,
         } = self;
         // Copies carry the chain, so that no structure keeps a pointer to its neighbour afterwards.
@@ -57,6 +59,7 @@ impl Features {
             *ray_tracing_pipeline,
             *executable,
             *position_fetch,
+            *ray_query,
         );
         let mut root = vk::PhysicalDeviceFeatures2::default()
             .features(*core)
@@ -74,6 +77,9 @@ impl Features {
         if has(khr::ray_tracing_position_fetch::NAME) {
             root = root.push_next(&mut links.5);
         }
+        if has(khr::ray_query::NAME) {
+            root = root.push_next(&mut links.6);
+        }
         let result = f(&mut root);
         *core = root.features;
         let unlinked = std::ptr::null_mut();
@@ -89,6 +95,7 @@ impl Features {
         };
         *position_fetch =
             vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR { p_next: unlinked, ..links.5 };
+        *ray_query = vk::PhysicalDeviceRayQueryFeaturesKHR { p_next: unlinked, ..links.6 };
         result
     }
 }
@@ -200,6 +207,12 @@ impl Requirements {
             "rayTracingPositionFetch",
             position_fetch.ray_tracing_position_fetch
         ));
+        self
+    }
+
+    /// Rays that any stage traces by itself, without a ray tracing pipeline.
+    pub fn ray_query(mut self) -> Self {
+        self.list.push(requirement!(Some(khr::ray_query::NAME), "rayQuery", ray_query.ray_query));
         self
     }
 

@@ -55,7 +55,8 @@ pub fn folder() -> PathBuf {
     }
 }
 
-/// Compiles `path` (below [`folder`]) to SPIR-V 1.6 for Vulkan 1.3, or takes it from the cache.
+/// Compiles `path` (below [`folder`]) to SPIR-V 1.6 for Vulkan 1.3, a compute shader to 1.5, or takes it from
+/// the cache.
 ///
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
@@ -215,12 +216,15 @@ fn to_spirv(
 ) -> Result<Vec<u32>> {
     let compiler = Compiler::acquire().context("glslang does not start")?;
     let source = ShaderSource::from(text);
+    // In 1.6 a workgroup whose size is a specialization constant is `LocalSizeId`, for which a device would
+    // have to be asked (maintenance4).
+    let spirv_version = match stage {
+        ShaderStage::Compute => SpirvVersion::SPIRV1_5,
+        _ => SpirvVersion::SPIRV1_6,
+    };
     let options = CompilerOptions {
         source_language: SourceLanguage::GLSL,
-        target: Target::Vulkan {
-            version: VulkanVersion::Vulkan1_3,
-            spirv_version: SpirvVersion::SPIRV1_6,
-        },
+        target: Target::Vulkan { version: VulkanVersion::Vulkan1_3, spirv_version },
         version_profile: None,
         messages: ShaderMessage::DEFAULT,
     };

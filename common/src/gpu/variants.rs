@@ -6,47 +6,75 @@ use std::thread::JoinHandle;
 
 use anyhow::{Context, Result, anyhow};
 
-use super::{Gpu, RayTracingPipeline, ShaderBindingTable, TextureTable};
+use super::{ComputePipeline, Gpu, RayTracingPipeline, ShaderBindingTable, TextureTable};
+
+/// A kind of pipeline, and the table that a launch of it needs.
+pub trait Launch: Sized + Send + 'static {
+    /// The table, if there is one.
+    type Table;
+
+    /// A table of this pipeline.
+    ///
+    /// # Errors
+    /// If memory is short.
+    fn table(&self, gpu: &Gpu) -> Result<Self::Table>;
+}
+
+impl Launch for RayTracingPipeline {
+    type Table = ShaderBindingTable;
+
+    fn table(&self, gpu: &Gpu) -> Result<ShaderBindingTable> {
+        ShaderBindingTable::new(gpu, self)
+    }
+}
+
+impl Launch for ComputePipeline {
+    type Table = ();
+
+    fn table(&self, _: &Gpu) -> Result<()> {
+        Ok(())
+    }
+}
 
 /// Makes a variant's pipeline: the chapter's own `pipeline`.
-pub type Make<V> = fn(&Gpu, &TextureTable, V) -> Result<RayTracingPipeline>;
+pub type Make<V, P> = fn(&Gpu, &TextureTable, V) -> Result<P>;
 
 /// The pipelines of a sample, each with what it was made for.
 ///
 /// Where someone watches, a variant that is not there yet is made by another thread while the old picture
 /// stays; a run without a window waits for it.
-pub struct Variants<V> {
-    made: Vec<Variant<V>>,
+pub struct Variants<V, P: Launch = RayTracingPipeline> {
+    made: Vec<Variant<V, P>>,
     current: usize,
-    order: Option<Order<V>>,
+    order: Option<Order<V, P>>,
     /// What could not be made, until something else is wanted.
     refused: Option<V>,
 }
 
 /// A pipeline that another thread is making. The device counts it until it is taken.
-struct Order<V> {
+struct Order<V, P> {
     key: V,
-    thread: Option<JoinHandle<Result<RayTracingPipeline>>>,
+    thread: Option<JoinHandle<Result<P>>>,
     gpu: Gpu,
 }
 
 /// A pipeline, its table, and what it was made for.
-pub struct Variant<V> {
+pub struct Variant<V, P: Launch = RayTracingPipeline> {
     /// What it was made for.
     pub key: V,
     /// The pipeline.
-    pub pipeline: RayTracingPipeline,
+    pub pipeline: P,
     /// Its table.
-    pub sbt: ShaderBindingTable,
+    pub sbt: P::Table,
 }
 
-impl<V> Default for Variants<V> {
+impl<V, P: Launch> Default for Variants<V, P> {
     fn default() -> Self {
         Self { made: Vec::new(), current: 0, order: None, refused: None }
     }
 }
 
-impl<V: Copy + PartialEq + Send + 'static> Variants<V> {
+impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
     /// The pipeline for `wanted`; in a window, the last one for as long as it is being made.
     ///
     /// # Errors
@@ -56,8 +84,8 @@ impl<V: Copy + PartialEq + Send + 'static> Variants<V> {
         gpu: &Gpu,
         textures: &Arc<TextureTable>,
         wanted: V,
-        make: Make<V>,
-    ) -> Result<&Variant<V>> {
+        make: Make<V, P>,
+    ) -> Result<&Variant<V, P>> {
         if let Some(mut order) = self.order.take_if(|order| order.is_finished()) {
             match order.finish() {
                 Ok(pipeline) => self.keep(gpu, order.key, pipeline)?,
@@ -81,20 +109,20 @@ impl<V: Copy + PartialEq + Send + 'static> Variants<V> {
     }
 
     /// What was chosen last.
-    pub fn current(&self) -> Option<&Variant<V>> {
+    pub fn current(&self) -> Option<&Variant<V, P>> {
         self.made.get(self.current)
     }
 
-    fn keep(&mut self, gpu: &Gpu, key: V, pipeline: RayTracingPipeline) -> Result<()> {
-        let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
+    fn keep(&mut self, gpu: &Gpu, key: V, pipeline: P) -> Result<()> {
+        let sbt = pipeline.table(gpu)?;
         self.current = self.made.len();
         self.made.push(Variant { key, pipeline, sbt });
         Ok(())
     }
 }
 
-impl<V: Copy + Send + 'static> Order<V> {
-    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V>) -> Self {
+impl<V: Copy + Send + 'static, P: Launch> Order<V, P> {
+    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V, P>) -> Self {
         gpu.building.fetch_add(1, Ordering::Relaxed);
         let (device, textures) = (gpu.clone(), textures.clone());
         let thread = std::thread::spawn(move || make(&device, &textures, key));
@@ -105,13 +133,13 @@ impl<V: Copy + Send + 'static> Order<V> {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    fn finish(&mut self) -> Result<RayTracingPipeline> {
+    fn finish(&mut self) -> Result<P> {
         let thread = self.thread.take().context("taken before")?;
         thread.join().unwrap_or_else(|_| Err(anyhow!("making a pipeline panicked")))
     }
 }
 
-impl<V> Drop for Order<V> {
+impl<V, P> Drop for Order<V, P> {
     fn drop(&mut self) {
         // What is half made must not outlive the window.
         if let Some(thread) = self.thread.take() {

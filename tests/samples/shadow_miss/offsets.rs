@@ -26,7 +26,7 @@ fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
     (Picture::open_exr(&out).unwrap(), milliseconds)
 }
 
-/// The bound of `place.glsl`, and the line of `shade.rchit` after which a hit has its place.
+/// The bound of `above.glsl`, and the line of `shade.rchit` after which a hit has its place.
 const BOUND: &str = "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);";
 const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
 
@@ -34,7 +34,7 @@ const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
 #[test]
 fn specks_come_where_the_bound_is_not_kept() {
     let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
-    let right = shadow("place.glsl", BOUND, BOUND);
+    let right = shadow("above.glsl", BOUND, BOUND);
     let is_lit = |pixel: &&[f32; 4]| pixel[0] == 1.0 && pixel[2] == 1.0;
     let lit = right.pixels.iter().filter(is_lit).count();
     let dark = |picture: &Picture| {
@@ -44,7 +44,7 @@ fn specks_come_where_the_bound_is_not_kept() {
     let mut scaled = Map::new();
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01", "0.0"] {
         let picture = shadow(
-            "place.glsl",
+            "above.glsl",
             BOUND,
             &BOUND.replace("ROUNDING", &format!("{factor} * ROUNDING")),
         );

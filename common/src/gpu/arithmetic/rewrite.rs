@@ -193,6 +193,17 @@ impl Rewriter {
         if op == Op::Load || op == Op::AccessChain {
             return self.load(instruction, out);
         }
+        // A query of boxes would have to be asked which of the two it has met.
+        match op {
+            Op::RayQueryGetIntersectionTKHR => {
+                return self.moved(instruction, "worst_query_t", out);
+            }
+            Op::RayQueryGetIntersectionBarycentricsKHR => {
+                return self.moved(instruction, "worst_query_weights", out);
+            }
+            Op::RayQueryGenerateIntersectionKHR => bail!("worst.glsl has no queries of boxes"),
+            _ => {}
+        }
         let result = instruction.result_type.and_then(|of| self.names.get(&of));
         let widens = op == Op::FConvert && result.is_some_and(|name| name.contains('d'));
         let Some((name, operands)) = operation(&instruction)?.filter(|_| !widens) else {
@@ -361,7 +372,7 @@ impl Rewriter {
     }
 
     /// A hit's distance and the weights of a triangle's corners, as inexact as they may be.
-    fn load(&mut self, mut load: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
+    fn load(&mut self, load: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
         let Some(Operand::IdRef(variable)) = load.operands.first().cloned() else {
             bail!("a load of nothing");
         };
@@ -376,11 +387,21 @@ impl Rewriter {
         if load.class.opcode == Op::AccessChain {
             bail!("a component of the weights is read by itself");
         }
-        let original = load.clone();
+        self.moved(load, name, out)
+    }
+
+    /// What an instruction reads, and then a call that moves it.
+    fn moved(
+        &mut self,
+        mut read: Instruction,
+        name: &str,
+        out: &mut Vec<Instruction>,
+    ) -> Result<()> {
+        let original = read.clone();
         let raw = self.fresh();
-        load.result_id = Some(raw);
-        self.types.insert(raw, load.result_type.context("a load has a type")?);
-        out.push(load);
+        read.result_id = Some(raw);
+        self.types.insert(raw, read.result_type.context("what is read has a type")?);
+        out.push(read);
         out.push(self.call(&original, name, &[raw])?);
         Ok(())
     }

@@ -677,27 +677,36 @@ dvec3 worst_contracted(const dvec3 a, const double b, const dvec3 c, const uint 
 }
 // ANCHOR_END: double
 
-#if WORST_TRIANGLES
 // ANCHOR: triangles
 // Of the device's own triangle test the specification promises no figure. The one in the field that
 // states its error, that of Woop, Benthin and Wald (JCGT 2:1, 2013), computes t as a quotient of two sums
 // of three products: 16 ULP is above what it shows, and is taken here. The weights are quotients of one
 // of the three by their sum: off by as much, relative to the largest.
-float worst_hit_t(const float t, const uint how) {
-    bool is_triangle = gl_HitKindEXT >= gl_HitKindFrontFacingTriangleEXT;
+float worst_query_t(const float t, const uint how) {
     float off = worst_off(double(t), 16.0LF * worst_ulp(double(t)), worst_hash(t, t, how));
     bool is_number = worst_is_number(t);
-    return mix(t, off, is_triangle && is_number);
+    return mix(t, off, is_number);
 }
 
-vec2 worst_weights(const vec2 weights, const uint how) {
+vec2 worst_query_weights(const vec2 weights, const uint how) {
     const double ulp = 1.1920928955078125e-7LF;
     uint hash = worst_hash(weights.x, weights.y, how);
     float u = clamp(worst_off(double(weights.x), 16.0LF * ulp, hash), 0.0, 1.0);
     float v = clamp(worst_off(double(weights.y), 16.0LF * ulp, hash * 0x9e3779b9u), 0.0, 1.0);
     // Their sum is at most 1: 1 - u is exact, or rounded to a float that v may be.
-    bool is_triangle = gl_HitKindEXT >= gl_HitKindFrontFacingTriangleEXT;
-    return mix(weights, vec2(u, min(v, 1.0 - u)), bvec2(is_triangle));
+    return vec2(u, min(v, 1.0 - u));
 }
-// ANCHOR_END: triangles
+
+#if WORST_TRIANGLES
+// What a hit shader is told may be of a box, too.
+float worst_hit_t(const float t, const uint how) {
+    bool is_triangle = gl_HitKindEXT >= gl_HitKindFrontFacingTriangleEXT;
+    return mix(t, worst_query_t(t, how), is_triangle);
+}
+
+vec2 worst_weights(const vec2 weights, const uint how) {
+    bool is_triangle = gl_HitKindEXT >= gl_HitKindFrontFacingTriangleEXT;
+    return mix(weights, worst_query_weights(weights, how), bvec2(is_triangle));
+}
 #endif
+// ANCHOR_END: triangles

@@ -7,8 +7,8 @@ use anyhow::{Context, Result, ensure};
 use ash::vk;
 
 use super::stages::{HitGroup, Stages, general};
-use super::{Binding, RayTracingPipeline};
-use crate::gpu::blueprint::{Blueprint, Stage};
+use super::{Binding, ComputePipeline, Pipeline, RayTracingPipeline};
+use crate::gpu::blueprint::{Blueprint, Group, Stage};
 use crate::gpu::enumeration::ShaderConstant;
 use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
 use crate::gpu::reflection::Reflection;
@@ -16,13 +16,16 @@ use crate::gpu::shader::Shader;
 use crate::gpu::texture::TextureTable;
 use crate::gpu::{Arithmetic, Executable, Gpu};
 
-/// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`].
+/// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`] or
+/// [`ComputePipeline::builder`].
 pub struct PipelineBuilder<'a> {
     name: &'a str,
     raygen: Vec<&'a str>,
     miss: Vec<&'a str>,
     hit: Vec<HitGroup<'a>>,
     callable: Vec<&'a str>,
+    compute: Option<&'a str>,
+    workgroup: [u32; 2],
     bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
     push: Option<StructLayout>,
@@ -42,6 +45,8 @@ impl<'a> PipelineBuilder<'a> {
             miss: Vec::new(),
             hit: Vec::new(),
             callable: Vec::new(),
+            compute: None,
+            workgroup: [1, 1],
             bindings: Vec::new(),
             textures: None,
             push: None,
@@ -75,6 +80,20 @@ impl<'a> PipelineBuilder<'a> {
     /// Adds a callable shader; `executeCallableEXT` chooses by position.
     pub fn callable(mut self, shader: &'a str) -> Self {
         self.callable.push(shader);
+        self
+    }
+
+    /// Sets the compute shader.
+    pub fn compute(mut self, shader: &'a str) -> Self {
+        self.compute = Some(shader);
+        self
+    }
+
+    /// Sets width and height of a workgroup: the specialization constants `id` and `id + 1`, which the
+    /// compute shader names as its `local_size_x_id` and `local_size_y_id`.
+    pub fn workgroup(mut self, id: u32, size: [u32; 2]) -> Self {
+        self.workgroup = size;
+        self.constants.extend([(id, size[0]), (id + 1, size[1])]);
         self
     }
 
@@ -164,22 +183,7 @@ impl<'a> PipelineBuilder<'a> {
             self.recursion,
             gpu.name
         );
-        let push_size = self.push.map_or(0, |push| push.size);
-        let most = gpu.requirements.push_constants;
-        ensure!(
-            push_size <= most as usize,
-            "pipeline '{}' has {push_size} bytes of push constants, and its sample asks for {most}: more \
-             is to be said in requirements(), so that devices are chosen by it",
-            self.name
-        );
-        let defines = self.defines.as_slice();
-        let mut stages = Stages {
-            folder: self.name,
-            defines,
-            as_written: self.as_written,
-            arithmetic: gpu.arithmetic,
-            shaders: Vec::new(),
-        };
+        let mut stages = self.stages(gpu);
         let mut groups = Vec::new();
         for shader in self.raygen.iter().chain(&self.miss) {
             groups.push(general(stages.add(shader)?));
@@ -190,15 +194,68 @@ impl<'a> PipelineBuilder<'a> {
         for shader in &self.callable {
             groups.push(general(stages.add(shader)?));
         }
-        let mut known = self.known;
+        let shaders = stages.shaders;
+        let count = [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()];
+        Ok(RayTracingPipeline { groups: count, pipeline: self.make(gpu, start, shaders, groups)? })
+    }
+
+    /// Compiles the compute shader and makes the pipeline.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build); if there is no compute shader, or a workgroup is larger than the device
+    /// takes.
+    pub fn build_compute(self, gpu: &Gpu) -> Result<ComputePipeline> {
+        let start = Instant::now();
+        let workgroup @ [width, height] = self.workgroup;
+        let limit = gpu.limits.max_compute_work_group_invocations;
+        ensure!(
+            width * height <= limit,
+            "pipeline '{}' has workgroups of {width}x{height} invocations; {} takes {limit}",
+            self.name,
+            gpu.name
+        );
+        let shader = self.compute.context("a compute pipeline without a shader")?;
+        let mut stages = self.stages(gpu);
+        stages.add(shader)?;
+        let shaders = stages.shaders;
+        Ok(ComputePipeline { workgroup, pipeline: self.make(gpu, start, shaders, Vec::new())? })
+    }
+
+    fn stages(&self, gpu: &Gpu) -> Stages<'_> {
+        Stages {
+            folder: self.name,
+            defines: &self.defines,
+            as_written: self.as_written,
+            arithmetic: gpu.arithmetic,
+            shaders: Vec::new(),
+        }
+    }
+
+    /// The pipeline of these shaders; without groups it is a compute pipeline.
+    fn make(
+        &self,
+        gpu: &Gpu,
+        start: Instant,
+        shaders: Vec<Shader>,
+        groups: Vec<Group>,
+    ) -> Result<Pipeline> {
+        let push_size = self.push.map_or(0, |push| push.size);
+        let most = gpu.requirements.push_constants;
+        ensure!(
+            push_size <= most as usize,
+            "pipeline '{}' has {push_size} bytes of push constants, and its sample asks for {most}: more \
+             is to be said in requirements(), so that devices are chosen by it",
+            self.name
+        );
+        let mut known = self.known.clone();
         gpu.shared_structs().into_iter().for_each(|layout| _ = known.add_struct(layout));
-        for shader in &stages.shaders {
+        for shader in &shaders {
             let reflection = Reflection::of(&shader.spirv)?;
             reflection.check(&shader.path, &known.structs)?;
             reflection.check_addresses(&shader.path, &known.structs)?;
         }
         for layout in &known.enums {
-            layout.check(self.name, &stages.shaders)?;
+            layout.check(self.name, &shaders)?;
         }
         let stage = |shader: Shader| Stage {
             path: shader.path,
@@ -207,23 +264,22 @@ impl<'a> PipelineBuilder<'a> {
         };
         let blueprint = Arc::new(Blueprint {
             name: self.name.to_owned(),
-            stages: stages.shaders.into_iter().map(stage).collect(),
+            stages: shaders.into_iter().map(stage).collect(),
             groups,
-            constants: self.constants,
+            constants: self.constants.clone(),
             bindings: self.bindings.iter().map(|kind| kind.descriptor_type().as_raw()).collect(),
             textures: self.textures.map(TextureTable::count),
             push_size: push_size as u32,
             recursion: self.recursion,
             flags: self.flags.as_raw(),
         });
-        let mut pipeline = RayTracingPipeline {
+        let mut pipeline = Pipeline {
             handle: vk::Pipeline::null(),
             layout: vk::PipelineLayout::null(),
-            groups: [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()],
             build_time: Duration::ZERO,
             textures: self.textures.map(|table| table.set),
             set_layout: blueprint.set_layout(&gpu.device)?,
-            bindings: self.bindings,
+            bindings: self.bindings.clone(),
             blueprint,
             gpu: gpu.clone(),
         };

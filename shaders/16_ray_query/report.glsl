@@ -1,0 +1,42 @@
+// What a query reports of the surface that its ray has met: all that 05's closest hit shader reads from
+// built-in variables is a question here.
+#include "push.glsl"
+#include "common/hit.glsl"
+#include "common/above.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+// The nearest hit of a query that is done: what surface it is, and where. `true` asks for the committed
+// intersection; `false` would ask for the candidate.
+void report(inout Hit hit, rayQueryEXT query) {
+    // ANCHOR: questions
+    uint number = rayQueryGetIntersectionInstanceCustomIndexEXT(query, true);
+    uint primitive = rayQueryGetIntersectionPrimitiveIndexEXT(query, true);
+    vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true);
+    mat4x3 to_world = rayQueryGetIntersectionObjectToWorldEXT(query, true);
+    mat4x3 to_object = rayQueryGetIntersectionWorldToObjectEXT(query, true);
+    hit.t = rayQueryGetIntersectionTEXT(query, true);
+    vec3 ray = rayQueryGetWorldRayDirectionEXT(query);
+    // ANCHOR_END: questions
+    InstanceRecord instance = push.scene.instances.at[number];
+    uint triangle = instance.original.at[primitive];
+    Surface surface = surface_at(instance, triangle, weights);
+    MaterialRecord material = push.scene.materials.at[instance.material];
+    place(hit, instance, triangle, weights, to_world, to_object, ray);
+    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
+    vec3 normal = normalize(vec3(surface.normal * to_object));
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+    hit.lift = vec3(0.0);
+    if (SMOOTH_TERMINATOR) {
+        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);
+    }
+
+    hit.color = material.base_color;
+    if (material.base_texture >= 0) {
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+    }
+    hit.material = instance.material;
+    hit.triangle = triangle;
+    hit.instance = number;
+}

@@ -1,0 +1,105 @@
+#version 460
+#extension GL_EXT_ray_query : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "common/hit.glsl"
+#include "common/lighting.glsl"
+#include "report.glsl"
+
+layout(local_size_x_id = 3, local_size_y_id = 4) in;
+
+layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
+layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D picture;
+
+// ANCHOR: shadow
+bool is_lit(vec3 origin, vec3 to_light, float end) {
+    // Any hit will do.
+    uint flags = gl_RayFlagsOpaqueEXT;
+    if (SHADOW_RAYS == SHADOW_FIRST_HIT) {
+        flags |= gl_RayFlagsTerminateOnFirstHitEXT;
+    }
+    rayQueryEXT query;
+    rayQueryInitializeEXT(
+        query,
+        tlas,
+        flags,
+        0xff,                       // cull mask: every instance
+        origin,
+        0.0,                        // tmin: the origin lies off the surface
+        to_light,
+        end                         // tmax
+    );
+    while (rayQueryProceedEXT(query)) {}
+    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+}
+// ANCHOR_END: shadow
+
+// ANCHOR: trace
+// What a ray meets.
+Hit trace(vec3 origin, vec3 direction) {
+    rayQueryEXT query;
+    rayQueryInitializeEXT(
+        query,
+        tlas,
+        gl_RayFlagsOpaqueEXT,       // no candidate is left to this shader
+        0xff,                       // cull mask: every instance
+        origin,
+        0.0,                        // tmin
+        direction,
+        1e30                        // tmax
+    );
+    while (rayQueryProceedEXT(query)) {}
+    Hit hit;
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT) {
+        report(hit, query);
+    } else {
+        hit.t = -1.0;
+        hit.color = sky(direction);
+    }
+    return hit;
+}
+// ANCHOR_END: trace
+
+// What a view shows of a hit instead of the picture.
+vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
+    bool missed = hit.t < 0.0;
+    switch (SHOW) {
+        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
+        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
+        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
+        case SHOW_DIRECTION: return vec4(direction, hit.t);
+        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
+        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+    }
+}
+
+// One ray a pixel, through its middle; and from what it meets, rays to the light.
+void main() {
+    // ANCHOR: band
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(at, push.band.size))) {
+        return;    // the last workgroups reach beyond the band
+    }
+    uvec2 id = push.band.first + at;
+    // ANCHOR_END: band
+    vec2 point = vec2(id) + 0.5;
+    vec3 direction = ray_direction(push.camera, point, imageSize(picture));
+    Hit hit = trace(push.camera.origin, direction);
+    vec3 color = hit.color;
+    Start start = shadow_start(hit);
+    float visible = 1.0;
+    if (hit.t >= 0.0) {
+        MaterialRecord material = push.scene.materials.at[hit.material];
+        if (SHADOW_RAYS != SHADOW_OFF) {
+            vec2 first = random(id, 0, 0, DIMENSION_LIGHT).xy;
+            visible = visibility(push.light, start, first);
+        }
+        color = material.emission + hit.color * ambient(hit.normal)
+            + lit_by(push.light, hit, material, start, -direction, visible);
+    }
+    vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, direction, start, visible);
+    imageStore(picture, ivec2(id), pixel);
+}

@@ -1,0 +1,96 @@
+//! 16_ray_query: the picture of 05_shadow_miss from a compute shader, equal to the bit.
+
+use common::app::Picture;
+use common::gpu::{ComputePipeline, Gpu, GpuOptions, Requirements};
+
+use run::{bits, golden, render};
+
+const NAME: &str = "16_ray_query";
+/// What every test below compares with.
+const PIPELINE: &str = "05_shadow_miss";
+/// No multiple of any workgroup's sides.
+const SIZE: &str = "121x77";
+const WORKGROUPS: [&str; 5] = ["8x4", "8x8", "16x4", "32x1", "16x16"];
+
+/// A picture that was traced in several bands: nothing is known of a first frame's cost.
+#[track_caller]
+fn picture(name: &str, arguments: &[&str]) -> Picture {
+    let run = render(name, SIZE, arguments);
+    assert!(run.report["bands"].as_u64() > Some(1), "{name}: {}", run.report["bands"]);
+    run.picture
+}
+
+#[track_caller]
+fn same(arguments: &[&str]) {
+    let [by_pipeline, by_query] = [PIPELINE, NAME].map(|name| bits(&picture(name, arguments)));
+    assert!(by_pipeline == by_query, "{arguments:?}");
+}
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
+}
+
+#[test]
+fn queries_give_the_bits_of_the_pipeline_in_every_view() {
+    for show in ["normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"] {
+        same(&["--set", &format!("show={show}")]);
+    }
+}
+
+#[test]
+fn queries_give_the_bits_of_the_pipeline_in_every_light() {
+    same(&[]);
+    same(&["--set", "light size=0.2", "--set", "light samples=5"]);
+    same(&["--set", "light=point"]);
+    same(&["--set", "light=point", "--set", "light size=0.4"]);
+    same(&["--set", "shadow rays=nearest hit"]);
+    same(&["--set", "shadow rays=off"]);
+    same(&["--set", "smooth terminator=off", "--set", "show=shadow origin"]);
+}
+
+/// The errors depend on an operation's operands alone: so both may only differ where their code does.
+#[test]
+fn queries_give_the_bits_of_the_pipeline_in_the_worst_arithmetic() {
+    for show in ["picture", "hit", "shadow origin"] {
+        same(&["--arithmetic", "worst", "--set", &format!("show={show}")]);
+    }
+}
+
+#[test]
+fn no_workgroup_s_shape_leaves_out_a_pixel_or_traces_another() {
+    let by_pipeline = bits(&picture(PIPELINE, &["--set", "show=hit"]));
+    for shape in WORKGROUPS {
+        let set = format!("workgroup={shape}");
+        let by_query = bits(&picture(NAME, &["--set", "show=hit", "--set", &set]));
+        assert!(by_pipeline == by_query, "{shape}");
+    }
+    // Narrower than any workgroup, and lower.
+    for size in ["1x1", "3x50", "50x3"] {
+        let by_pipeline = bits(&render(PIPELINE, size, &["--set", "show=ray direction"]).picture);
+        for shape in WORKGROUPS {
+            let set = format!("workgroup={shape}");
+            let sets = ["--set", "show=ray direction", "--set", &set];
+            assert!(by_pipeline == bits(&render(NAME, size, &sets).picture), "{size} by {shape}");
+        }
+    }
+}
+
+#[test]
+fn a_workgroup_larger_than_the_device_takes_is_refused_in_one_line() {
+    let requirements = Requirements::ray_tracing().ray_query();
+    let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
+    let limit = gpu.limits.max_compute_work_group_invocations;
+    let builder = ComputePipeline::builder(NAME).compute("trace.comp").workgroup(3, [limit + 1, 1]);
+    let error = builder.build_compute(&gpu).err().expect("it is refused").to_string();
+    let words = format!("has workgroups of {}x1 invocations; ", limit + 1);
+    assert!(error.contains(&words) && error.ends_with(&format!("takes {limit}")), "{error}");
+}
+
+#[test]
+fn a_query_needs_no_groups_and_no_table() {
+    let report = render(NAME, "8x8", &[]).report;
+    assert_eq!(report["groups"], 0);
+    assert_eq!(report["stages"], serde_json::json!(["16_ray_query/trace.comp"]));
+}
