@@ -189,12 +189,13 @@ impl Exercise {
         self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
     }
 
-    /// Whether an answer is right: compared without case, articles and final point, numbers as numbers.
+    /// Whether an answer is right: compared without case, articles and final point; numbers as numbers, with
+    /// or without what is counted.
     pub fn accepts(&self, answer: &str) -> bool {
         let given = plain(answer);
         self.answers.iter().map(|right| plain(right)).any(|right| {
             match Amount::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
-                Some(amount) => number(&given).is_some_and(|given| amount.holds(given)),
+                Some(amount) => told(&given).is_some_and(|given| amount.holds(given)),
                 None => given == right,
             }
         })
@@ -205,6 +206,13 @@ impl Exercise {
         let Self { number, patch, text, check, .. } = self;
         format!("{number}. **{}** ({}). {text} *Check:* {check}\n", patch.title, self.takes())
     }
+}
+
+/// The number of an answer such as `about 1,600 squares`.
+fn told(answer: &str) -> Option<f64> {
+    let words = answer.strip_prefix("about ").unwrap_or(answer);
+    let first = words.split_whitespace().next()?;
+    number(if first == "zero" || first == "no" { "0" } else { first })
 }
 
 impl fmt::Display for Exercise {

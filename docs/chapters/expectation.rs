@@ -185,7 +185,13 @@ impl Expectation {
             Self::Same(with) => {
                 let (own, other) = pictures(with)?;
                 let pixels = pixels_apart(own, &other);
-                held(same_bits(own, &other), format!("not the same: {pixels} pixels differ"))
+                held(
+                    same_bits(own, &other),
+                    match pixels {
+                        0 => "not the same to the bit".to_owned(),
+                        _ => format!("not the same: {pixels} pixels differ"),
+                    },
+                )
             }
             Self::Pixel([x, y], amounts) => {
                 let picture = picture()?;

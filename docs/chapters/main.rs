@@ -200,8 +200,12 @@ fn parse() -> Result<Arguments> {
         }
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
-        let line = text.lines().find_map(|line| line.strip_prefix("error: "));
-        let line = line.unwrap_or(
+        // What is required is listed in lines of its own below it.
+        let mut lines = text.lines().skip_while(|line| !line.starts_with("error: "));
+        let first = lines.next().map(|line| line.trim_start_matches("error: ").to_owned());
+        let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
+        let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
+        let line = line.as_deref().unwrap_or(
             "no command; there is list, diff, new, sync, measure, survey, mistake, exercise, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()

@@ -75,6 +75,14 @@ impl<'a> Workbench<'a> {
             }
             Takes::Shader => {
                 built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                let book = self.project.root.join("shaders");
+                let is_book =
+                    |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
+                ensure!(
+                    !self.folder.ancestors().any(is_book),
+                    "'{}' holds the book's own shaders; name another with --folder",
+                    self.shown
+                );
                 let filled =
                     self.folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
                 if filled {
@@ -259,7 +267,7 @@ impl<'a> Workbench<'a> {
                 _ => "in the project".to_owned(),
             };
             let what = fault.what.replace("this hunk", "the solution");
-            anyhow!("{what} {place} any more: undo what you have changed there")
+            anyhow!("{what} {place} any more: undo what you have changed there, or delete your copy to begin anew")
         })?;
         for (file, text) in &patched {
             common::files::write_whole(&below(file), text.as_bytes())?;

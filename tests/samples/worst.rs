@@ -25,11 +25,11 @@ impl Near {
     /// If nothing is said of the chapter.
     fn of(chapter: &str) -> Self {
         match chapter[..2].parse().expect("a chapter begins with its number") {
-            // The nearest hit decides, and nothing else.
-            2 | 7 | 9 | 24 => Self { flips: 1, mean: 0.00125 },
+            // The nearest hit decides, and nothing else; lines fade out within a pixel (20).
+            2 | 7 | 9 | 10 | 20 | 24 => Self { flips: 1, mean: 0.00125 },
             // A second decision: a hole or a random number (03), what a shadow ray meets (04 and later),
-            // which of two faces of a solid is first (22).
-            3 | 4 | 5 | 8 | 21 | 22 => Self { flips: 2, mean: 0.00125 },
+            // which of two faces of a solid is first (22), which cell of a lattice a point is in (13).
+            3 | 4 | 5 | 8 | 13 | 16 | 21 | 22 => Self { flips: 2, mean: 0.00125 },
             // Rays that round mirrors send on: an error grows by the way over the radius each time, and two
             // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
             // factor.
