@@ -262,12 +262,12 @@ impl<'a> Workbench<'a> {
             fs::read_to_string(below(file)).ok().map(|text| text.replace("\r\n", "\n"))
         };
         let patched = self.exercise.patch.patched(read).map_err(|fault| {
-            let place = match self.exercise.takes {
-                Takes::Shader => format!("in {}", self.shown),
-                _ => "in the project".to_owned(),
+            let (place, anew) = match self.exercise.takes {
+                Takes::Shader => (format!("in {}", self.shown), ", or delete it to begin anew"),
+                _ => ("in the project".to_owned(), ""),
             };
             let what = fault.what.replace("this hunk", "the solution");
-            anyhow!("{what} {place} any more: undo what you have changed there, or delete your copy to begin anew")
+            anyhow!("{what} {place} any more: undo what you have changed there{anew}")
         })?;
         for (file, text) in &patched {
             common::files::write_whole(&below(file), text.as_bytes())?;

@@ -203,7 +203,7 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     // It is gone on with, and the solution does not fit it any more.
     let outcome = ask(&["--solution", "--apply"]);
     let misfit = "error: the solution does not fit shaders/02_basic/camera.rgen in target/exercises/02.1 any \
-                  more: undo what you have changed there\n";
+                  more: undo what you have changed there, or delete it to begin anew\n";
     assert_eq!((outcome.code, &*outcome.err), (1, misfit));
     fixture.replace(camera, "payload\n", "vec4(1.0)); // mine\n");
     let outcome = ask(&["--check"]);
