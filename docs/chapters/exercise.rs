@@ -210,8 +210,12 @@ impl Exercise {
 
 /// The number of an answer such as `about 1,600 squares`.
 fn told(answer: &str) -> Option<f64> {
-    let words = answer.strip_prefix("about ").unwrap_or(answer);
-    let first = words.split_whitespace().next()?;
+    let mut words = answer.strip_prefix("about ").unwrap_or(answer).split_whitespace();
+    let first = words.next()?;
+    // What is counted is words: two numbers are no answer.
+    if words.any(|word| word.contains(|c: char| c.is_ascii_digit())) {
+        return None;
+    }
     number(if first == "zero" || first == "no" { "0" } else { first })
 }
 
@@ -294,9 +298,10 @@ mod tests {
             "42.5",
             "1600",
             "1,600",
+            "about 42 frames",
         ];
         let wrong = ["", "down", "king", "39", "45", "y", "the", "40 to 44"];
-        assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 10]);
+        assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 11]);
         assert_eq!(wrong.map(|answer| exercise.accepts(answer)), [false; 8]);
         assert_eq!(exercise.to_string(), "05.2");
     }
