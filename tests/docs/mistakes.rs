@@ -69,10 +69,11 @@ fn a_copy_of_the_rust_code_is_a_project_that_cargo_takes() {
     assert!(said.ends_with(&command), "{said}");
     let patched = std::fs::read_to_string(format!("{out}/common/src/gpu/sbt.rs")).expect("a copy");
     assert!(patched.contains(".min().unwrap_or(0);"), "{patched}");
-    // Every member of the workspace must be there, and its lock must name what they need.
+    // Every member of the workspace must be there. What they depend on need not be: a machine has downloaded
+    // only what it builds.
     let cargo = std::env::var_os("CARGO").expect("Cargo runs tests");
     let mut metadata = Command::new(cargo);
-    metadata.args(["metadata", "--offline", "--locked", "--format-version", "1"]);
+    metadata.args(["metadata", "--no-deps", "--offline", "--format-version", "1"]);
     let outcome = run(metadata.current_dir(out));
     assert_eq!(outcome.code, 0, "{}", outcome.err);
 }
