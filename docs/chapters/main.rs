@@ -32,6 +32,7 @@ mod expectation;
 mod fault;
 mod figure;
 mod gallery;
+mod glossary;
 mod hunk;
 mod laboratory;
 mod markdown;
