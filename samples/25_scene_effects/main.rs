@@ -27,7 +27,7 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup};
 use costs::Costs;
-use effects::{Composition, Effect, Face, Finding, Solid, Sphere, findings, needed};
+use effects::{Composition, Effect, Face, Finding, Finish, Solid, Sphere, findings, needed};
 use geometry::SceneGeometry;
 use glam::Vec3;
 use ground::{Ground, HeightfieldShape};
@@ -95,6 +95,7 @@ impl Sample for Demo {
             effects::Box::LAYOUT,
             Solid::LAYOUT,
             Face::LAYOUT,
+            Finish::LAYOUT,
         ]);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;

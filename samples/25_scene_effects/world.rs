@@ -20,6 +20,8 @@ pub struct Shapes {
     pub solids: vk::DeviceAddress,
     /// Of [`effects::Face`].
     pub faces: vk::DeviceAddress,
+    /// Of [`effects::Finish`].
+    pub finishes: vk::DeviceAddress,
 }
 
 common::shader_struct! {
@@ -49,6 +51,7 @@ common::shader_struct! {
         pub boxes: Address,
         pub solids: Address,
         pub faces: Address,
+        pub finishes: Address,
         pub plane: Plane,
         pub board: Board,
         pub ground: Ground,
@@ -59,6 +62,7 @@ common::shader_struct! {
         pub samples: u32,
         pub depth: u32,
         pub plane_on: u32,
+        pub finish_count: u32,
     }
 }
 
@@ -93,6 +97,7 @@ impl World {
             boxes: shapes.boxes.into(),
             solids: shapes.solids.into(),
             faces: shapes.faces.into(),
+            finishes: shapes.finishes.into(),
             plane,
             board: Board::new(&board, &plane),
             ground: scene.heightfield.as_ref().map_or_else(Ground::none, Ground::new),
@@ -103,6 +108,7 @@ impl World {
             samples: scene.samples,
             depth: scene.depth,
             plane_on: scene.plane.is_some().into(),
+            finish_count: scene.finishes_to_read().len() as u32,
         }
     }
 }

@@ -18,7 +18,13 @@ struct Hit {
 #ifdef CURVES
     float curvature;  // by how much the normal turns in a unit of length
 #endif
-};                    // 44 to 76 bytes
+#ifdef EFFECT_PATTERNS
+    vec3 object;      // the position in the mesh's own space, where patterns are
+#endif
+#ifdef EFFECT_WIREFRAME
+    vec2 line;        // to the shader: the ray's cone. From it: x is how much of the pixel lines cover
+#endif
+};                    // 44 to 96 bytes
 // ANCHOR_END: hit
 
 // The ground and the plane are made of nothing that is in the list of materials.

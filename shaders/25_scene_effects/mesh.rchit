@@ -17,6 +17,10 @@ struct Placed {
 #include "common/place.glsl"
 #undef Hit
 
+#ifdef EFFECT_WIREFRAME
+#include "lines.glsl"
+#endif
+
 #ifdef EFFECT_TEXTURES
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
@@ -36,6 +40,21 @@ float curvature(InstanceRecord instance, uint triangle) {
         most = max(most, length(b.normal - a.normal) / length(edge));
     }
     return most;
+}
+#endif
+
+#ifdef FINISHES
+// The triangle's corners in the mesh's own space.
+vec3[3] corners_of(InstanceRecord instance, uint triangle) {
+    uvec3 corner = instance.triangles.at[triangle];
+    return vec3[](
+        instance.vertices.at[corner.x].position,
+        instance.vertices.at[corner.y].position,
+        instance.vertices.at[corner.z].position);
+}
+
+vec3 point_between(vec3 corners[3], vec2 w) {
+    return corners[0] + w.x * (corners[1] - corners[0]) + w.y * (corners[2] - corners[0]);
 }
 #endif
 
@@ -68,5 +87,25 @@ void main() {
 #endif
 #ifdef CURVES
     hit.curvature = curvature(instance, triangle);
+#endif
+#ifdef FINISHES
+    vec3 corners[3] = corners_of(instance, triangle);
+#endif
+#ifdef EFFECT_PATTERNS
+    hit.object = point_between(corners, weights);
+#endif
+#ifdef EFFECT_WIREFRAME
+    float width = 0.0;
+    if (instance.material < push.world.finish_count) {
+        width = push.world.finishes.at[instance.material].lines;
+    }
+    if (width > 0.0) {
+        for (int k = 0; k < 3; k++) {
+            corners[k] = gl_ObjectToWorldEXT * vec4(corners[k], 1.0);
+        }
+        hit.line.x = line_coverage(corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.line, width);
+    } else {
+        hit.line.x = 0.0;
+    }
 #endif
 }
