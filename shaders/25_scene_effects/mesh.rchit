@@ -17,6 +17,9 @@ struct Placed {
 #include "common/place.glsl"
 #undef Hit
 
+#ifdef FINISHES
+#include "finish.glsl"
+#endif
 #ifdef EFFECT_WIREFRAME
 #include "lines.glsl"
 #endif
@@ -89,23 +92,23 @@ void main() {
     hit.curvature = curvature(instance, triangle);
 #endif
 #ifdef FINISHES
-    vec3 corners[3] = corners_of(instance, triangle);
+    Finish finish = finish_of(instance.material);
 #endif
 #ifdef EFFECT_PATTERNS
-    hit.object = point_between(corners, weights);
+    if (finish.pattern != PATTERN_PLAIN) {
+        hit.color = point_between(corners_of(instance, triangle), weights);
+    }
 #endif
 #ifdef EFFECT_WIREFRAME
-    float width = 0.0;
-    if (instance.material < push.world.finish_count) {
-        width = push.world.finishes.at[instance.material].lines;
-    }
-    if (width > 0.0) {
+    float covered = 0.0;
+    if (finish.lines > 0.0) {
+        vec3 corners[3] = corners_of(instance, triangle);
         for (int k = 0; k < 3; k++) {
             corners[k] = gl_ObjectToWorldEXT * vec4(corners[k], 1.0);
         }
-        hit.line.x = line_coverage(corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.line, width);
-    } else {
-        hit.line.x = 0.0;
+        covered = line_coverage(
+            corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.line, finish.lines);
     }
+    hit.line = vec2(covered, 0.0);
 #endif
 }

@@ -110,6 +110,10 @@ impl Description {
             paint.get_ref().apply(&mut materials[number]);
             let finish = paint.get_ref().finish();
             finishes[number] = finish.map_err(|what| source.error(paint.span().start, what))?;
+            if finishes[number].pattern().is_some() {
+                // It takes the place of the material's colour, and so of what multiplies that.
+                materials[number].base_texture = None;
+            }
         }
         Ok((numbers, finishes))
     }
