@@ -3,6 +3,7 @@
 mod compiled;
 mod departures;
 mod generated;
+mod lines;
 mod plots;
 
 use std::collections::BTreeSet;
