@@ -1,13 +1,13 @@
 //! The world as shaders get it: addresses of shapes, plane, ground and lights, all in one buffer.
 
 use ash::vk;
-use common::gpu::Address;
+use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
 use common::scene::{Light, LightKind};
-use effects::{BoardPlane, Composition, MAX_LIGHTS};
+use effects::{BoardPlane, Composition, Face, Finish, MAX_LIGHTS, Solid, Sphere};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::ground::Ground;
+use crate::ground::{Ground, HeightfieldShape};
 
 /// Where shaders find the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,6 +65,21 @@ common::shader_struct! {
         pub finish_count: u32,
     }
 }
+
+/// What lies behind the world's address.
+pub const LAYOUTS: [StructLayout; 11] = [
+    World::LAYOUT,
+    Plane::LAYOUT,
+    Board::LAYOUT,
+    Ground::LAYOUT,
+    HeightfieldShape::LAYOUT,
+    Light::LAYOUT,
+    Sphere::LAYOUT,
+    effects::Box::LAYOUT,
+    Solid::LAYOUT,
+    Face::LAYOUT,
+    Finish::LAYOUT,
+];
 
 impl World {
     /// The world of a scene, seen from `eye`.

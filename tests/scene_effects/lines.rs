@@ -38,7 +38,8 @@ fn a_line_is_as_wide_as_asked_for() {
 
 #[test]
 fn a_flat_mirror_shows_a_line_as_wide() {
-    let mirror = "[plane]\nnormal = [0, 0, 1]\nlight = [0, 0, 0]\ndark = [0, 0, 0]\nreflection = 1\n";
+    let mirror =
+        "[plane]\nnormal = [0, 0, 1]\nlight = [0, 0, 0]\ndark = [0, 0, 0]\nreflection = 1\n";
     let ink = ink(3.0, 6.0, mirror);
     println!("3 pixels in the mirror: {ink}");
     assert!((ink - 3.0).abs() < 0.001, "{ink}");
