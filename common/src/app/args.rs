@@ -98,6 +98,18 @@ impl Args {
         self.headless || self.list_controls || self.compare.is_some() || self.compile_for.is_some()
     }
 
+    /// Fails if a file and a control both name the scene: one of them would be passed over.
+    fn one_scene(&self) -> Result<(), Usage> {
+        let set = self.sets.iter().find(|(name, value)| name == "scene" && value != "file");
+        match (&self.scene, set) {
+            (Some(file), Some((_, chosen))) => Err(Usage(format!(
+                "--scene {} and --set \"scene={chosen}\" are two scenes; leave one of them out",
+                file.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     /// Parses the process's arguments.
     ///
     /// Prints the help and ends the process if that is asked for.
@@ -133,6 +145,7 @@ impl Args {
             let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
             Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
         })
+        .and_then(|(args, more)| args.one_scene().map(|()| (args, more)))
     }
 }
 
