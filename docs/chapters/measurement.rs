@@ -17,11 +17,15 @@ use serde_json::{Map, Value, json};
 
 use crate::command;
 use crate::fault::Fault;
+use crate::laboratory;
 use crate::page::Page;
 use crate::picture::{self, Sources};
 use crate::program::{BUILD, Programs};
 use crate::project::{Chapter, Project};
 use crate::stored::{self, Stored};
+
+/// What makes the worst arithmetic that conforms; commands that use it have `worst` in them.
+const ARITHMETIC: &str = "common/src/gpu/arithmetic";
 
 /// A command on a page that gives figures.
 pub struct Measurement {
@@ -122,13 +126,14 @@ impl Measurement {
         let bin = after("--bin").and_then(|rest| rest.first()).map(String::as_str);
         let is_meant = |name: &str, of: &str| bin == Some(name) || !of.is_empty() && of == module;
         let chapters = || project.chapters.iter();
+        let target = after("--test").and_then(|rest| rest.first()).map(String::as_str);
         let chapter = chapters()
             .find(|chapter| is_meant(&chapter.name, chapter.module()))
-            .or_else(|| chapters().find(|chapter| chapter.page() == self.page));
-        let target = after("--test").and_then(|rest| rest.first());
-        let target = project.tests.iter().find(|test| Some(&test.name) == target);
+            .or_else(|| chapters().find(|chapter| chapter.page() == self.page))
+            .or_else(|| chapters().find(|chapter| laboratory::is_asked(&chapter.name, target)));
+        let target = project.tests.iter().find(|test| Some(&*test.name) == target);
         let folder = target.and_then(|test| test.path.rsplit_once('/')).map(|(folder, _)| folder);
-        let files = folder.map_or(Vec::new(), |folder| {
+        let mut files = folder.map_or(Vec::new(), |folder| {
             let mut files = project.files(folder);
             // The test's module is named, or is the chapter's; else it may be any.
             let modules = [Some(module), chapter.map(Chapter::module)];
@@ -139,6 +144,9 @@ impl Measurement {
             }
             files
         });
+        if words.iter().any(|word| word.contains("worst")) {
+            files.extend(project.files(ARITHMETIC));
+        }
         let chapter = chapter.map_or(String::new(), |chapter| sources.of(project, &chapter.name));
         let test = picture::of_files(project, &files);
         picture::hash([chapter.as_bytes(), test.as_bytes()])
