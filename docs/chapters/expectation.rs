@@ -1,10 +1,13 @@
 //! What must hold of a run once an exercise is solved.
 
+use std::fmt;
+
 use anyhow::{Context, Result, anyhow, ensure};
 use common::app::Picture;
 use serde_json::Value;
 
 use crate::amount::Amount;
+use crate::command::quoted;
 use crate::edition::Tested;
 use crate::seen::{Seen, mean_difference, pixels_apart, same_bits};
 
@@ -20,6 +23,16 @@ pub struct Other {
     pub own: bool,
     /// The first word of `arguments` may name a chapter; `None`: the run's own arguments.
     pub arguments: Option<Vec<String>>,
+}
+
+impl fmt::Display for Other {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let whose = if self.own { "and yours" } else { "the book's" };
+        match &self.arguments {
+            Some(arguments) if !arguments.is_empty() => write!(f, "{whose} with {}", quoted(arguments)),
+            _ => f.write_str(whose),
+        }
+    }
 }
 
 /// What must hold.
@@ -152,41 +165,37 @@ impl Expectation {
         }
     }
 
-    /// What was seen instead, if a run does not meet it; `other` makes the picture to compare with.
+    /// What was seen instead, if a run does not meet it; `other` is the picture to compare with.
     ///
     /// # Errors
-    /// If that cannot be made, or is of another size.
-    pub fn missed(
-        &self,
-        seen: &Seen,
-        other: &dyn Fn(&Other) -> Result<Picture>,
-    ) -> Result<Option<String>> {
+    /// If there is no picture, or the other is of another size.
+    pub fn missed(&self, seen: &Seen, other: Option<&Picture>) -> Result<Option<String>> {
         let picture =
             || seen.picture.as_ref().with_context(|| format!("no picture: {}", seen.said));
-        let pictures = |with: &Other| -> Result<(&Picture, Picture)> {
-            let (own, other) = (picture()?, other(with)?);
-            let [a, b] = [own, &other].map(|picture| (picture.width, picture.height));
+        let pictures = || -> Result<(&Picture, &Picture)> {
+            let (own, other) = (picture()?, other.context("there is nothing to compare with")?);
+            let [a, b] = [own, other].map(|picture| (picture.width, picture.height));
             ensure!(a == b, "pictures of {}x{} and {}x{} cannot be compared", a.0, a.1, b.0, b.1);
             Ok((own, other))
         };
         let held = |holds: bool, what: String| Ok((!holds).then_some(what));
         match self {
-            Self::DiffersBy(amount, with) => {
-                let (own, other) = pictures(with)?;
-                let by = mean_difference(own, &other);
+            Self::DiffersBy(amount, _) => {
+                let (own, other) = pictures()?;
+                let by = mean_difference(own, other);
                 held(amount.holds(by), format!("differs by {by:.4}, not {}", amount))
             }
-            Self::DiffersIn(amount, with) => {
-                let (own, other) = pictures(with)?;
-                let pixels = pixels_apart(own, &other);
+            Self::DiffersIn(amount, _) => {
+                let (own, other) = pictures()?;
+                let pixels = pixels_apart(own, other);
                 let what = format!("differs in {pixels} pixels, not in {}", amount);
                 held(amount.holds(pixels as f64), what)
             }
-            Self::Same(with) => {
-                let (own, other) = pictures(with)?;
-                let pixels = pixels_apart(own, &other);
+            Self::Same(_) => {
+                let (own, other) = pictures()?;
+                let pixels = pixels_apart(own, other);
                 held(
-                    same_bits(own, &other),
+                    same_bits(own, other),
                     match pixels {
                         0 => "not the same to the bit".to_owned(),
                         _ => format!("not the same: {pixels} pixels differ"),
@@ -296,16 +305,16 @@ mod tests {
     /// Whether it holds against a picture of which one pixel is black.
     fn holds(text: &str) -> bool {
         let expectation = Expectation::parse(text).unwrap_or_else(|| panic!("{text}"));
-        let other = |other: &Other| {
+        let other = expectation.other().map(|other| {
             let mut picture = picture();
             // Called by arguments, the pictures are the same.
             if other.arguments.is_none() {
                 picture.pixels[1] = [0.0; 4];
             }
-            Ok(picture)
-        };
+            picture
+        });
         let seen = seen(if text.starts_with("refused") { 2 } else { 0 });
-        expectation.missed(&seen, &other).unwrap().is_none()
+        expectation.missed(&seen, other.as_ref()).unwrap().is_none()
     }
 
     #[test]
@@ -340,7 +349,7 @@ mod tests {
     #[test]
     fn a_refusal_is_an_exit_code() {
         let refused = Expectation::parse("refused: no such control").unwrap();
-        assert!(refused.missed(&seen(0), &|_| Ok(picture())).unwrap().is_some());
+        assert!(refused.missed(&seen(0), None).unwrap().is_some());
     }
 
     #[test]
@@ -362,7 +371,7 @@ mod tests {
         let wide = Picture { width: 1, height: 2, ..picture() };
         let missed = |text: &str| {
             let expectation = Expectation::parse(text).unwrap();
-            let wrong = expectation.missed(&seen(0), &|_| Ok(wide.clone())).unwrap_err();
+            let wrong = expectation.missed(&seen(0), Some(&wide)).unwrap_err();
             format!("{wrong:#}")
         };
         assert_eq!(missed("same"), "pictures of 2x1 and 1x2 cannot be compared");

@@ -6,13 +6,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use common::usage::Usage;
 
 use crate::fault::Fault;
 use crate::patch::{Field, Patch};
 use crate::picture::{self, Sources};
 use crate::project::Project;
+use crate::workbench::file_on_the_way;
 
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";
@@ -183,8 +184,14 @@ impl Mistake {
     /// # Errors
     /// If the patch does not fit, the folder holds something, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
+        let refused = |path: &Path, what: &str| {
+            Usage(format!("'{}' {what}; name another folder with --out", path.display()))
+        };
+        if let Some(file) = file_on_the_way(folder) {
+            return Err(refused(file, "is a file, and the copy is a folder").into());
+        }
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
-            bail!("'{}' is not empty; name another folder with --out", folder.display());
+            return Err(refused(folder, "is not empty").into());
         }
         self.patch.copy_to(project, folder)
     }

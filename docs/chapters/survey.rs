@@ -169,7 +169,7 @@ impl Survey<'_> {
         if let Some(device) = self.device {
             command.args(["--device", device]);
         }
-        child::run(command.args(arguments), self.limit).context("it does not start")
+        child::run(command.args(arguments), self.limit)
     }
 
     /// One chapter: its golden picture under validation, its time, and what compilers say.
