@@ -194,7 +194,8 @@ mod tests {
     #[test]
     fn a_run_gives_the_numbers_of_its_chapter() {
         let chapter = json!({ "pieces": 16, "scene": "x", "rows": [1] });
-        let report = json!({ "device": "d", "driver": "e", "bytes_allocated": 5, "chapter": chapter });
+        let report =
+            json!({ "device": "d", "driver": "e", "bytes_allocated": 5, "chapter": chapter });
         let stored = reported(&report).unwrap();
         let of_chapter = stored.values.keys().filter(|name| name.starts_with("chapter."));
         assert_eq!(of_chapter.collect::<Vec<_>>(), ["chapter.pieces"]);

@@ -71,6 +71,7 @@ mod text;
 mod trial;
 mod try_it;
 mod watch;
+mod window;
 mod workbench;
 
 use std::io::{ErrorKind, Write};

@@ -9,11 +9,11 @@ use std::path::Path;
 use anyhow::Result;
 use common::usage::Usage;
 
+use crate::copy::file_on_the_way;
 use crate::fault::Fault;
 use crate::patch::{Field, Patch};
 use crate::picture::{self, Sources};
 use crate::project::Project;
-use crate::workbench::file_on_the_way;
 
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";

@@ -14,7 +14,8 @@ use crate::program::Programs;
 use crate::progress::Progress;
 use crate::project::Project;
 use crate::stop;
-use crate::workbench::{Workbench, has_display, solved};
+use crate::window::has_display;
+use crate::workbench::{Workbench, solved};
 
 /// What is asked.
 #[derive(Debug, Args)]

@@ -3,17 +3,14 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Stdio};
-use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 use common::app::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals, Verdict};
-use crate::child;
 use crate::command::quoted;
-use crate::copy::{Changed, copy_shaders};
+use crate::copy::{Changed, copy_shaders, file_on_the_way};
 use crate::edition::Edition;
 use crate::exercise::{Exercise, Takes};
 use crate::program::{BUILD, Programs};
@@ -22,6 +19,7 @@ use crate::project::Project;
 use crate::step::Run;
 use crate::stop;
 use crate::watch::Watch;
+use crate::window::Window;
 
 /// The place of an exercise.
 pub struct Workbench<'a> {
@@ -167,15 +165,18 @@ impl<'a> Workbench<'a> {
         lines.iter().map(|line| format!("{line}\n")).collect()
     }
 
-    /// The command by which a reader makes the first picture without a window; `None` where only tests run.
+    /// The command by which a reader makes the first picture without a window: that which is checked, or of what
+    /// takes only looking one in the usual size. `None` where only tests run.
     pub fn render(&self) -> Option<String> {
+        let look = self.exercise.takes == Takes::Look;
+        let mut words = if look { self.settings() } else { self.first_run()?.to_vec() };
+        words.extend(["--headless".to_owned(), "--out".to_owned(), self.own_picture()]);
         let shaders = match self.exercise.takes {
             Takes::Shader => format!("SHADERS={} ", quoted(&[self.shown.clone()])),
             _ => String::new(),
         };
-        let (chapter, arguments) = (&self.exercise.chapter, quoted(self.first_run()?));
-        let out = quoted(&[self.own_picture()]);
-        Some(format!("{shaders}cargo run --bin {chapter} -- {arguments} --headless --out {out}"))
+        let chapter = &self.exercise.chapter;
+        Some(format!("{shaders}cargo run --bin {chapter} -- {}", quoted(&words)))
     }
 
     /// Where the reader's picture lies.
@@ -261,9 +262,7 @@ impl<'a> Workbench<'a> {
     /// If it does not start.
     pub fn window(&self) -> Result<Window> {
         let command = self.edition().command(self.project, self.programs, &self.exercise.chapter);
-        let mut command = command?;
-        command.args(self.settings()).stdin(Stdio::null()).stdout(Stdio::null());
-        Ok(Window(command.spawn().context("the window does not open")?))
+        Window::open(command?.args(self.settings()))
     }
 
     /// The arguments of the first run that are of use in a window.
@@ -323,39 +322,4 @@ pub fn solved(exercise: &Exercise) -> String {
     };
     let why = exercise.why.as_ref().map_or_else(String::new, |why| format!("Why: {why}\n"));
     format!("{exercise} is solved.\n{check}{why}")
-}
-
-/// The file that keeps a path from being a folder, itself or above it.
-pub fn file_on_the_way(folder: &Path) -> Option<&Path> {
-    folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir())
-}
-
-/// A chapter's window, closed with its owner.
-pub struct Window(Child);
-
-impl Window {
-    /// Waits until the reader closes it.
-    ///
-    /// # Errors
-    /// If the system does not tell.
-    pub fn closed(mut self) -> Result<()> {
-        if self.0.try_wait()?.is_none() {
-            print("Close the window to end.\n")?;
-        }
-        child::wait(&mut self.0, Duration::MAX).map(drop)
-    }
-}
-
-impl Drop for Window {
-    fn drop(&mut self) {
-        // One that has ended already needs no end.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// Whether a window can be opened here.
-pub fn has_display() -> bool {
-    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")
 }
