@@ -42,11 +42,12 @@ pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Give
     let program = run.program(project).context("it runs no program")?;
     let file = folder.path().join("report.json");
     let mut arguments = run.arguments.clone();
-    // A picture that the page's command would leave in the reader's folder is nobody's here.
-    if let Some(out) = arguments.iter().position(|word| word == "--out") {
-        arguments.drain(out..arguments.len().min(out + 2));
-        arguments.push("--out".to_owned());
-        arguments.push(folder.path().join("out.png").to_string_lossy().into_owned());
+    // What the page's command would leave in the reader's folder, or print, is nobody's here.
+    for (option, own) in [("--out", Some("out.png")), ("--report", None)] {
+        let Some(at) = arguments.iter().position(|word| word == option) else { continue };
+        arguments.drain(at..arguments.len().min(at + 2));
+        let own = own.map(|name| folder.path().join(name).to_string_lossy().into_owned());
+        arguments.extend(own.into_iter().flat_map(|file| [option.to_owned(), file]));
     }
     let mut sample = programs.command(program).map_err(|what| anyhow!("{what}; {BUILD}"))?;
     finish(sample.args(&arguments).arg("--report").arg(&file))?;
