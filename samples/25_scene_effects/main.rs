@@ -145,7 +145,10 @@ impl Sample for Demo {
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let camera = self.camera.basis(frame.aspect());
         let shapes = self.geometry.as_ref().context("no scene")?.shapes;
-        self.world.update(frame.cmd, &[World::new(&self.scene, shapes, camera.origin)])?;
+        // With --samples, each frame has rays of its own.
+        let first = frame.first().wrapping_mul(self.scene.samples);
+        let world = World::new(&self.scene, shapes, camera.origin, first);
+        self.world.update(frame.cmd, &[world])?;
         let recipe = self.recipe();
         if !self.measure {
             self.costs = None;
@@ -159,6 +162,10 @@ impl Sample for Demo {
 
     fn accumulates(&self) -> bool {
         self.costs.as_ref().is_some_and(Costs::wants_more)
+    }
+
+    fn gathers(&self) -> bool {
+        !self.measure
     }
 
     fn report(&self) -> Result<Value> {

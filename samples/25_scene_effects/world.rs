@@ -60,6 +60,7 @@ common::shader_struct! {
         pub shadows: u32,
         pub light_samples: u32,
         pub samples: u32,
+        pub first_sample: u32,
         pub depth: u32,
         pub plane_on: u32,
         pub finish_count: u32,
@@ -82,8 +83,8 @@ pub const LAYOUTS: [StructLayout; 11] = [
 ];
 
 impl World {
-    /// The world of a scene, seen from `eye`.
-    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3) -> Self {
+    /// The world of a scene, seen from `eye` by rays that are counted from `first_sample` on.
+    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3, first_sample: u32) -> Self {
         let nowhere = BoardPlane {
             normal: Vec3::Y,
             distance: 0.0,
@@ -121,6 +122,7 @@ impl World {
             shadows,
             light_samples: scene.light_samples,
             samples: scene.samples,
+            first_sample,
             depth: scene.depth,
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,

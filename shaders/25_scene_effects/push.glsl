@@ -91,6 +91,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
     uint samples;         // rays a pixel
+    uint first_sample;    // the number of the first
     uint depth;           // how often a path may be reflected
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0

@@ -11,6 +11,7 @@ mod instancing;
 mod intersection;
 mod jitter_camera;
 mod leaving_a_surface;
+mod long_renders;
 mod multi_closest_hit;
 mod position_fetch;
 mod ray_query;

@@ -46,6 +46,8 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // Its addresses are the host's alone.
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &floats,
+        // What all chapters share adds up pictures.
+        "common" => &[],
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
         "16_ray_query" => &[textures[0], textures[1], "rayQuery"],
         // It binds the scene's textures and reads none.

@@ -196,7 +196,8 @@ impl<S: Sample> View<S> {
     /// Traces a band; whether the picture is whole.
     fn trace_band(&mut self) -> Result<bool> {
         let device = (&self.gpu, &self.timer);
-        let took = self.bands.trace(&mut self.sample, device, (&self.next, self.index))?;
+        let frame = (&self.next, self.index, self.index);
+        let took = self.bands.trace(&mut self.sample, device, frame)?;
         self.spent += took.unwrap_or_default();
         Ok(self.bands.next().is_none())
     }
