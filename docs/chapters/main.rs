@@ -39,6 +39,7 @@ mod measurement;
 mod mention;
 mod mistake;
 mod moved;
+mod named;
 mod new;
 mod note;
 mod number;
