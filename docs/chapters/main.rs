@@ -44,6 +44,7 @@ mod merge;
 mod missed;
 mod mistake;
 mod moved;
+mod named;
 mod new;
 mod note;
 mod number;
