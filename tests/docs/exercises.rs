@@ -132,6 +132,18 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
     }
     fixture.write(file, &whole);
+    // The first run of what takes only looking is shown to the reader.
+    let look = "docs/exercises/02.2.diff";
+    let text = fixture.read(look);
+    fixture.write(
+        look,
+        &text.replace("Answer: up", "Answer: 45 to 55").replace("50x30", "50x30 --frames 50"),
+    );
+    let told = fixture.run(&["exercise", "--list"]).err;
+    let line =
+        "3: the first run, which a reader is shown, holds the answer: 50; begin with another run";
+    assert_eq!(told, format!("error: {look}:{line}\n"));
+    fixture.write(look, &text);
     for (file, what) in [
         ("docs/exercises/07.1.diff", "1: there is no chapter 07; rename it"),
         ("docs/exercises/notes.txt", "1: an exercise is a file NN.k.diff; rename it"),

@@ -180,7 +180,7 @@ fn error_maps() {
                 let march = &marched[number];
                 let part = 1.0 - march.right() as f64 / march.0.len() as f64;
                 let view = if number == 0 { format!("{view}, ") } else { String::new() };
-                format!("{view}{}: {:.1} % wrong", RUNGS[number], 100.0 * part)
+                format!("{view}{}: {:.0} % wrong", RUNGS[number], 100.0 * part)
             };
             let labels = [0, 1, 2, 3].map(label);
             labels.into_iter().zip(marched.map(|marched| marched.map(WIDTH))).collect::<Vec<_>>()
