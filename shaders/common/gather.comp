@@ -1,8 +1,9 @@
+// Of no chapter: what --samples runs after each frame. Adds the picture, one sample of each pixel, to the
+// sums of all samples.
 #version 460
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// Adds a picture, one sample of each pixel, to the sums of all samples: what --samples runs after each frame.
 #include "common/sum.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
