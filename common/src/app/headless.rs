@@ -83,6 +83,9 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let mut bands = Bands::default();
     let mut band_times = Vec::new();
     for index in 0..frames {
+        if let (true, Some(playback)) = (index > 0, sample.playback()) {
+            playback.advance(1);
+        }
         times.push(render(&mut sample, &mut bands, true, index)?);
         band_times.extend(&bands.times);
         if index == 0 {

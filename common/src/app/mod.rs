@@ -10,6 +10,7 @@ mod headless;
 mod lighting;
 pub mod output;
 mod picture;
+mod playback;
 mod progress;
 mod report;
 mod window;
@@ -26,6 +27,7 @@ pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};
 pub use lighting::Lighting;
 pub use picture::{Format, Picture};
+pub use playback::Playback;
 pub use progress::Progress;
 pub use report::{Milliseconds, Report};
 
@@ -77,6 +79,12 @@ pub trait Sample: Sized {
     /// Without it, a window at rest renders nothing.
     fn accumulates(&self) -> bool {
         false
+    }
+
+    /// The frame that an animation shows. Time goes on between two pictures: `render` then records what
+    /// moves, and [`Sample::changed`] is not called.
+    fn playback(&mut self) -> Option<&mut Playback> {
+        None
     }
 
     /// What the chapter itself has to tell after the last frame; part of `--report`.
