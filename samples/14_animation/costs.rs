@@ -7,6 +7,9 @@ use ash::vk;
 use common::app::Milliseconds;
 use common::gpu::{Gpu, Timer};
 
+/// How many times are kept of each kind: a window may stay open for days.
+const MOST: usize = 10_000;
+
 /// A clock for each of two levels, and what it has told: builds apart from updates.
 pub struct Costs {
     levels: [Level; 2],
@@ -49,7 +52,11 @@ impl Costs {
     pub fn settle(&self) -> Result<()> {
         for level in &self.levels {
             if let Some(is_build) = level.recorded.take() {
-                level.times.borrow_mut()[usize::from(is_build)].push(level.timer.milliseconds()?);
+                let times = &mut level.times.borrow_mut()[usize::from(is_build)];
+                if times.len() == MOST {
+                    times.clear();
+                }
+                times.push(level.timer.milliseconds()?);
             }
         }
         Ok(())

@@ -8,7 +8,7 @@ use common::scene::{InstanceRecord, Mesh, SceneOptions, Vertex, input_usage, tri
 use glam::{UVec2, Vec2, Vec3};
 
 /// Width and height of the cloth.
-pub const SIZE: Vec2 = Vec2::new(3.3, 2.1);
+pub const SIZE: Vec2 = Vec2::new(4.2, 2.6);
 
 // ANCHOR: push
 common::shader_struct! {
@@ -123,8 +123,7 @@ fn flat(cells: UVec2) -> Mesh {
     });
     let cells = (0..cells.y).flat_map(|y| (0..cells.x).map(move |x| (x, y)));
     let triangles = cells.flat_map(|(x, y)| {
-        let [a, b, c, d] =
-            [corner(x, y), corner(x, y + 1), corner(x + 1, y + 1), corner(x + 1, y)];
+        let [a, b, c, d] = [corner(x, y), corner(x, y + 1), corner(x + 1, y + 1), corner(x + 1, y)];
         [[a, b, c], [a, c, d]]
     });
     let (vertices, triangles) = (vertices.collect(), triangles.collect());

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use common::scene::text::{Text, quoted, shown, uncommented};
 
-use crate::position::{Kind, Move, Played, Position, Square};
+use super::position::{Kind, Move, Played, Position, Square};
 
 /// The most half-moves of a game. The longest that masters have played had 538.
 pub const MOST: usize = 600;

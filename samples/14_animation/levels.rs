@@ -6,9 +6,9 @@ use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Input};
 use common::scene::{input_usage, instance_bytes};
 
-use crate::costs::Costs;
-use crate::flag::Flag;
-use crate::world::World;
+use super::costs::Costs;
+use super::flag::Flag;
+use super::world::World;
 
 common::shader_enum! {
     /// What is done to a level when a frame has moved something.

@@ -21,8 +21,7 @@ use common::gpu::{
     Variants,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, SceneAddresses, SceneOptions, ShadowRays, Sun, assets,
-    text,
+    Camera, CameraBasis, Light, SceneAddresses, SceneOptions, ShadowRays, Sun, assets, text,
 };
 use common::usage::Usage;
 use common::{Controls, Frame, Lighting, Playback, Sample, Setup};
@@ -87,7 +86,7 @@ impl Sample for Demo {
         let playback = Playback::new(motion.last);
         let world = World::new(gpu, motion, &flag, setup.options)?;
         let levels = Levels::new(gpu, &world, &flag)?;
-        let camera = Camera::new(DVec3::new(-6.4, 4.9, 10.4), DVec3::new(0.7, 1.0, -0.6), 38.0);
+        let camera = Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.2, -0.6), 38.0);
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             world,
@@ -148,8 +147,12 @@ impl Sample for Demo {
             Descriptor::AccelerationStructure(&self.levels.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.world.scene.textures, self.constants, pipeline)?;
+        let Variant { pipeline, sbt, .. } = self.pipelines.choose(
+            frame.gpu,
+            &self.world.scene.textures,
+            self.constants,
+            pipeline,
+        )?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
-use crate::position::{Kind, Man, Played, Position, Side, Square, squares};
+use super::position::{Kind, Man, Played, Position, Side, Square, squares};
 
 /// Frames before the first move, and of every half-move.
 const LEAD: u32 = 48;

@@ -117,7 +117,10 @@ impl Position {
         let side = self.turn;
         let man = self.at(from).ok_or(format!("nothing stands on {from}; {side} is to move"))?;
         if man.side != side {
-            return Err(format!("the {} on {from} is {}'s, and {side} is to move", man.kind, man.side));
+            return Err(format!(
+                "the {} on {from} is {}'s, and {side} is to move",
+                man.kind, man.side
+            ));
         }
         if !self.allows(from, to) {
             return Err(self.refusal(man, from, to));
@@ -128,10 +131,14 @@ impl Position {
                 return Err(format!("a pawn that arrives at {to} becomes a piece: {from}-{to}=Q"));
             }
             Some(Kind::Pawn | Kind::King) => {
-                return Err("a pawn becomes a queen, rook, bishop or knight: =Q, =R, =B or =N".into());
+                return Err(
+                    "a pawn becomes a queen, rook, bishop or knight: =Q, =R, =B or =N".into()
+                );
             }
             Some(_) if !arrives => {
-                return Err(format!("only a pawn at the last rank becomes something; write {from}-{to}"));
+                return Err(format!(
+                    "only a pawn at the last rank becomes something; write {from}-{to}"
+                ));
             }
             _ => Ok(self.make(man, by)),
         }
@@ -166,7 +173,9 @@ impl Position {
     /// Whether the king of a side stands where another piece reaches.
     fn is_attacked(&self, side: Side) -> bool {
         let is_king = |man: Man| man.kind == Kind::King && man.side == side;
-        let Some(king) = squares().find(|&at| self.at(at).is_some_and(is_king)) else { return false };
+        let Some(king) = squares().find(|&at| self.at(at).is_some_and(is_king)) else {
+            return false;
+        };
         self.is_reached(king, side)
     }
 
@@ -175,7 +184,9 @@ impl Position {
         let mut with = self.clone();
         let stand_in = Man { kind: Kind::Pawn, side, number: 0 };
         with.men[square.index()].get_or_insert(stand_in);
-        squares().any(|from| with.at(from).is_some_and(|man| man.side != side) && with.reaches(from, square))
+        squares().any(|from| {
+            with.at(from).is_some_and(|man| man.side != side) && with.reaches(from, square)
+        })
     }
 
     /// Whether the piece on `from` goes so, kings' safety and castling aside.

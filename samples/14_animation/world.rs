@@ -9,15 +9,15 @@ use common::scene::{
 };
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
-use crate::flag;
-use crate::motion::{Motion, Placed, TABLE};
-use crate::position::Man;
-use crate::turned;
+use super::flag;
+use super::motion::{Motion, Placed, TABLE};
+use super::position::Man;
+use super::turned;
 
 /// Where the flag's pole stands, and how the wind turns the cloth.
-const POLE: Vec3 = Vec3::new(6.1, TABLE, -5.3);
-const POLE_HEIGHT: f32 = 6.2;
-const WIND: f32 = 2.75;
+const POLE: Vec3 = Vec3::new(5.7, TABLE, -5.2);
+const POLE_HEIGHT: f32 = 6.4;
+const WIND: f32 = 2.9;
 
 /// What there is, and where it is at a frame.
 pub struct World {
@@ -108,11 +108,12 @@ impl World {
             record: pieces + number,
             at: one.at,
         });
-        let moving = self.motion.at(frame).map(|Placed { man: Man { kind, side, .. }, at }| Shown {
-            mesh: Some(self.kinds[kind as usize]),
-            record: side as usize * self.kinds.len() + kind as usize,
-            at,
-        });
+        let moving =
+            self.motion.at(frame).map(|Placed { man: Man { kind, side, .. }, at }| Shown {
+                mesh: Some(self.kinds[kind as usize]),
+                record: side as usize * self.kinds.len() + kind as usize,
+                at,
+            });
         let top = POLE + (POLE_HEIGHT - 0.25) * Vec3::Y;
         let matrix3 = Mat3A::from_rotation_y(WIND);
         let flag = Shown {

@@ -36,9 +36,8 @@ impl Transport {
     pub fn buttons(&mut self, ui: &mut Ui, playback: &Playback) {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            let mut is_pressed = |text: &str, tip: &str| {
-                ui.add(Button::new(text)).on_hover_text(tip).clicked()
-            };
+            let mut is_pressed =
+                |text: &str, tip: &str| ui.add(Button::new(text)).on_hover_text(tip).clicked();
             if is_pressed("⏴", "a frame back  ,") {
                 self.steps -= 1;
             }

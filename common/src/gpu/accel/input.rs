@@ -148,7 +148,10 @@ mod tests {
         let built = [triangles(9, 8, true)];
         let boxes = [Geometry::Aabbs { boxes: 0x1000, count: 8, opaque: true }];
         for (new, words) in [
-            (&[triangles(9, 7, true)][..], "8 triangles of 9 vertices, opaque and cannot be updated to 7 triangles"),
+            (
+                &[triangles(9, 7, true)][..],
+                "8 triangles of 9 vertices, opaque and cannot be updated to 7 triangles",
+            ),
             (&[triangles(10, 8, true)], "updated to 8 triangles of 10 vertices, opaque"),
             (&[triangles(9, 8, false)], "updated to 8 triangles of 9 vertices, not opaque"),
             (&boxes, "updated to 8 boxes, opaque"),
