@@ -86,7 +86,7 @@ impl Sample for Demo {
         let playback = Playback::new(motion.last);
         let world = World::new(gpu, motion, &flag, setup.options)?;
         let levels = Levels::new(gpu, &world, &flag)?;
-        let camera = Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.2, -0.6), 38.0);
+        let camera = Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5);
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             world,

@@ -122,7 +122,7 @@ fn exact(frame: u32) -> (reference::scene::Scene, Vec<usize>) {
 }
 
 fn camera() -> Camera {
-    Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.2, -0.6), 38.0)
+    Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5)
 }
 
 /// Pieces on their way, a knight in the air, and the flag, against the exact answer in 64 bits: the board's game from
