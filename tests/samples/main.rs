@@ -1,5 +1,6 @@
 //! Every chapter, rendered headless and small, under validation: one module a chapter.
 
+mod animation;
 mod any_hit;
 mod bands;
 mod basic;

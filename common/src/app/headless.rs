@@ -92,7 +92,10 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let mut bands = Bands::default();
     let mut band_times = Vec::new();
     sample.changed(&gpu)?;
-    for index in frames.ranges().iter().cloned().flatten() {
+    for (number, index) in frames.ranges().iter().cloned().flatten().enumerate() {
+        if let (true, Some(playback)) = (number > 0, sample.playback()) {
+            playback.advance(1);
+        }
         // Samples are pictures alone: their mean is the sums'.
         let accumulated = gather.as_ref().map_or(index, |_| 0);
         times.push(render(&mut sample, &mut bands, index, accumulated)?);

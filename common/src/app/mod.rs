@@ -12,6 +12,7 @@ mod interrupt;
 mod lighting;
 pub mod output;
 mod picture;
+mod playback;
 mod progress;
 mod report;
 mod samples;
@@ -30,6 +31,7 @@ pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};
 pub use lighting::Lighting;
 pub use picture::{Format, Picture};
+pub use playback::Playback;
 pub use progress::Progress;
 pub use report::{Milliseconds, Report};
 pub use samples::{Samples, range};
@@ -89,6 +91,12 @@ pub trait Sample: Sized {
     /// alone: then `--samples` gathers them.
     fn gathers(&self) -> bool {
         self.accumulates()
+    }
+
+    /// The frame that an animation shows. Time goes on between two pictures: `render` then records what
+    /// moves, and [`Sample::changed`] is not called.
+    fn playback(&mut self) -> Option<&mut Playback> {
+        None
     }
 
     /// What the chapter itself has to tell after the last frame; part of `--report`.

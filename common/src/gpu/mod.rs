@@ -33,7 +33,7 @@ mod timing;
 mod validation;
 mod variants;
 
-pub use accel::{AccelerationStructure, BuildOptions};
+pub use accel::{AccelerationStructure, BuildOptions, Input};
 pub use arithmetic::Arithmetic;
 pub use blueprint::{Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};

@@ -20,7 +20,7 @@ const STATEMENT_BYTES: usize = 64 << 10;
 const NAME_BYTES: usize = 1024;
 
 /// A text file in memory.
-pub(super) struct Text {
+pub struct Text {
     /// The path as error messages show it.
     pub shown: String,
     bytes: Vec<u8>,
@@ -89,7 +89,7 @@ pub fn regular(path: &Path, shown: &str, limit: u64) -> Result<File> {
 }
 
 /// Goes through a text's statements, leaving out comments and empty lines.
-pub(super) struct Statements<'a> {
+pub struct Statements<'a> {
     shown: &'a str,
     rest: &'a [u8],
     line: usize,
@@ -141,7 +141,7 @@ impl<'a> Iterator for Statements<'a> {
 }
 
 /// A keyword and what follows it, with its place.
-pub(super) struct Statement<'a> {
+pub struct Statement<'a> {
     shown: &'a str,
     line: usize,
     text: Cow<'a, str>,
@@ -177,7 +177,7 @@ impl Statement<'_> {
 }
 
 /// What stands before a comment. Names may hold a `#` ("Material #25"), numbers never do.
-pub(super) fn uncommented(rest: &str) -> &str {
+pub fn uncommented(rest: &str) -> &str {
     rest.split('#').next().unwrap_or_default()
 }
 
