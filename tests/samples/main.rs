@@ -14,6 +14,7 @@ mod leaving_a_surface;
 mod multi_closest_hit;
 mod position_fetch;
 mod ray_query;
+mod ray_query_raster;
 mod reflection;
 mod settings;
 mod shadow_miss;
