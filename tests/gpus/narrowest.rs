@@ -10,9 +10,10 @@ use ash::vk;
 
 // ANCHOR: unsuitable
 /// The samples for which the narrowest device will not do, and the limits that they ask for.
-const UNSUITABLE: [(&str, &str); 4] = [
+const UNSUITABLE: [(&str, &str); 5] = [
     ("10_position_fetch", "lacks VK_KHR_ray_tracing_position_fetch"),
     ("16_ray_query", "lacks VK_KHR_ray_query"),
+    ("17_ray_query_raster", "lacks VK_KHR_ray_query"),
     ("20_wireframe", "lacks VK_KHR_ray_tracing_position_fetch"),
     // Its picture shows how far a rung is off from error-free sums, which need their rounding declared.
     ("24_accuracy", "lacks shaderRoundingModeRTEFloat32, shaderSignedZeroInfNanPreserveFloat32"),
