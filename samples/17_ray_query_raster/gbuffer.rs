@@ -77,9 +77,8 @@ impl GBuffer {
     /// Notes where each instance stands, and how many triangles it has.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self> {
         let placed = scene.instances.iter().map(|instance| {
-            let columns = |matrix: DMat4| {
-                [0, 1, 2, 3].map(|column| matrix.col(column).truncate().as_vec3())
-            };
+            let columns =
+                |matrix: DMat4| [0, 1, 2, 3].map(|column| matrix.col(column).truncate().as_vec3());
             let to_world = DMat4::from(instance.transform.as_daffine3());
             Placed { to_world: columns(to_world), to_object: columns(to_world.inverse()) }
         });

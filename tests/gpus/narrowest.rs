@@ -170,6 +170,20 @@ fn a_card_without_graphics_traces_without_a_window() {
     }
 }
 
+/// What draws needs a queue that draws, and says so beside what else is missing.
+#[test]
+fn a_card_without_graphics_is_refused_by_what_draws() {
+    let lacks = |faults: &str, what: &str| {
+        let narrow = Narrow::new(faults);
+        let mut list = narrow.command("17_ray_query_raster");
+        quiet("17", list.arg("--list-devices").output().expect("it starts")).contains(what)
+    };
+    assert!(lacks("compute-only", "a queue with graphics"));
+    assert!(!lacks("", "a queue with graphics"));
+    assert!(lacks("without=dynamicRendering", "feature dynamicRendering"));
+    assert!(!lacks("", "feature dynamicRendering"));
+}
+
 /// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and
 /// in the device where the host can map it.
 #[track_caller]

@@ -57,7 +57,8 @@ mod tests {
             let corner = |x, y| DVec3::new(x, y, distance);
             let corners =
                 [corner(0.0, 0.0), corner(width, 0.0), corner(width, height), corner(0.0, height)];
-            let (own, known) = (polygon(DVec3::ZERO, DVec3::Y, &corners), wall(width, height, distance));
+            let (own, known) =
+                (polygon(DVec3::ZERO, DVec3::Y, &corners), wall(width, height, distance));
             assert!((own - known).abs() < 1e-14, "{own} {known}");
         }
     }
@@ -80,7 +81,8 @@ mod tests {
             let blocked = (0..n).filter(|_| {
                 let (square, turn) = (random.between(0.0, 1.0), random.between(0.0, 2.0 * PI));
                 let radius = square.sqrt();
-                let way = DVec3::new(radius * turn.cos(), (1.0 - square).sqrt(), radius * turn.sin());
+                let way =
+                    DVec3::new(radius * turn.cos(), (1.0 - square).sqrt(), radius * turn.sin());
                 let (a, b) = ((low - point) / way, (high - point) / way);
                 a.min(b).max_element() < a.max(b).min_element() && a.max(b).min_element() > 0.0
             });

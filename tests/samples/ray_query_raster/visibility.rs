@@ -7,10 +7,10 @@ use reference::Ray;
 use reference::scene::Scene as Exact;
 use serde_json::json;
 
-use run::figures;
 use run::primary_hits::{answer, rays, reference};
+use run::{figures, render};
 
-use super::picture;
+use super::NAME;
 
 /// Width and height.
 type Size = (u32, u32);
@@ -33,6 +33,8 @@ struct Count {
     farther: usize,
     /// How much farther the farthest is.
     depth: f64,
+    /// Nothing, where something covers the pixel.
+    lost: usize,
     /// Nothing explains it.
     wrong: Vec<String>,
 }
@@ -67,7 +69,7 @@ impl Projection {
     }
 }
 
-fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray]) -> Count {
+fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray], snap: f64) -> Count {
     let mut count = Count::default();
     for (pixel, (hit, ray)) in hits.pixels.iter().zip(rays).enumerate() {
         let expected = exact.closest_hit(ray, |_| true).map(|hit| (hit.instance, hit.primitive));
@@ -86,7 +88,7 @@ fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray]) -
         let needed = found.map_or(0.0, |found| -margin(found)).max(0.0);
         let missed = expected.map_or(f64::INFINITY, margin);
         let reach = if needed > 0.0 { needed } else { missed };
-        if reach <= SNAP {
+        if reach <= snap {
             count.edges += 1;
             let instance = |of: Option<(u32, u32)>| of.map(|(instance, _)| instance);
             count.other_instances += usize::from(instance(found) != instance(expected));
@@ -96,6 +98,8 @@ fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray]) -
         {
             count.farther += 1;
             count.depth = count.depth.max(t(found) - t(expected));
+        } else if found.is_none() {
+            count.lost += 1;
         } else {
             count.wrong.push(format!("{pixel}: {found:?}, not {expected:?}; {needed}, {missed}"));
         }
@@ -105,6 +109,17 @@ fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray]) -
 
 /// The counts of the rasteriser and of the rays, of this view and with these settings.
 fn compared(size: Size, camera: &Camera, sets: &[&str]) -> [Count; 2] {
+    compared_in("driver", SNAP, size, camera, sets)
+}
+
+/// The same in an arithmetic, in which edges move by so much of a pixel.
+fn compared_in(
+    arithmetic: &str,
+    snap: f64,
+    size: Size,
+    camera: &Camera,
+    sets: &[&str],
+) -> [Count; 2] {
     let exact = reference(&Scene::chess().unwrap());
     let projection = Projection { camera: *camera, size };
     let Camera { eye, target, fov_y, .. } = camera;
@@ -114,13 +129,18 @@ fn compared(size: Size, camera: &Camera, sets: &[&str]) -> [Count; 2] {
         format!("field of view={fov_y}"),
         "occlusion rays=0".to_owned(),
     ];
-    let settings: Vec<&str> = settings.iter().map(String::as_str).chain(sets.iter().copied()).collect();
+    let settings: Vec<&str> =
+        settings.iter().map(String::as_str).chain(sets.iter().copied()).collect();
     let size = format!("{}x{}", size.0, size.1);
-    let shown = |more: &[&str]| picture(&size, &[&settings[..], more].concat());
+    let shown = |more: &[&str]| {
+        let sets = settings.iter().chain(more).flat_map(|&set| ["--set", set]);
+        let arguments: Vec<&str> = ["--arithmetic", arithmetic].into_iter().chain(sets).collect();
+        render(NAME, &size, &arguments).picture
+    };
     let directions = shown(&["show=ray direction"]);
     let rays: Vec<Ray> = rays(camera, &directions).collect();
     ["primary=raster", "primary=rays"]
-        .map(|primary| count(&exact, &projection, &shown(&["show=hit", primary]), &rays))
+        .map(|primary| count(&exact, &projection, &shown(&["show=hit", primary]), &rays, snap))
 }
 
 #[test]
@@ -130,11 +150,11 @@ fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
     println!("{raster:?}\n{rays:?}");
     for found in [&raster, &rays] {
         assert!(found.wrong.is_empty(), "{:?}", found.wrong);
-        assert_eq!(found.farther, 0, "{found:?}");
+        assert_eq!((found.farther, found.lost), (0, 0), "{found:?}");
     }
     // A ray's edges are off by its roundings alone.
     assert!(rays.edges < raster.edges && rays.reach < 0.0002, "{rays:?}");
-    assert!(raster.edges > 100, "{raster:?}");
+    assert!(raster.edges > 30, "{raster:?}");
     figures::hold(
         "17_ray_query_raster/visibility",
         json!({
@@ -149,27 +169,43 @@ fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
     );
 }
 
+/// All triangles at a corner compute its place alike, however inexactly: edges move, and no crack opens.
+#[test]
+fn no_crack_opens_in_the_worst_arithmetic() {
+    let camera = Scene::chess().unwrap().camera;
+    // A corner is some 40 roundings of 12 units off, of which a pixel is 0.05.
+    let snap = SNAP + 40.0 * 12.0 * f64::from(f32::EPSILON) / 0.05;
+    for arithmetic in ["worst", "worst-by-place"] {
+        let [raster, _] = compared_in(arithmetic, snap, (240, 150), &camera, &[]);
+        println!("{arithmetic}: {raster:?}");
+        assert!(raster.wrong.is_empty(), "{:?}", raster.wrong);
+        assert_eq!((raster.farther, raster.lost), (0, 0), "{raster:?}");
+    }
+}
+
 /// The same view from farther and farther away, by a telescope: what the depth test mistakes.
 #[test]
 fn reversed_floats_tell_near_from_far_where_others_do_not() {
     let here = Scene::chess().unwrap().camera;
     let mut found = serde_json::Map::new();
-    let mut farther = |times: f64, name: &str, depth: &str| {
+    let mut mistaken = |times: f64, name: &str, depth: &str| {
         let eye = here.target + times * (here.eye - here.target);
         let half = (here.fov_y.to_radians() / 2.0).tan() / times;
         let camera = Camera { eye, fov_y: 2.0 * half.atan().to_degrees(), ..here };
         let set = format!("depth={depth}");
         let [raster, _] = compared((120, 75), &camera, &[&set]);
-        println!("{times} {depth}: {} farther, by {}", raster.farther, raster.depth);
-        found.insert(format!("{name}_{times}"), raster.farther.into());
-        raster.farther
+        let Count { farther, lost, depth: by, .. } = raster;
+        println!("{times} {depth}: {farther} farther, by {by}, {lost} lost");
+        assert!(raster.wrong.is_empty(), "{:?}", raster.wrong);
+        found.insert(format!("{name}_{times}"), (farther + lost).into());
+        farther + lost
     };
     for times in [1.0, 10.0, 100.0] {
-        let reversed = farther(times, "reversed", "reversed float");
-        let usual = farther(times, "usual", "usual float");
-        let short = farther(times, "short", "usual 16 bits");
+        let reversed = mistaken(times, "reversed", "reversed float");
+        let usual = mistaken(times, "usual", "usual float");
+        let short = mistaken(times, "short", "usual 16 bits");
         assert!(reversed <= usual && usual <= short, "{reversed} {usual} {short}");
-        assert!(reversed <= 2, "{times}: {reversed}");
+        assert_eq!(reversed, 0, "{times}");
         assert!(times < 100.0 || usual > 500, "{usual}");
     }
     figures::hold("17_ray_query_raster/depth", found.into());
