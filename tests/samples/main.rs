@@ -16,6 +16,7 @@ mod long_renders;
 mod multi_closest_hit;
 mod position_fetch;
 mod ray_query;
+mod ray_query_raster;
 mod reflection;
 mod settings;
 mod shadow_miss;

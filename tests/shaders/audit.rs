@@ -49,7 +49,7 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // What all chapters share adds up pictures.
         "common" => &[],
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
-        "16_ray_query" => &[textures[0], textures[1], "rayQuery"],
+        "16_ray_query" | "17_ray_query_raster" => &[textures[0], textures[1], "rayQuery"],
         // It binds the scene's textures and reads none.
         "20_wireframe" => &["rayTracingPositionFetch"],
         _ => &textures,
