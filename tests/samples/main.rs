@@ -12,6 +12,7 @@ mod intersection;
 mod jitter_camera;
 mod leaving_a_surface;
 mod multi_closest_hit;
+mod path_tracing;
 mod position_fetch;
 mod ray_query;
 mod reflection;
