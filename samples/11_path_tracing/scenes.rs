@@ -1,9 +1,7 @@
 //! The scenes of this chapter: one to look at, and four whose light is known without a path.
 
 use anyhow::Result;
-use common::scene::{
-    Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex,
-};
+use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
 
 common::shader_enum! {
@@ -44,7 +42,7 @@ pub fn chess() -> Result<Scene> {
     for material in scene.model.materials.iter_mut().filter(|material| material.name == "black") {
         material.base_color = Vec3::new(0.5, 0.035, 0.02);
     }
-    scene.camera = Camera::new(DVec3::new(5.3, 2.7, -4.4), DVec3::new(0.1, 0.35, -0.55), 31.0);
+    scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.3, -1.1), 33.0);
     Ok(scene)
 }
 
@@ -94,8 +92,12 @@ fn white(source: &Scene, polished: bool) -> Scene {
 /// 1/2 + 1/4 + 1/8 + … = 1, wherever it is and wherever it looks.
 fn room() -> Scene {
     let half = Vec3::splat(0.5);
-    let material =
-        Material { name: "half".to_owned(), base_color: half, emission: half, ..Material::default() };
+    let material = Material {
+        name: "half".to_owned(),
+        base_color: half,
+        emission: half,
+        ..Material::default()
+    };
     let placed = |size: f32, turn: f32, at: Vec3| Instance {
         mesh: 0,
         transform: Affine3A::from_scale_rotation_translation(
