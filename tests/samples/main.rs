@@ -14,6 +14,7 @@ mod jitter_camera;
 mod leaving_a_surface;
 mod long_renders;
 mod multi_closest_hit;
+mod path_tracing;
 mod position_fetch;
 mod ray_query;
 mod ray_query_raster;

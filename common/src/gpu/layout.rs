@@ -96,7 +96,7 @@ impl Known {
 macro_rules! plain {
     ($($type:ty),+) => { $(impl ShaderType for $type {})+ };
 }
-plain!((), f32, i32, u32, glam::Mat3, glam::UVec2, glam::Vec2, glam::Vec3, glam::Vec4);
+plain!((), f32, i32, u32, glam::Mat3, glam::UVec2, glam::UVec3, glam::Vec2, glam::Vec3, glam::Vec4);
 
 impl<T: ShaderType> ShaderType for Address<T> {
     fn reach(known: &mut Known) {
