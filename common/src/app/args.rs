@@ -135,7 +135,7 @@ impl Args {
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });
-        matches.map_err(|error| {
+        let (args, more) = matches.map_err(|error| {
             if !error.use_stderr() {
                 error.exit();
             }
@@ -144,8 +144,9 @@ impl Args {
             let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
             let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
             Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
-        })
-        .and_then(|(args, more)| args.one_scene().map(|()| (args, more)))
+        })?;
+        args.one_scene()?;
+        Ok((args, more))
     }
 }
 
