@@ -157,18 +157,18 @@ impl Args {
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });
-        matches
-            .map_err(|error| {
-                if !error.use_stderr() {
-                    error.exit();
-                }
-                // clap spreads an error over a paragraph; its first block says it all.
-                let text = error.to_string();
-                let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
-                let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
-                Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
-            })
-            .and_then(|(args, more)| args.one_scene().map(|()| (args, more)))
+        let (args, more) = matches.map_err(|error| {
+            if !error.use_stderr() {
+                error.exit();
+            }
+            // clap spreads an error over a paragraph; its first block says it all.
+            let text = error.to_string();
+            let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+            let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
+            Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
+        })?;
+        args.one_scene()?;
+        Ok((args, more))
     }
 }
 
