@@ -36,9 +36,10 @@ impl Near {
             // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
             // factor.
             6 | 12 | 25 | 26 => Self { flips: 2, mean: 0.0025 },
-            // Some five rays a path, and as many to the light: ten decisions, and ways by chance, which are one
-            // decision more at each turn.
-            11 => Self { flips: 15, mean: 0.005 },
+            // At each of some four turns of a path there is a ray, one to the light, the choice of a way and
+            // roulette: 15 decisions. One that flips sends the rest of the path elsewhere, which can make five
+            // pixels seem wholly others: 15 times 5 of 5,760.
+            11 => Self { flips: 15, mean: 0.013 },
             other => panic!("how near is a picture of {other}?"),
         }
     }
