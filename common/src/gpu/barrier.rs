@@ -52,6 +52,12 @@ pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, both));
 }
 
+/// What earlier traces read and wrote in a buffer comes before a transfer clears it.
+pub fn trace_to_fill(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
+    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), written);
+}
+
 /// A buffer cleared or filled by a transfer becomes visible to the trace that adds to it.
 pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;

@@ -200,6 +200,14 @@ impl Buffer {
         Ok(())
     }
 
+    /// Records that all of it is 0 for the traces that follow in `cmd`; made with `TRANSFER_DST`.
+    pub fn clear(&self, cmd: vk::CommandBuffer) {
+        barrier::trace_to_fill(&self.gpu, cmd);
+        // SAFETY: cmd is being recorded on this device, and the buffer outlives the submission.
+        unsafe { self.gpu.device.cmd_fill_buffer(cmd, self.handle, 0, vk::WHOLE_SIZE, 0) };
+        barrier::fill_to_trace(&self.gpu, cmd);
+    }
+
     /// The content as a vector of `T`, copied back through a mapped buffer.
     ///
     /// The buffer must have been made with `TRANSFER_SRC`; bytes beyond a whole `T` are left out.
