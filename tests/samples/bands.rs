@@ -16,6 +16,7 @@ fn many_bands_give_the_same_bytes_as_few() {
         ("08_intersection", &["light size=0.5"]),
         ("09_instancing", &["coordinates=both", "light size=0.5"]),
         ("12_infinite_plane", &["light size=0.5"]),
+        ("14_animation", &["frame=932", "play=off", "light size=0.5"]),
         ("16_ray_query", &["light size=0.5", "workgroup=16x16"]),
         ("17_ray_query_raster", &["light size=0.5"]),
         ("21_heightfield", &["light size=0.5"]),

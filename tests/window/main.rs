@@ -21,7 +21,7 @@ const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
 /// The checkbox "light shadows" in the panel of chapter 25.
 const LIGHT_SHADOWS: (i16, i16) = (163, 411);
 /// The right edge of the panel.
-const PANEL: u32 = 340;
+const PANEL: u32 = 352;
 /// The panel's background where it tells of an error.
 const ERROR: Rgb<u8> = Rgb([58, 24, 24]);
 
