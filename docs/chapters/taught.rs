@@ -20,7 +20,8 @@ pub fn check(project: &Project) -> Vec<Fault> {
 
 fn shared(project: &Project, file: &str) -> Vec<Fault> {
     let text = project.read(file).unwrap_or_default();
-    let first = text.lines().next().unwrap_or_default();
+    // A stage begins with its version: nothing may stand before it.
+    let first = text.lines().find(|line| !line.starts_with("#version")).unwrap_or_default();
     if first.starts_with("// Of no chapter: ") {
         return Vec::new();
     }

@@ -1,6 +1,6 @@
+#version 460
 // Of no chapter: what --samples runs after each frame. Adds the picture, one sample of each pixel, to the
 // sums of all samples.
-#version 460
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

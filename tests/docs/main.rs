@@ -5,6 +5,7 @@ mod exercises;
 #[cfg(unix)]
 mod figures;
 mod fixture;
+mod merge;
 mod mistakes;
 mod named;
 mod new;
