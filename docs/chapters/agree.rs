@@ -37,6 +37,12 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
             faults.push(fault(format!("'{name}' has no {key}"), "write it"));
         }
     }
+    if !project.parts.is_empty() && !project.parts.contains(&chapter.part) {
+        let what =
+            format!("'{name}' belongs to no part of the book: its `part` is '{}'", chapter.part);
+        let titles = format!("make it one of {}", project.parts.join(", "));
+        faults.push(fault(what, &titles));
+    }
     if let Some(from) = &chapter.from
         && !before.iter().any(|other| other.name == *from)
     {

@@ -55,7 +55,7 @@ pub fn body(
             Ok((sheet::devices(&cards), card::FOLDER.to_owned()))
         }
         (Kind::Mistakes, []) => Ok((mistake::gallery(project), mistake::FOLDER.to_owned())),
-        (Kind::Gallery, []) => Ok((gallery::table(project, &page.path), "Cargo.toml".to_owned())),
+        (Kind::Gallery, []) => Ok((gallery::tables(project, &page.path), "Cargo.toml".to_owned())),
         (kind, _) => {
             let form = match kind {
                 Kind::Snippet => "<!-- snippet FILE#ANCHOR -->",

@@ -8,6 +8,7 @@ use crate::anchor::anchors;
 use crate::body::body;
 use crate::fault::Fault;
 use crate::figure;
+use crate::glossary::Glossary;
 use crate::markdown::{Markdown, local};
 use crate::measurement::{self, Measurement};
 use crate::mistake::Mistake;
@@ -46,6 +47,7 @@ impl<'a> Book<'a> {
             self.project.chapters.iter().map(|chapter| chapter.picture()).collect();
         self.ask_programs();
         let files = Files::of(self.project);
+        let glossary = Glossary::of(self.project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             faults.extend(self.stale_blocks(page));
@@ -53,6 +55,7 @@ impl<'a> Book<'a> {
             let written = Markdown::parse(&page.written());
             faults.extend(text::check(self.project, self.programs, &files, page, &written));
             faults.extend(self.title(page, &written));
+            faults.extend(glossary.check(page));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }
         let (pictures, wrong) = self.pictures();
@@ -108,10 +111,11 @@ impl<'a> Book<'a> {
         };
         self.ask_programs();
         let (stored, _) = Stored::all(self.project);
+        let glossary = Glossary::of(self.project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             let old = page.with_bodies(&[]);
-            let page = &figure::filled(page, &stored);
+            let page = &glossary.linked(&figure::filled(page, &stored));
             let bodies: Vec<Option<String>> = page
                 .blocks
                 .iter()

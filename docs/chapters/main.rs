@@ -32,6 +32,7 @@ mod expectation;
 mod fault;
 mod figure;
 mod gallery;
+mod glossary;
 mod hunk;
 mod laboratory;
 mod markdown;
@@ -275,7 +276,11 @@ fn list(project: &Project, json: bool) -> Result<String> {
         };
         format!("{name:names$}  {title:titles$}  from {from:2}  {teaches}{needs}\n")
     };
-    Ok(project.chapters.iter().map(line).collect())
+    let parts = project.parted().into_iter().map(|(heading, chapters)| {
+        let heading = if heading.is_empty() { heading } else { heading + "\n" };
+        heading + &chapters.into_iter().map(line).collect::<String>()
+    });
+    Ok(parts.collect::<Vec<_>>().join("\n"))
 }
 
 fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {

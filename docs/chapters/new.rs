@@ -58,6 +58,7 @@ impl<'a> New<'a> {
             name: full,
             title,
             teaches: "say here, in a line, what it teaches".to_owned(),
+            part: from.part.clone(),
             from: Some(from.name.clone()),
             needs: from.needs.clone(),
             ..Chapter::default()
@@ -142,12 +143,16 @@ impl<'a> New<'a> {
     }
 
     fn manifest(&self) -> String {
-        let Chapter { name, title, teaches, needs, .. } = &self.chapter;
+        let Chapter { name, title, teaches, part, needs, .. } = &self.chapter;
         let from = &self.from.name;
         let bin = format!("[[bin]]\nname = \"{name}\"\npath = \"samples/{name}/main.rs\"\n\n");
         let needs = needs.iter().map(|need| format!("{need:?}")).collect::<Vec<_>>().join(", ");
+        let part = match &part[..] {
+            "" => String::new(),
+            part => format!("part = \"{part}\"\n"),
+        };
         let table = format!(
-            "[package.metadata.chapters.{name}]\ntitle = \"{title}\"\nteaches = \"{teaches}\"\n\
+            "[package.metadata.chapters.{name}]\ntitle = \"{title}\"\nteaches = \"{teaches}\"\n{part}\
              from = \"{from}\"\nneeds = [{needs}]\n\n"
         );
         // Each stands before the first chapter with a larger number, else after the last.

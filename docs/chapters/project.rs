@@ -21,6 +21,9 @@ pub struct Chapter {
     pub title: String,
     /// What it teaches, in a line.
     pub teaches: String,
+    /// The part of the book that it belongs to, by title.
+    #[serde(default)]
+    pub part: String,
     /// The chapter that it builds on.
     pub from: Option<String>,
     /// What it needs of the device beyond the baseline.
@@ -79,6 +82,8 @@ pub struct Project {
     pub manifest: String,
     /// The chapters, by number.
     pub chapters: Vec<Chapter>,
+    /// The titles of the parts, in order; none if the book has no parts.
+    pub parts: Vec<String>,
     /// The root modules of other packages' libraries, from the project's root.
     pub libs: Vec<String>,
     /// The programs of all packages.
@@ -102,7 +107,8 @@ impl Project {
             Fault::new("Cargo.toml", before.matches('\n').count() + 1, what, "correct it").error()
         })?;
         let named = |(name, chapter)| Chapter { name, ..chapter };
-        let chapters = read.package.metadata.chapters.into_iter().map(named).collect();
+        let Metadata { parts, chapters } = read.package.metadata;
+        let chapters = chapters.into_iter().map(named).collect();
         let (mut libs, mut bins, mut tests) = (Vec::new(), read.bin, read.test);
         for member in read.workspace.members.iter().filter(|member| *member != ".") {
             let manifest = self::read(&root.join(member).join("Cargo.toml"))?;
@@ -117,6 +123,7 @@ impl Project {
             root: root.to_owned(),
             manifest,
             chapters,
+            parts,
             libs,
             bins,
             tests,
@@ -138,6 +145,21 @@ impl Project {
             let names: Vec<&str> = self.chapters.iter().map(|chapter| &*chapter.name).collect();
             Usage(format!("no chapter '{given}'; there is {}", names.join(", ")))
         })
+    }
+
+    /// The parts with their headings, such as `I · Make it`, and chapters; a book without parts is one
+    /// part with no heading, and so are chapters of no part.
+    pub fn parted(&self) -> Vec<(String, Vec<&Chapter>)> {
+        let number = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"];
+        let heading = |(title, number): (&String, &str)| format!("{number} · {title}");
+        let of = |title: &String| self.chapters.iter().filter(|c| c.part == *title).collect();
+        let numbered = self.parts.iter().zip(number);
+        let mut parts: Vec<(String, Vec<&Chapter>)> =
+            numbered.map(|part| (heading(part), of(part.0))).collect();
+        let others = self.chapters.iter().filter(|c| !self.parts.contains(&c.part)).collect();
+        parts.push((String::new(), others));
+        parts.retain(|(_, chapters)| !chapters.is_empty());
+        parts
     }
 
     /// The text of a file, its lines ended by `\n` alone.
@@ -261,6 +283,8 @@ struct Package {
 
 #[derive(Default, Deserialize)]
 struct Metadata {
+    #[serde(default)]
+    parts: Vec<String>,
     #[serde(default)]
     chapters: BTreeMap<String, Chapter>,
 }

@@ -115,7 +115,7 @@ fn a_package_that_cargo_test_leaves_out_is_named_beside_what_it_makes_stale() {
 
 #[test]
 fn parts_of_a_chapter_that_do_not_agree_are_named() {
-    let cases: [Case; 4] = [
+    let cases: [Case; 5] = [
         (
             "a golden lost",
             |f| f.remove("tests/golden/02_basic.png"),
@@ -137,6 +137,21 @@ fn parts_of_a_chapter_that_do_not_agree_are_named() {
             |f| f.replace("Cargo.toml", "from = \"01_one\"", "from = \"03_three\""),
             "Cargo.toml:25: '02_basic' builds on '03_three', which is no earlier chapter",
             "; correct its `from`",
+        ),
+        (
+            "parts of which one chapter has none",
+            |f| {
+                let table = "[package.metadata.chapters.01_one]";
+                f.replace(
+                    "Cargo.toml",
+                    table,
+                    &format!("[package.metadata]\nparts = [\"All\"]\n{table}"),
+                );
+                f.replace("Cargo.toml", "the first thing\"", "the first thing\"\npart = \"All\"");
+                assert_eq!(f.run(&["sync"]).code, 0);
+            },
+            "Cargo.toml:28: '02_basic' belongs to no part of the book: its `part` is ''",
+            "; make it one of All",
         ),
         (
             "a title changed in one place",

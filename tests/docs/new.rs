@@ -43,6 +43,29 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
 }
 
 #[test]
+fn parts_of_the_book_head_the_list_the_gallery_and_the_contents() {
+    let fixture = Fixture::new();
+    let first = "[package.metadata.chapters.01_one]";
+    let parts = format!("[package.metadata]\nparts = [\"Make it\", \"Break it\"]\n\n{first}");
+    fixture.replace("Cargo.toml", first, &parts);
+    fixture.replace("Cargo.toml", "the first thing\"", "the first thing\"\npart = \"Make it\"");
+    fixture.replace("Cargo.toml", "the second thing\"", "the second thing\"\npart = \"Break it\"");
+    assert_eq!(fixture.run(&["sync"]).code, 0);
+    assert_eq!(fixture.check(), "");
+    let list = fixture.run(&["list"]).out;
+    assert!(list.starts_with("I · Make it\n01_one "), "{list}");
+    assert!(list.contains("\n\nII · Break it\n02_basic "), "{list}");
+    assert!(fixture.read("README.md").contains("\n### II · Break it\n\n| [![02 · Basic]"));
+    let summary = fixture.read("docs/SUMMARY.md");
+    assert!(summary.contains("# I · Make it\n\n- [01 · One](01_one.md)\n\n# II"), "{summary}");
+    // A new chapter belongs where its parent does.
+    assert_eq!(fixture.run(&["new", "7", "soft_light", "--from", "02"]).code, 0);
+    assert!(fixture.run(&["list"]).out.ends_with("say here, in a line, what it teaches\n"));
+    let found = fixture.check();
+    assert!(!found.contains("belongs to no part"), "{found}");
+}
+
+#[test]
 fn a_chapter_that_cannot_be_is_refused_and_nothing_is_written() {
     let fixture = Fixture::new();
     for (arguments, words) in [
