@@ -1,0 +1,90 @@
+// A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+
+// ANCHOR: path
+struct Path {
+    uvec2 pixel;       // whose colour it makes
+    vec3 color;        // what the eye sees so far
+    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
+    uint bounce;       // the next ray's number: 0 comes from the camera
+};
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;
+};
+
+vec2 numbers(Path path, uint dimension) {
+    return numbers(path.pixel, push.sample_index, path.bounce, dimension, push.seed);
+}
+
+// Adds what a ray meets.
+void gather(inout Path path, vec3 seen) {
+    vec3 light = path.throughput * seen;
+    if (path.bounce > 0 && push.most > 0.0) {
+        light *= push.most / max(largest(light), push.most);
+    }
+    bool shown = SHOW == SHOW_PICTURE || (path.bounce == 0) == (SHOW == SHOW_DIRECT);
+    path.color += shown ? light : vec3(0.0);
+}
+// ANCHOR_END: path
+
+// ANCHOR: roulette
+// The most likely that a path survives a turn: even in a room that swallows nothing, it ends one day.
+const float LIKELIEST = 0.95;
+
+// Whether the next ray is worth tracing.
+bool goes_on(inout Path path) {
+    float contribution = largest(path.throughput);
+    if (path.bounce > push.depth || contribution <= 0.0 || contribution < push.minimum_contribution) {
+        return false;
+    }
+    if (ROULETTE && path.bounce > 1) {
+        // Who survives stands for those who do not.
+        float survival = min(contribution, LIKELIEST);
+        path.throughput /= survival;
+        return numbers(path, DIMENSION_ROULETTE).x < survival;
+    }
+    return true;
+}
+// ANCHOR_END: roulette
+
+// What a ray has met is lit and gathered, and says which ray comes next.
+void advance(inout Path path, inout Ray ray, Hit hit) {
+    if (hit.t < 0.0) {
+        gather(path, hit.color);
+        path.throughput = vec3(0.0);
+        path.bounce++;
+        return;
+    }
+    MaterialRecord material = push.scene.materials.at[hit.material];
+    vec3 color = hit.color;
+    float to_eye = max(dot(hit.normal, -ray.direction), 0.0);
+    // ANCHOR: light
+    // No ray meets this light by chance: here alone it is asked for.
+    Start start = shadow_start(hit);
+    float visible = visibility(push.light, start, numbers(path, DIMENSION_LIGHT));
+    vec3 to_light = normalize(towards_light(push.light, start.origin, vec2(0.0)));
+    hit.color = scattered(material, color, to_eye, max(dot(hit.normal, to_light), 0.0));
+    MaterialRecord lit = material;
+    lit.specular *= kept_of_highlight(material.shininess);
+    gather(path, material.emission + lit_by(push.light, hit, lit, start, -ray.direction, visible));
+    // ANCHOR_END: light
+    // ANCHOR: next
+    bool polished = material.illumination >= ILLUMINATION_MIRROR;
+    vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
+    vec3 rest = color * (1.0 - (polished ? mirror : material.specular));
+    // One of the two ways, and the likelier the more light comes along it.
+    float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
+    if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
+        path.throughput *= mirror / mirrors;
+        ray.direction = mirrored(ray.direction, hit.normal, hit.face);
+    } else {
+        vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
+        ray.direction = kept_above(on, hit.face);
+        float to_next = max(dot(hit.normal, ray.direction), 0.0);
+        path.throughput *= scattered(material, color, to_eye, to_next) / (1.0 - mirrors);
+    }
+    path.bounce++;
+    ray.origin = hit.position + hit.height * hit.face;
+    // ANCHOR_END: next
+}

@@ -1,0 +1,41 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/light.glsl"
+#include "sum.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    Sums sums;
+    Light light;
+    uint depth;           // how often a path may be reflected
+    float minimum_contribution;
+    float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
+    uint seed;
+    uint sample_index;    // since anything changed: which of a pixel's samples
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_DIRECT = 1;
+const uint SHOW_BOUNCED = 2;
+const uint SHOW_RAYS = 3;
+
+layout(constant_id = 1) const uint SKY = 0;
+const uint SKY_DAY = 0;
+const uint SKY_WHITE = 1;
+const uint SKY_BLACK = 2;
+
+layout(constant_id = 2) const uint SEQUENCE = 0;
+const uint SEQUENCE_RANDOM = 0;
+const uint SEQUENCE_UNSHUFFLED = 1;
+const uint SEQUENCE_SHUFFLED = 2;
+
+layout(constant_id = 3) const bool ROULETTE = true;
+
+layout(constant_id = 4) const uint SUM = 0;
+const uint SUM_INTEGERS = 0;
+const uint SUM_FLOATS = 1;
