@@ -41,6 +41,7 @@ struct Demo {
     seed: u32,
     constants: Constants,
     sums: Buffer,
+    can_reorder: bool,
 }
 
 common::shader_enum! {
@@ -60,6 +61,8 @@ struct Constants {
     sequence: Sequence,
     roulette: bool,
     sum: Sum,
+    /// Whether threads may change places; only where the device lets them.
+    reorder: bool,
 }
 
 common::shader_struct! {
@@ -88,7 +91,7 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures()
+        Requirements::ray_tracing().textures().invocation_reorder_where_offered()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
@@ -116,7 +119,9 @@ impl Sample for Demo {
                 sequence: Sequence::Shuffled,
                 roulette: true,
                 sum: Sum::Integers,
+                reorder: false,
             },
+            can_reorder: gpu.invocation_reorder,
             sums: Buffer::new(gpu, "sums", 0, input_usage())?,
         })
     }
@@ -136,6 +141,9 @@ impl Sample for Demo {
         c.choice("sequence", &mut self.constants.sequence);
         c.integer("seed", &mut self.seed, 0..=1000);
         c.choice("sum", &mut self.constants.sum);
+        if self.can_reorder {
+            c.checkbox("reorder", &mut self.constants.reorder);
+        }
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -204,7 +212,10 @@ fn pipeline(
     textures: &TextureTable,
     constants: Constants,
 ) -> Result<RayTracingPipeline> {
-    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+    let builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"));
+    // A shader that has the words of an extension can be loaded only where that is.
+    let builder = if constants.reorder { builder.define("REORDER", 1) } else { builder };
+    builder
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")

@@ -54,12 +54,13 @@ const FEATURES: [(&str, &[&str]); 8] = [
 // ANCHOR_END: features
 
 /// What else a sample makes of a device than with its own settings: other stages, larger tables, more memory.
-const ALSO: [(&str, &[&str]); 9] = [
+const ALSO: [(&str, &[&str]); 10] = [
     ("03_any_hit", &["--set", "mode=all hits"]),
     ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
     ("04_jitter_camera", &["--frames", "3"]),
     ("07_multi_closest_hit", &["--set", "scale=2"]),
     ("08_intersection", &["--set", "sphere rung=host c"]),
+    ("11_path_tracing", &["--frames", "3"]),
     ("21_heightfield", &["--set", "rung=relaxed"]),
     ("22_solids", &["--set", "show=normal"]),
     ("25_scene_effects", &["--set", "scene=everything", "--set", "pipeline=everything"]),

@@ -27,6 +27,7 @@ fn held(name: &str, sets: [&str; 3]) {
 fn the_order_of_settings_does_not_matter() {
     held("08_intersection", ["scene=one sphere", "distance=50", "camera eye=1,2,3"]);
     held("09_instancing", ["geometry=copies", "squares=900", "camera eye=1,2,3"]);
+    held("11_path_tracing", ["scene=furnace", "sky=black", "camera eye=1,2,3"]);
     held("12_infinite_plane", ["preset=pov", "plane distance=0.5", "camera eye=1,2,3"]);
     held("21_heightfield", ["preset=steep", "steepness=3", "sun azimuth=10"]);
     held("22_solids", ["preset=one solid", "fog distance=7", "light=point"]);

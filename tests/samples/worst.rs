@@ -34,6 +34,9 @@ impl Near {
             // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
             // factor.
             6 | 12 | 25 | 26 => Self { flips: 2, mean: 0.0025 },
+            // Some five rays a path, and as many to the light: ten decisions, and ways by chance, which are one
+            // decision more at each turn.
+            11 => Self { flips: 15, mean: 0.005 },
             other => panic!("how near is a picture of {other}?"),
         }
     }

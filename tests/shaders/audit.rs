@@ -18,7 +18,7 @@ const PUSH_CONSTANTS: u32 = 128;
 
 /// The capabilities that modules may declare, and what has to be asked for with them: `None` where ray
 /// tracing pipelines bring them, or Vulkan 1.3 does.
-const CAPABILITIES: [(Capability, Option<&str>); 13] = [
+const CAPABILITIES: [(Capability, Option<&str>); 14] = [
     (Capability::Shader, None),
     (Capability::RayTracingKHR, None),
     (Capability::ImageQuery, None),
@@ -32,6 +32,7 @@ const CAPABILITIES: [(Capability, Option<&str>); 13] = [
     ),
     (Capability::RayTracingPositionFetchKHR, Some("rayTracingPositionFetch")),
     (Capability::RayQueryKHR, Some("rayQuery")),
+    (Capability::ShaderInvocationReorderNV, Some("rayTracingInvocationReorder")),
     (Capability::Float64, Some("shaderFloat64")),
     (Capability::SignedZeroInfNanPreserve, Some("shaderSignedZeroInfNanPreserveFloat32")),
     (Capability::RoundingModeRTE, Some("shaderRoundingModeRTEFloat32")),
@@ -47,6 +48,7 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &floats,
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
+        "11_path_tracing" => &[textures[0], textures[1], "rayTracingInvocationReorder"],
         "16_ray_query" => &[textures[0], textures[1], "rayQuery"],
         // It binds the scene's textures and reads none.
         "20_wireframe" => &["rayTracingPositionFetch"],
@@ -78,6 +80,9 @@ fn compiled() -> Vec<Form> {
         let mut variants: Vec<Vec<(&str, String)>> = vec![Vec::new()];
         if chapter == "24_accuracy" {
             variants = (0..9).map(|number| vec![("PRIMITIVE", number.to_string())]).collect();
+        }
+        if chapter == "11_path_tracing" {
+            variants.push(vec![("REORDER", "1".to_owned())]);
         }
         if chapter == "25_scene_effects" {
             let specialised = |effects: &[&'static str]| {

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
-use ash::{Device, Entry, Instance, ext, khr, vk};
+use ash::{Device, Entry, Instance, ext, khr, nv, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::arithmetic::Arithmetic;
@@ -75,6 +75,8 @@ pub struct GpuContext {
     pub is_watched: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
+    /// Whether shaders may sort rays by what they met: the device offers it, and the sample asks for it.
+    pub invocation_reorder: bool,
     /// What the driver has compiled in earlier runs, and in this one.
     pub pipeline_cache: PipelineCache,
     /// What the sample has asked for.
@@ -189,6 +191,9 @@ impl Gpu {
                 .extensions(&chosen.offered)
                 .contains(&khr::pipeline_executable_properties::NAME)
                 .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
+            invocation_reorder: requirements
+                .extensions(&chosen.offered)
+                .contains(&nv::ray_tracing_invocation_reorder::NAME),
             limits: Limits::of(&instance, physical_device, queue_family),
             pipeline_cache: PipelineCache::open(&device, &properties),
             requirements: requirements.clone(),

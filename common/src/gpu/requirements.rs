@@ -5,7 +5,7 @@
 
 use std::ffi::CStr;
 
-use ash::{khr, vk};
+use ash::{khr, nv, vk};
 
 use super::Limits;
 
@@ -30,6 +30,7 @@ pub struct Features {
     position_fetch: vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR<'static>,
     ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
     executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
+    reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV<'static>,
 }
 
 impl Features {
@@ -50,6 +51,7 @@ impl Features {
             position_fetch,
             ray_query,
             executable,
+            reorder,
         } = self;
         // Copies carry the chain, so that no structure keeps a pointer to its neighbour afterwards.
         let mut links = (
@@ -60,6 +62,7 @@ impl Features {
             *executable,
             *position_fetch,
             *ray_query,
+            *reorder,
         );
         let mut root = vk::PhysicalDeviceFeatures2::default()
             .features(*core)
@@ -80,6 +83,9 @@ impl Features {
         if has(khr::ray_query::NAME) {
             root = root.push_next(&mut links.6);
         }
+        if has(nv::ray_tracing_invocation_reorder::NAME) {
+            root = root.push_next(&mut links.7);
+        }
         let result = f(&mut root);
         *core = root.features;
         let unlinked = std::ptr::null_mut();
@@ -96,6 +102,10 @@ impl Features {
         *position_fetch =
             vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR { p_next: unlinked, ..links.5 };
         *ray_query = vk::PhysicalDeviceRayQueryFeaturesKHR { p_next: unlinked, ..links.6 };
+        *reorder = vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV {
+            p_next: unlinked,
+            ..links.7
+        };
         result
     }
 }
@@ -223,6 +233,17 @@ impl Requirements {
             Some(khr::ray_tracing_pipeline::NAME),
             "rayTraversalPrimitiveCulling",
             ray_tracing_pipeline.ray_traversal_primitive_culling
+        ));
+        self
+    }
+
+    /// Shaders that may sort rays by what they met, where the device has it:
+    /// [`Gpu::invocation_reorder`](super::GpuContext) tells.
+    pub fn invocation_reorder_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(nv::ray_tracing_invocation_reorder::NAME),
+            "rayTracingInvocationReorder",
+            reorder.ray_tracing_invocation_reorder
         ));
         self
     }

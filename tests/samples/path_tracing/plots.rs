@@ -1,0 +1,163 @@
+//! What the page of 11_path_tracing shows beside its picture. Drawn when asked for:
+//! `cargo test --test samples path_tracing::plots -- --ignored --nocapture`.
+
+use common::app::Picture;
+use serde_json::Map;
+
+use super::closed_forms::{ROOM_VARIANCE, SQUARES, form_factors};
+use super::{Estimate, brightness, colors, error, picture};
+use run::figures;
+use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
+
+#[test]
+#[ignore = "draws docs/images/11_light.png"]
+fn light() {
+    let shows = [("direct", "light straight to what the eye sees"), ("bounced", "light by bounces")];
+    let shows = [shows[0], shows[1], ("picture", "both")];
+    let show = |(show, label): (&str, &str)| {
+        (label.to_owned(), picture("320x200", 64, &[&format!("show={show}"), "clamp=8"]))
+    };
+    draw_panels("11_light.png", 1, &[Shown::row(&shows.map(show))]);
+}
+
+#[test]
+#[ignore = "draws docs/images/11_furnace.png"]
+fn furnace() {
+    let show = |depth: u32| {
+        let label = if depth == 1 { "1 bounce".to_owned() } else { format!("{depth} bounces") };
+        let sets = ["scene=furnace", "roulette=off", &format!("depth={depth}")];
+        (label, picture("240x150", 16, &sets))
+    };
+    draw_panels("11_furnace.png", 1, &[Shown::row(&[1, 2, 5, 256].map(show))]);
+}
+
+const SEQUENCES: [&str; 3] = ["random", "Sobol unshuffled", "Sobol"];
+const FRAMES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+
+/// The error of a scene whose light is known, for each sequence and number of samples.
+fn curves(scene: &str, expected: &[f64]) -> [[f64; 6]; 3] {
+    SEQUENCES.map(|sequence| {
+        FRAMES.map(|frames| {
+            let sets = [&format!("scene={scene}"), "depth=256", &format!("sequence={sequence}")];
+            let shown = brightness(&picture("32x32", frames, &sets));
+            let squares = shown.iter().zip(expected).map(|(shown, value)| (shown - value).powi(2));
+            (squares.sum::<f64>() / expected.len() as f64).sqrt()
+        })
+    })
+}
+
+#[test]
+#[ignore = "draws docs/images/11_error.svg"]
+fn errors() {
+    let mut scenes = vec![("closed room", vec![1.0; 32 * 32], ROOM_VARIANCE)];
+    for (name, square) in &SQUARES {
+        let factors = form_factors(32, square);
+        let variance = factors.iter().map(|p| p * (1.0 - p)).sum::<f64>() / factors.len() as f64;
+        scenes.push((name, factors, variance));
+    }
+    let x = Axis { label: "samples a pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
+    let y = Axis {
+        label: "root mean squared error",
+        ticks: &[0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
+        logarithmic: true,
+    };
+    let mut held = Map::new();
+    let charts: Vec<Chart> = scenes
+        .iter()
+        .map(|(name, expected, variance)| {
+            let theory = |frames: u32| (variance / f64::from(frames)).sqrt();
+            let line = Series {
+                name: "theory, for random numbers",
+                points: FRAMES.map(|frames| [f64::from(frames), theory(frames)]).into(),
+                line: true,
+                ..Default::default()
+            };
+            let mut series = vec![line];
+            held.insert(format!("{name}.theory"), theory(256).into());
+            for (sequence, curve) in SEQUENCES.iter().zip(curves(name, expected)) {
+                println!("{name}, {sequence}: {curve:.5?}");
+                held.insert(format!("{name}.{sequence}"), curve[4].into());
+                let points = FRAMES.iter().zip(curve).map(|(&n, error)| [f64::from(n), error]);
+                let points = points.collect();
+                series.push(Series { name: sequence, points, line: true, dots: true, names: vec![] });
+                if *sequence == "random" {
+                    // 1024 pixels tell a deviation to within a twentieth, by four standard errors of it.
+                    for (frames, error) in FRAMES.iter().zip(curve).skip(1) {
+                        let off = (error / theory(*frames) - 1.0).abs();
+                        assert!(off < 0.15, "{name}, {frames} samples: {error} {off}");
+                    }
+                }
+            }
+            Chart { title: name, x, y, series }
+        })
+        .collect();
+    draw("11_error.svg", (400, 380), &charts);
+    figures::hold("11_path_tracing/errors", held.into());
+}
+
+/// The root of the mean square over that of the picture's own colours.
+fn relative(picture: &Picture, reference: &Picture) -> f64 {
+    let squares: f64 = colors(reference).map(|c| c * c).sum();
+    error(picture, reference) / (squares / (3 * reference.pixels.len()) as f64).sqrt()
+}
+
+const SMALL: &str = "96x60";
+
+#[test]
+#[ignore = "prints what depth, minimum, roulette and clamp cost in error"]
+fn biases() {
+    // The same random numbers: what differs is what was left out, and no chance.
+    let of = |sets: &[&str]| picture(SMALL, 64, &[&["roulette=off", "depth=32"][..], sets].concat());
+    let all = of(&[]);
+    let mut held = Map::new();
+    for depth in [0, 1, 2, 4, 8, 16] {
+        let error = relative(&of(&[&format!("depth={depth}")]), &all);
+        println!("| depth {depth} | {error:.5} |");
+        held.insert(format!("depth.{depth}"), error.into());
+    }
+    for minimum in ["0.001953125", "0.01", "0.05", "0.2"] {
+        let error = relative(&of(&[&format!("minimum contribution={minimum}")]), &all);
+        println!("| minimum {minimum} | {error:.5} |");
+        held.insert(format!("minimum.{minimum}"), error.into());
+    }
+    figures::hold("11_path_tracing/biases", held.into());
+}
+
+#[test]
+#[ignore = "prints the noise of roulette and clamps"]
+fn noise() {
+    let reference = picture(SMALL, 512, &["depth=32", "seed=1"]);
+    let of = |sets: &[&str]| picture(SMALL, 16, &[&["depth=32"][..], sets].concat());
+    let mut held = Map::new();
+    for roulette in ["off", "on"] {
+        let error = relative(&of(&[&format!("roulette={roulette}")]), &reference);
+        println!("| roulette {roulette} | {error:.4} |");
+        held.insert(format!("roulette.{roulette}"), error.into());
+    }
+    let mean = |picture: &Picture| Estimate::of(&brightness(picture)).mean;
+    let unclamped = of(&["clamp=0"]);
+    for clamp in ["0", "10", "2", "0.5"] {
+        let clamped = of(&[&format!("clamp={clamp}")]);
+        let error = relative(&clamped, &reference);
+        let lost = 1.0 - mean(&clamped) / mean(&unclamped);
+        println!("| clamp {clamp} | {error:.4} | {lost:.5} |");
+        held.insert(format!("clamp.{clamp}.error"), error.into());
+        held.insert(format!("clamp.{clamp}.lost"), lost.into());
+    }
+    figures::hold("11_path_tracing/noise", held.into());
+}
+
+#[test]
+#[ignore = "prints what a sum of floats loses; takes minutes"]
+fn sums() {
+    let mut held = Map::new();
+    for frames in [100, 1000, 10_000] {
+        let of = |sum: &str| picture("8x5", frames, &[&format!("sum={sum}")]);
+        let [integers, floats] = ["integers", "floats"].map(of);
+        let offs = colors(&floats).zip(colors(&integers)).map(|(f, i)| (f / i - 1.0).abs());
+        let most = offs.fold(0.0, f64::max);
+        println!("| {frames} | {most:.1e} |");
+        held.insert(frames.to_string(), most.into());
+    }
+    figures::hold("11_path_tracing/sums", held.into());
+}
