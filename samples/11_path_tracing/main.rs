@@ -160,7 +160,8 @@ impl Sample for Demo {
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: sums
         let extent = frame.image.extent;
-        let size = u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
+        let size =
+            u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
         if self.sums.size != size {
             self.sums = Buffer::new(frame.gpu, "sums", size, input_usage())?;
         }

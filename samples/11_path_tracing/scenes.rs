@@ -1,9 +1,7 @@
 //! The scenes of this chapter: one to look at, and four whose light is known without a path.
 
 use anyhow::Result;
-use common::scene::{
-    Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex,
-};
+use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
 
 common::shader_enum! {
@@ -94,8 +92,12 @@ fn white(source: &Scene, polished: bool) -> Scene {
 /// 1/2 + 1/4 + 1/8 + … = 1, wherever it is and wherever it looks.
 fn room() -> Scene {
     let half = Vec3::splat(0.5);
-    let material =
-        Material { name: "half".to_owned(), base_color: half, emission: half, ..Material::default() };
+    let material = Material {
+        name: "half".to_owned(),
+        base_color: half,
+        emission: half,
+        ..Material::default()
+    };
     let placed = |size: f32, turn: f32, at: Vec3| Instance {
         mesh: 0,
         transform: Affine3A::from_scale_rotation_translation(

@@ -1,32 +1,40 @@
-//! 27 · Glass: what it teaches, in a line.
+//! 27 · Glass: a path goes on through a surface, and knows which body it is in.
 //!
-//! New since 11_path_tracing: what is new.
+//! New since 11_path_tracing: rays that glass refracts and reflects; bodies that absorb, and that overlap; and
+//! a light that a path meets by chance where no shadow ray can ask for it.
 
+mod bodies;
+mod glass;
 mod scenes;
 
 use std::process::ExitCode;
 
 use anyhow::Result;
+use bytemuck::{Zeroable, bytes_of};
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, Variant, Variants, barrier,
 };
-use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage};
+use common::scene::{
+    Camera, CameraBasis, Light, LightKind, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
+};
 use common::{Controls, Frame, Lighting, Sample, Setup};
 use glam::UVec3;
+use glass::{Glass, media_at};
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-/// How often a path may be reflected at most. Of a path that a surface takes 5 % from at each turn, less
-/// than 2·10^-6 is left by then.
+/// How many surfaces a path may leave at most: clear glass ends none.
 const MAX_DEPTH: u32 = 256;
 
 struct Demo {
     source: Scene,
-    scene: SceneOnGpu,
+    scene: Scene,
+    on_gpu: SceneOnGpu,
+    glasses: Buffer,
     pipelines: Variants<Constants>,
     camera: Camera,
     lighting: Lighting,
@@ -39,15 +47,13 @@ struct Demo {
     seed: u32,
     constants: Constants,
     sums: Buffer,
+    world: World,
+    world_on_gpu: Buffer,
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
-    enum Show: SHOW { Picture, Direct, Bounced, Rays }
-    /// What random numbers are made of.
-    enum Sequence: SEQUENCE { Random, Unshuffled = "Sobol unshuffled", Shuffled = "Sobol" }
-    /// How samples are added up.
-    enum Sum: SUM { Integers, Floats }
+    /// What a pixel shows: of the last two, the last ray's, where each surface lets through what it can.
+    enum Show: SHOW { Picture, Origin = "last origin", Direction = "last direction" }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
@@ -55,23 +61,29 @@ common::shader_enum! {
 struct Constants {
     show: Show,
     sky: Sky,
-    sequence: Sequence,
-    roulette: bool,
-    sum: Sum,
 }
 
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
-        scene: SceneAddresses,
-        sums: Address<PixelSum>,
-        light: Light,
+        world: Address<World>,
         depth: u32,
         minimum_contribution: f32,
         most: f32,
         seed: u32,
         sample_index: u32,
+    }
+}
+
+common::shader_struct! {
+    /// What stays as it is while samples are added up.
+    struct World {
+        scene: SceneAddresses,
+        glasses: Address<Glass>,
+        sums: Address<PixelSum>,
+        light: Light,
+        media: [u32; 4],
     }
 }
 
@@ -91,57 +103,56 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let source = setup.scene_or(scenes::chess)?;
-        let Staged { scene, sun, lamp, sky } = Staged::new(SceneName::Chess, &source);
-        let camera = scene.camera;
-        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        let Staged { scene, lamp, sky } = Staged::new(SceneName::Chess, &source);
+        let on_gpu = SceneOnGpu::new(gpu, &scene, setup.options)?;
         // Each path asks for the light at one point of it.
-        let lighting = Lighting { lamp, size: 0.03, samples: 1, ..Lighting::new(sun) };
+        let kind = LightKind::Point;
+        let lighting =
+            Lighting { lamp, kind, size: 0.6, samples: 1, ..Lighting::new(Sun::default()) };
+        let buffer = |name| Buffer::new(gpu, name, 0, input_usage());
         Ok(Self {
             source,
+            camera: scene.camera,
+            glasses: glasses(gpu, &scene)?,
             scene,
+            on_gpu,
             pipelines: Variants::default(),
-            camera,
             lighting,
             name: SceneName::Chess,
             built: SceneName::Chess,
-            depth: 16,
+            depth: 32,
             minimum_contribution: 0.0,
             clamp: 0.0,
             seed: 0,
-            constants: Constants {
-                show: Show::Picture,
-                sky,
-                sequence: Sequence::Shuffled,
-                roulette: true,
-                sum: Sum::Integers,
-            },
-            sums: Buffer::new(gpu, "sums", 0, input_usage())?,
+            constants: Constants { show: Show::Picture, sky },
+            sums: buffer("sums")?,
+            world: World::zeroed(),
+            world_on_gpu: buffer("world")?,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.name) {
-            self.take_scene();
+            let Staged { scene, lamp, sky } = Staged::new(self.name, &self.source);
+            (self.camera, self.lighting.lamp, self.constants.sky) = (scene.camera, lamp, sky);
         }
         c.choice("show", &mut self.constants.show);
         c.choice("sky", &mut self.constants.sky);
         self.lighting.controls(c);
         c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
-        c.checkbox("roulette", &mut self.constants.roulette);
         c.slider("clamp", &mut self.clamp, 0.0..=100.0);
-        c.choice("sequence", &mut self.constants.sequence);
         c.integer("seed", &mut self.seed, 0..=1000);
-        c.choice("sum", &mut self.constants.sum);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.name != self.built {
-            let Staged { scene, .. } = Staged::new(self.name, &self.source);
-            self.scene.rebuild(gpu, &scene, self.scene.options)?;
+            self.scene = Staged::new(self.name, &self.source).scene;
+            self.on_gpu.rebuild(gpu, &self.scene, self.on_gpu.options)?;
+            self.glasses = glasses(gpu, &self.scene)?;
             self.built = self.name;
         }
         Ok(())
@@ -150,19 +161,31 @@ impl Sample for Demo {
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: sums
         let extent = frame.image.extent;
-        let size = u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
+        let size =
+            u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
         if self.sums.size != size {
             self.sums = Buffer::new(frame.gpu, "sums", size, input_usage())?;
         }
         // The frame before may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: sums
+        // ANCHOR: world
+        let world = World {
+            scene: self.on_gpu.addresses,
+            glasses: self.glasses.address.into(),
+            sums: self.sums.address.into(),
+            light: self.lighting.shader(),
+            media: media_at(&self.scene, self.camera.eye),
+        };
+        if bytes_of(&world) != bytes_of(&self.world) {
+            self.world_on_gpu = Buffer::with_data(frame.gpu, "world", &[world], input_usage())?;
+            self.world = world;
+        }
+        // ANCHOR_END: world
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
-            scene: self.scene.addresses,
-            sums: self.sums.address.into(),
-            light: self.lighting.shader(),
+            world: self.world_on_gpu.address.into(),
             depth: self.depth,
             minimum_contribution: self.minimum_contribution,
             most: self.clamp,
@@ -170,11 +193,11 @@ impl Sample for Demo {
             sample_index: frame.index,
         };
         let descriptors = [
-            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::AccelerationStructure(&self.on_gpu.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame.gpu, &self.on_gpu.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
@@ -186,13 +209,10 @@ impl Sample for Demo {
     }
 }
 
-impl Demo {
-    /// Takes over what a scene brings: view, lights and sky.
-    fn take_scene(&mut self) {
-        let Staged { scene, sun, lamp, sky } = Staged::new(self.name, &self.source);
-        self.camera = scene.camera;
-        (self.lighting.sun, self.lighting.lamp, self.constants.sky) = (sun, lamp, sky);
-    }
+/// What each material is for light that enters it.
+fn glasses(gpu: &Gpu, scene: &Scene) -> Result<Buffer> {
+    let glasses: Vec<Glass> = scene.model.materials.iter().map(Glass::from).collect();
+    Buffer::with_data(gpu, "glasses", &glasses, input_usage())
 }
 
 // ANCHOR: pipeline
@@ -209,9 +229,6 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.sky)
-        .constant(2, constants.sequence)
-        .constant(3, constants.roulette)
-        .constant(4, constants.sum)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

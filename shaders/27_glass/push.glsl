@@ -3,14 +3,22 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
-#include "sum.glsl"
+#include "common/sum.glsl"
+#include "glass.glsl"
+
+// What stays as it is while samples are added up.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
+    SceneAddresses scene;
+    Glasses glasses;      // one for each material
+    Sums sums;
+    Light light;
+    uint media[4];        // the bodies that the camera is in
+};
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
-    SceneAddresses scene;
-    Sums sums;
-    Light light;
-    uint depth;           // how often a path may be reflected
+    World world;
+    uint depth;           // how many surfaces a path may leave
     float minimum_contribution;
     float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
     uint seed;
@@ -20,22 +28,10 @@ layout(push_constant, scalar) uniform Push {
 // What is fixed when the pipeline is made: code that cannot run is not even there.
 layout(constant_id = 0) const uint SHOW = 0;
 const uint SHOW_PICTURE = 0;
-const uint SHOW_DIRECT = 1;
-const uint SHOW_BOUNCED = 2;
-const uint SHOW_RAYS = 3;
+const uint SHOW_ORIGIN = 1;
+const uint SHOW_DIRECTION = 2;
 
 layout(constant_id = 1) const uint SKY = 0;
-const uint SKY_DAY = 0;
-const uint SKY_WHITE = 1;
-const uint SKY_BLACK = 2;
-
-layout(constant_id = 2) const uint SEQUENCE = 0;
-const uint SEQUENCE_RANDOM = 0;
-const uint SEQUENCE_UNSHUFFLED = 1;
-const uint SEQUENCE_SHUFFLED = 2;
-
-layout(constant_id = 3) const bool ROULETTE = true;
-
-layout(constant_id = 4) const uint SUM = 0;
-const uint SUM_INTEGERS = 0;
-const uint SUM_FLOATS = 1;
+const uint SKY_EVENING = 0;
+const uint SKY_DAY = 1;
+const uint SKY_WHITE = 2;

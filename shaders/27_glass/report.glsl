@@ -5,10 +5,10 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 // The built-in variables of a hit shader say which surface it is.
 Hit report(vec2 weights) {
-    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
+    InstanceRecord instance = push.world.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
-    MaterialRecord material = push.scene.materials.at[instance.material];
+    MaterialRecord material = push.world.scene.materials.at[instance.material];
     Hit hit;
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
@@ -16,6 +16,9 @@ Hit report(vec2 weights) {
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
+    // A normal without faceforward looks out of the body.
+    vec3 out_of = vec3(surface.face * gl_WorldToObjectEXT);
+    hit.entering = dot(out_of, hit.face) > 0.0;
     hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
 
     hit.color = material.base_color;

@@ -4,12 +4,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/hit.glsl"
+#include "hit.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 
 // The ray hit nothing: it sees the sky.
 void main() {
     hit.t = -1.0;
-    hit.color = SKY == SKY_DAY ? sky(gl_WorldRayDirectionEXT) : vec3(SKY == SKY_WHITE);
+    vec3 day = sky(gl_WorldRayDirectionEXT);
+    hit.color = SKY == SKY_WHITE ? vec3(1.0) : SKY == SKY_DAY ? day : 0.12 * day * day;
 }

@@ -44,7 +44,9 @@ impl Estimate {
     #[track_caller]
     fn is(&self, expected: f64, what: &str) {
         let Self { mean, deviation, confidence } = self;
-        println!("{what}: {mean:.6} ± {confidence:.6}, not {expected:.6}? deviation {deviation:.4}");
+        println!(
+            "{what}: {mean:.6} ± {confidence:.6}, not {expected:.6}? deviation {deviation:.4}"
+        );
         assert!((mean - expected).abs() <= *confidence, "{what}: {mean} is not {expected}");
     }
 }
@@ -126,12 +128,10 @@ fn a_changed_control_starts_again() {
 #[test]
 fn sums_of_integers_and_of_floats_begin_alike() {
     // One sample: the mean is the sample, whatever adds it up, but for what is below 2^-32.
-    let [integers, floats] =
-        ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 1, &[sum]));
+    let [integers, floats] = ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 1, &[sum]));
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() < 0.5f64.powi(31)));
     // Many: they part in the last digits, and no more than rounding each sum can do.
-    let [integers, floats] =
-        ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 32, &[sum]));
+    let [integers, floats] = ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 32, &[sum]));
     assert_ne!(bits(&integers), bits(&floats));
     let bound = 34.0 * 0.5f64.powi(24);
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() <= bound * a + 1e-9));

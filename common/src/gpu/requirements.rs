@@ -102,10 +102,8 @@ impl Features {
         *position_fetch =
             vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR { p_next: unlinked, ..links.5 };
         *ray_query = vk::PhysicalDeviceRayQueryFeaturesKHR { p_next: unlinked, ..links.6 };
-        *reorder = vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV {
-            p_next: unlinked,
-            ..links.7
-        };
+        *reorder =
+            vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV { p_next: unlinked, ..links.7 };
         result
     }
 }

@@ -55,8 +55,8 @@ pub fn catalogued() -> [f64; 2] {
     let root = 2f64.sqrt();
     let parallel = (2.0 / PI)
         * ((4.0f64 / 3.0).sqrt().ln() + 2.0 * root * (1.0 / root).atan() - 2.0 * 1f64.atan());
-    let perpendicular = (1.0 / PI)
-        * (2.0 * 1f64.atan() - root * (1.0 / root).atan() + 0.25 * (3.0f64 / 4.0).ln());
+    let perpendicular =
+        (1.0 / PI) * (2.0 * 1f64.atan() - root * (1.0 / root).atan() + 0.25 * (3.0f64 / 4.0).ln());
     [parallel, perpendicular]
 }
 

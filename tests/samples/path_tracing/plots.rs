@@ -12,7 +12,8 @@ use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 #[test]
 #[ignore = "draws docs/images/11_light.png"]
 fn light() {
-    let shows = [("direct", "light straight to what the eye sees"), ("bounced", "light by bounces")];
+    let shows =
+        [("direct", "light straight to what the eye sees"), ("bounced", "light by bounces")];
     let shows = [shows[0], shows[1], ("picture", "both")];
     let show = |(show, label): (&str, &str)| {
         (label.to_owned(), picture("320x200", 64, &[&format!("show={show}"), "clamp=8"]))
@@ -79,7 +80,13 @@ fn errors() {
                 held.insert(format!("{name}.{sequence}"), curve[4].into());
                 let points = FRAMES.iter().zip(curve).map(|(&n, error)| [f64::from(n), error]);
                 let points = points.collect();
-                series.push(Series { name: sequence, points, line: true, dots: true, names: vec![] });
+                series.push(Series {
+                    name: sequence,
+                    points,
+                    line: true,
+                    dots: true,
+                    names: vec![],
+                });
                 if *sequence == "random" {
                     // 1024 pixels tell a deviation to within a twentieth, by four standard errors of it.
                     for (frames, error) in FRAMES.iter().zip(curve).skip(1) {
@@ -107,7 +114,8 @@ const SMALL: &str = "96x60";
 #[ignore = "prints what depth, minimum, roulette and clamp cost in error"]
 fn biases() {
     // The same random numbers: what differs is what was left out, and no chance.
-    let of = |sets: &[&str]| picture(SMALL, 64, &[&["roulette=off", "depth=32"][..], sets].concat());
+    let of =
+        |sets: &[&str]| picture(SMALL, 64, &[&["roulette=off", "depth=32"][..], sets].concat());
     let all = of(&[]);
     let mut held = Map::new();
     for depth in [0, 1, 2, 4, 8, 16] {

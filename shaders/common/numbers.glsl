@@ -1,5 +1,6 @@
-// The random numbers of a path: two for each purpose at each bounce, that belong to the pixel and to one of
-// its samples.
+// Taught by 11_path_tracing; what 27 has of it: the random numbers of a path.
+//
+// Two for each purpose at each bounce, that belong to the pixel and to one of its samples.
 #include "common/sequence.glsl"
 
 // What else than in chapters before a number is for.
@@ -11,13 +12,8 @@ const uint DIMENSION_ROULETTE = 4;
 // Each pair is a point of the unit square of its own, two dimensions of the many that a path has.
 vec2 numbers(uvec2 pixel, uint sample_index, uint bounce, uint dimension, uint seed) {
     uvec4 key = hash(uvec4(pixel.x | pixel.y << 16u, bounce, dimension, seed));
-    if (SEQUENCE == SEQUENCE_RANDOM) {
-        uvec4 bits = hash(uvec4(key.xy, sample_index, 0));
-        return vec2(to_unit(bits.x), to_unit(bits.y));
-    }
     // Without an order of its own, a pair would repeat what the other pairs of this sample do.
-    uint i = SEQUENCE == SEQUENCE_SHUFFLED ? owen(sample_index, key.z) : sample_index;
-    uvec2 point = sobol(i);
+    uvec2 point = sobol(owen(sample_index, key.z));
     return vec2(to_unit(owen(point.x, key.x)), to_unit(owen(point.y, key.y)));
 }
 // ANCHOR_END: numbers

@@ -1,4 +1,4 @@
-// The samples of a pixel, added up without rounding the sum.
+// Taught by 11_path_tracing; what 27 has of it: the samples of a pixel, added up without rounding the sum.
 
 // 32 bits before the point and 32 after it, for each colour.
 struct PixelSum {
@@ -25,12 +25,3 @@ vec3 mean_of_whole(PixelSum sum) {
     return (vec3(sum.whole) + vec3(sum.part) / 4294967296.0) / float(sum.count);
 }
 // ANCHOR_END: add
-
-// The same by floats, for comparison: `whole` holds their bits.
-void add_floats(inout PixelSum sum, vec3 value) {
-    sum.whole = floatBitsToUint(uintBitsToFloat(sum.whole) + value);
-}
-
-vec3 mean_of_floats(PixelSum sum) {
-    return uintBitsToFloat(sum.whole) / float(sum.count);
-}
