@@ -10,7 +10,6 @@ mod scenes;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use bytemuck::{Zeroable, bytes_of};
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, Variant, Variants, barrier,
@@ -47,8 +46,7 @@ struct Demo {
     seed: u32,
     constants: Constants,
     sums: Buffer,
-    world: World,
-    world_on_gpu: Buffer,
+    world: Buffer,
 }
 
 common::shader_enum! {
@@ -108,7 +106,7 @@ impl Sample for Demo {
         // Each path asks for the light at one point of it.
         let kind = LightKind::Point;
         let lighting =
-            Lighting { lamp, kind, size: 0.6, samples: 1, ..Lighting::new(Sun::default()) };
+            Lighting { lamp, kind, size: 1.0, samples: 1, ..Lighting::new(Sun::default()) };
         let buffer = |name| Buffer::new(gpu, name, 0, input_usage());
         Ok(Self {
             source,
@@ -126,8 +124,7 @@ impl Sample for Demo {
             seed: 0,
             constants: Constants { show: Show::Picture, sky },
             sums: buffer("sums")?,
-            world: World::zeroed(),
-            world_on_gpu: buffer("world")?,
+            world: buffer("world")?,
         })
     }
 
@@ -170,22 +167,22 @@ impl Sample for Demo {
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: sums
         // ANCHOR: world
-        let world = World {
-            scene: self.on_gpu.addresses,
-            glasses: self.glasses.address.into(),
-            sums: self.sums.address.into(),
-            light: self.lighting.shader(),
-            media: media_at(&self.scene, self.camera.eye),
-        };
-        if bytes_of(&world) != bytes_of(&self.world) {
-            self.world_on_gpu = Buffer::with_data(frame.gpu, "world", &[world], input_usage())?;
-            self.world = world;
+        // The first sample since anything changed.
+        if frame.index == 0 && frame.is_first_band() {
+            let world = World {
+                scene: self.on_gpu.addresses,
+                glasses: self.glasses.address.into(),
+                sums: self.sums.address.into(),
+                light: self.lighting.shader(),
+                media: media_at(&self.scene, self.camera.eye),
+            };
+            self.world = Buffer::with_data(frame.gpu, "world", &[world], input_usage())?;
         }
         // ANCHOR_END: world
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
-            world: self.world_on_gpu.address.into(),
+            world: self.world.address.into(),
             depth: self.depth,
             minimum_contribution: self.minimum_contribution,
             most: self.clamp,

@@ -88,8 +88,8 @@ impl Staged {
     /// The scene of a name; `source` is the chess set.
     pub fn new(name: SceneName, source: &Scene) -> Self {
         let lamp = PointLight {
-            position: Vec3::new(-3.2, 5.0, -4.2),
-            intensity: Vec3::new(60.0, 44.0, 26.0),
+            position: Vec3::new(-4.5, 4.5, 3.0),
+            intensity: Vec3::new(110.0, 80.0, 46.0),
         };
         let shown = |scene| Self { scene, lamp, sky: Sky::Evening };
         // No light but the sky.
@@ -104,9 +104,9 @@ impl Staged {
             SceneName::Furnace => plain(furnace(source), Sky::White),
             SceneName::Slab => {
                 let turn = Quat::from_rotation_y(0.5);
-                let size = Vec3::new(100.0, 100.0, 1.0);
+                let size = Vec3::new(20.0, 20.0, 1.0);
                 let place = Affine3A::from_scale_rotation_translation(size, turn, Vec3::ZERO);
-                plain(alone(bar("slab", &regular(4)), clear, place, 5.0, 60.0), Sky::Day)
+                plain(alone(bar("slab", &regular(4)), clear, place, 5.0, 40.0), Sky::Day)
             }
             SceneName::Ball => {
                 let place = Affine3A::IDENTITY;
@@ -116,7 +116,7 @@ impl Staged {
                 let place = Affine3A::from_rotation_x(std::f32::consts::FRAC_PI_2);
                 let mut scene = alone(bar("prism", &regular(3)), clear, place, 5.0, 20.0);
                 scene.camera =
-                    Camera::new(DVec3::new(5.0, 0.0, 1.0), DVec3::new(0.2, 0.0, 0.0), 5.0);
+                    Camera::new(DVec3::new(4.99, 0.0, -1.45), DVec3::new(0.25, 0.0, 0.144), 5.0);
                 plain(scene, Sky::Day)
             }
             SceneName::Pane => {

@@ -75,7 +75,7 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
         ray.direction = mirrored(ray.direction, normal, hit.face);
     } else {
         if (glass.kind == GLASS_THIN) {
-            path.throughput *= exp(-glass.absorption);
+            path.throughput *= left_after(glass.absorption);
         } else if (is_real) {
             ray.direction = kept_above(refracted(ray.direction, normal, from, to), -hit.face);
         }
@@ -92,7 +92,7 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: absorb
     if (path.media.x != AIR && hit.t >= 0.0) {
-        path.throughput *= exp(-hit.t * push.world.glasses.at[path.media.x].absorption);
+        path.throughput *= left_after(hit.t * push.world.glasses.at[path.media.x].absorption);
     }
     // ANCHOR_END: absorb
     // ANCHOR: chance

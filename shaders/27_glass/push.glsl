@@ -6,6 +6,8 @@
 #include "common/sum.glsl"
 #include "glass.glsl"
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
+
 // What stays as it is while samples are added up.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
     SceneAddresses scene;

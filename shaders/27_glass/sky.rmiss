@@ -12,5 +12,5 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 void main() {
     hit.t = -1.0;
     vec3 day = sky(gl_WorldRayDirectionEXT);
-    hit.color = SKY == SKY_WHITE ? vec3(1.0) : SKY == SKY_DAY ? day : 0.12 * day * day;
+    hit.color = SKY == SKY_WHITE ? vec3(1.0) : SKY == SKY_DAY ? day : 0.3 * day * day;
 }
