@@ -37,9 +37,10 @@ impl Near {
             // Some five rays a path, and as many to the light: ten decisions, and ways by chance, which are one
             // decision more at each turn.
             11 => Self { flips: 15, mean: 0.005 },
-            // Ten rays a path, each bent by a surface that it meets at a place a little off: so errors grow as
-            // those of round mirrors, and each surface is a choice by chance as well.
-            27 => Self { flips: 30, mean: 0.02 },
+            // Ten surfaces a path, each small and round: an error grows by the way over the radius at each of
+            // them, to more than a pixel in places, and each is a choice by chance as well. One pixel of a
+            // hundred sees another way.
+            27 => Self { flips: 90, mean: 0.02 },
             other => panic!("how near is a picture of {other}?"),
         }
     }
