@@ -18,5 +18,5 @@ pub mod gpu;
 pub mod scene;
 pub mod usage;
 
-pub use app::{Controls, Frame, Lighting, Sample, Setup, run};
+pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, run};
 pub use bytemuck;

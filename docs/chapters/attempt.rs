@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use common::app::Picture;
 
-use crate::command::quoted;
 use crate::edition::{Edition, Patched};
 use crate::exercise::{Exercise, Takes};
 use crate::expectation::{Expectation, Other};
+use crate::missed::Missed;
 use crate::picture::hash;
 use crate::program::Programs;
 use crate::project::Project;
@@ -104,11 +104,10 @@ fn name(chapter: &str, arguments: &[String]) -> String {
 }
 
 /// What an edition makes of an exercise.
-#[derive(Default)]
 pub struct Verdict {
-    /// What is not as it should be, in a line; `None` if the exercise is solved.
-    pub missed: Option<String>,
-    /// The first picture.
+    /// What is not as it should be; `None` if the exercise is solved.
+    pub missed: Option<Missed>,
+    /// The picture of the run that showed it, else the first.
     pub picture: Option<Picture>,
 }
 
@@ -130,16 +129,20 @@ impl Attempt<'_> {
     /// # Errors
     /// If it cannot be told: a program is not built, the book's own run fails.
     pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
-        let mut verdict = Verdict::default();
+        let mut first = None;
         for step in &self.exercise.steps {
-            verdict.missed = match &step.run {
+            let missed = match &step.run {
                 Run::Program(arguments) => {
                     let (programs, chapter) = (self.programs, &self.exercise.chapter);
                     let command = edition.command(self.project, programs, chapter)?;
                     let seen = Seen::of(command, arguments, LIMIT)?;
                     let missed = self.missed(edition, step, arguments, &seen)?;
-                    verdict.picture = verdict.picture.or(seen.picture);
-                    missed
+                    if let Some(missed) = missed {
+                        let picture = seen.picture;
+                        return Ok(Verdict { missed: Some(missed), picture });
+                    }
+                    first = first.or(seen.picture);
+                    None
                 }
                 Run::Test(program, filter) => {
                     let tested = edition.test(self.project, self.programs, (program, filter))?;
@@ -150,11 +153,11 @@ impl Attempt<'_> {
                         .map(|missed| format!("{missed} with cargo test --test {program} {filter}"))
                 }
             };
-            if verdict.missed.is_some() {
-                break;
+            if let Some(missed) = missed {
+                return Ok(Verdict { missed: Some(missed.into()), picture: first });
             }
         }
-        Ok(verdict)
+        Ok(Verdict { missed: None, picture: first })
     }
 
     /// What is not as it should be about one run of the program.
@@ -164,21 +167,22 @@ impl Attempt<'_> {
         step: &Step,
         arguments: &[String],
         seen: &Seen,
-    ) -> Result<Option<String>> {
+    ) -> Result<Option<Missed>> {
         let (mut refused, mut heard) = (false, false);
         for expectation in &step.expectations {
             refused |= matches!(expectation, Expectation::Refused(_));
             heard |= matches!(expectation, Expectation::Validation(_));
         }
         let Some(status) = seen.status else {
-            return Ok(Some(format!("the program does not end within {} s", LIMIT.as_secs())));
+            let what = format!("the program does not end within {} s", LIMIT.as_secs());
+            return Ok(Some(what.into()));
         };
         if let (false, Some(message)) = (heard, seen.messages().first()) {
-            return Ok(Some(format!("validation says: {message}")));
+            return Ok(Some(format!("validation says: {message}").into()));
         }
         if !status.success() && !refused && !heard {
             let said = if seen.said.is_empty() { status.to_string() } else { seen.said.clone() };
-            return Ok(Some(said));
+            return Ok(Some(said.into()));
         }
         let other = |other: &Other| match other.own {
             true => {
@@ -194,11 +198,13 @@ impl Attempt<'_> {
             }
         };
         for expectation in &step.expectations {
-            if let Some(missed) = expectation.missed(seen, &other)? {
-                return Ok(Some(match self.exercise.steps.len() {
-                    1 => missed,
-                    _ => format!("{missed} with {}", quoted(arguments)),
-                }));
+            let with = expectation.other();
+            let compared = with.map(|with| Ok::<_, Error>((with.clone(), other(with)?)));
+            let compared = compared.transpose()?;
+            let picture = compared.as_ref().map(|(_, picture)| picture);
+            if let Some(what) = expectation.missed(seen, picture)? {
+                let arguments = Some(arguments.to_vec());
+                return Ok(Some(Missed { what, arguments, compared }));
             }
         }
         Ok(None)

@@ -2,11 +2,14 @@
 
 use std::fs::File;
 use std::io::{Read, Seek};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
+
+use crate::stop;
 
 /// How often a child is looked after.
 const GLANCE: Duration = Duration::from_millis(10);
@@ -49,27 +52,36 @@ impl Ended {
 /// Runs a command, and kills it if it takes longer than `limit`.
 ///
 /// # Errors
-/// If it does not start.
+/// If it does not start, or a signal asks for our end.
 pub fn run(command: &mut Command, limit: Duration) -> Result<Ended> {
     // Files and no pipes: nobody has to read them while the program runs.
     let file = || tempfile::tempfile().context("cannot make a temporary file");
     let (mut output, mut errors) = (file()?, file()?);
     command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
-    let status = wait(&mut command.spawn()?, limit)?;
+    let mut child = command.spawn().with_context(|| {
+        let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+        format!("{} does not start", program.display())
+    })?;
+    let status = wait(&mut child, limit)?;
     let (told, said) = (read(&mut output)?, read(&mut errors)?);
     Ok(Ended { status, said, told, limit })
 }
 
-fn wait(child: &mut Child, limit: Duration) -> Result<Option<ExitStatus>> {
+/// Waits for its end; there is no status if it has taken longer than `limit` and is killed.
+///
+/// # Errors
+/// If a signal asks for our end, for which the child is killed, or the system does not tell of the child's.
+pub fn wait(child: &mut Child, limit: Duration) -> Result<Option<ExitStatus>> {
     let start = Instant::now();
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
         }
-        if start.elapsed() > limit {
+        let asked = stop::asked();
+        if start.elapsed() > limit || asked.is_err() {
             child.kill()?;
             child.wait()?;
-            return Ok(None);
+            return asked.map(|()| None);
         }
         thread::sleep(GLANCE);
     }

@@ -74,3 +74,8 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
 }
+
+/// The file that keeps a path from being a folder, itself or above it.
+pub fn file_on_the_way(folder: &Path) -> Option<&Path> {
+    folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir())
+}

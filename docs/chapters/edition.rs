@@ -86,28 +86,24 @@ impl Edition {
         programs: &Programs,
         chapter: &str,
     ) -> Result<Command> {
-        let built = || programs.command(chapter).map_err(|what| anyhow!("{what}; {BUILD}"));
+        let book = || programs.command(chapter).map_err(|what| anyhow!("{what}; {BUILD}"));
         match self {
-            Self::Book => built(),
+            Self::Book => book(),
             Self::Shaders(folder) => {
-                let mut command = built()?;
+                let mut command = book()?;
                 command.env("SHADERS", folder);
                 Ok(command)
             }
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", project, programs);
-                let output = cargo
-                    .args(["--quiet", "--bin", chapter])
-                    .output()
-                    .context("cargo does not start")?;
-                let said = String::from_utf8_lossy(&output.stderr);
+                let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Duration::MAX)?;
                 ensure!(
-                    output.status.success(),
+                    built.status.is_some_and(|status| status.success()),
                     "{chapter} does not build: {}",
-                    first_error(&said)
+                    first_error(&built.said)
                 );
                 if *self == Self::Edited {
-                    return built();
+                    return book();
                 }
                 let profile = if programs.are_released() { "release" } else { "debug" };
                 let name = format!("{chapter}{}", std::env::consts::EXE_SUFFIX);
@@ -130,13 +126,15 @@ impl Edition {
     ) -> Result<Tested> {
         // A build may take as long as it will, and only once.
         let (mut build, _) = self.cargo("test", project, programs);
-        let built = build.args(["--no-run", "--test", program]).output();
-        let built = built.context("cargo does not start")?;
-        let said = String::from_utf8_lossy(&built.stderr);
-        ensure!(built.status.success(), "the tests do not build: {}", first_error(&said));
+        let built = child::run(build.args(["--no-run", "--test", program]), Duration::MAX)?;
+        ensure!(
+            built.status.is_some_and(|status| status.success()),
+            "the tests do not build: {}",
+            first_error(&built.said)
+        );
         let (mut cargo, _) = self.cargo("test", project, programs);
         cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
-        let ended = child::run(&mut cargo, LIMIT).context("cargo does not start")?;
+        let ended = child::run(&mut cargo, LIMIT)?;
         if ended.status.is_none() {
             bail!("the tests '{filter}' do not end");
         }

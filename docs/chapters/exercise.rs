@@ -169,7 +169,16 @@ impl Exercise {
         let answers = answer.iter().flat_map(|field| field.value.split('|'));
         let answers = answers.map(|answer| answer.trim().to_owned()).collect();
         let chapter = chapter.name.clone();
-        Ok(Self { chapter, number, takes, text, check, hint, why, answers, steps, patch })
+        let exercise =
+            Self { chapter, number, takes, text, check, hint, why, answers, steps, patch };
+        match exercise.gives_itself_away() {
+            Some(word) => wrong(
+                line,
+                &format!("the first run, which a reader is shown, holds the answer: {word}"),
+                "begin with another run",
+            ),
+            None => Ok(exercise),
+        }
     }
 
     /// What it takes, in words.
@@ -199,6 +208,14 @@ impl Exercise {
                 None => given == right,
             }
         })
+    }
+
+    /// The argument of its first run that holds the answer, unless the text names it anyway.
+    fn gives_itself_away(&self) -> Option<&str> {
+        let Run::Program(arguments) = &self.steps.first()?.run else { return None };
+        let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
+        let mut told = arguments.iter().filter(|word| !self.text.contains(&***word));
+        told.find(|word| self.accepts(&value(word))).map(String::as_str)
     }
 
     /// Its item in the list on its page.

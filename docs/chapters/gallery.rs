@@ -13,6 +13,7 @@ const AFTER: &[(&str, &str)] = &[
     ("compilers.md", "What a GPU's compiler says"),
     ("arithmetic.md", "The worst arithmetic that conforms"),
     ("needs.md", "What a device must offer"),
+    ("long-renders.md", "Long renders"),
     ("wrong-pictures.md", "When the picture is wrong"),
     ("devices.md", "What was tested"),
     ("glossary.md", "Glossary"),

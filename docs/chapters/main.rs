@@ -7,6 +7,7 @@
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
 //! - `measure`: runs what gave the pages' figures, and fills those in
+//! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -32,14 +33,18 @@ mod expectation;
 mod fault;
 mod figure;
 mod gallery;
+mod given;
 mod glossary;
 mod hunk;
 mod laboratory;
 mod markdown;
 mod measurement;
 mod mention;
+mod merge;
+mod missed;
 mod mistake;
 mod moved;
+mod named;
 mod new;
 mod note;
 mod number;
@@ -60,6 +65,7 @@ mod shot;
 mod show;
 mod shrink;
 mod step;
+mod stop;
 mod stored;
 mod stray;
 mod survey;
@@ -69,9 +75,11 @@ mod text;
 mod trial;
 mod try_it;
 mod watch;
+mod window;
 mod workbench;
 
 use std::io::{ErrorKind, Write};
+use std::ops::Range;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -186,6 +194,17 @@ enum Command {
     },
     /// Do an exercise of a page: `exercise 05.2` sets it up and checks it on each save until it is solved
     Exercise(Practice),
+    /// Add the files that --save has written: OUT is the picture (.png or .exr), or such a file again
+    Merge {
+        /// The picture or file to write
+        out: PathBuf,
+        /// The files; no sample may be in two of them
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Fail if one of these samples is missing
+        #[arg(long, value_name = "A..B", value_parser = common::app::range)]
+        samples: Option<Range<u32>>,
+    },
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -207,7 +226,7 @@ fn parse() -> Result<Arguments> {
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
         let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, sync, measure, survey, mistake, exercise, check",
+            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })
@@ -251,6 +270,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Exercise(practice) => practice.run(&project),
         Command::Measure { names } => measure(&project, names),
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
+        Command::Merge { out, files, samples } => print(&merge::run(out, files, samples.clone())?),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;
             report(&Book::open(&project, &programs)?.check())

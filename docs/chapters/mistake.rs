@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use common::usage::Usage;
 
+use crate::copy::file_on_the_way;
 use crate::fault::Fault;
 use crate::patch::{Field, Patch};
 use crate::picture::{self, Sources};
@@ -183,8 +184,14 @@ impl Mistake {
     /// # Errors
     /// If the patch does not fit, the folder holds something, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
+        let refused = |path: &Path, what: &str| {
+            Usage(format!("'{}' {what}; name another folder with --out", path.display()))
+        };
+        if let Some(file) = file_on_the_way(folder) {
+            return Err(refused(file, "is a file, and the copy is a folder").into());
+        }
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
-            bail!("'{}' is not empty; name another folder with --out", folder.display());
+            return Err(refused(folder, "is not empty").into());
         }
         self.patch.copy_to(project, folder)
     }

@@ -17,6 +17,8 @@ pub struct Passage {
     /// Where its text stands on the page, in bytes: without code, formulas, links and the heads of rows
     /// and columns.
     pub text: Vec<Range<usize>>,
+    /// The heads of a table's rows.
+    pub rows: Vec<String>,
     /// The comments below it, with their lines.
     pub marks: Vec<(usize, Mark)>,
 }
@@ -70,7 +72,10 @@ pub fn all(text: &str) -> Vec<Passage> {
                 hidden -= 1
             }
             // A row's first cell says what the row is about.
-            Event::Start(Tag::TableRow) => label = true,
+            Event::Start(Tag::TableRow) => {
+                label = true;
+                found.last_mut().into_iter().for_each(|table| table.rows.push(String::new()));
+            }
             Event::End(TagEnd::TableCell) => label = false,
             Event::Start(Tag::Table(_) | Tag::BlockQuote(_)) => {
                 quotes += i32::from(matches!(event, Event::Start(Tag::BlockQuote(_))));
@@ -80,12 +85,15 @@ pub fn all(text: &str) -> Vec<Passage> {
             Event::Start(Tag::Paragraph | Tag::Item) if quotes == 0 => {
                 found.push(Passage::default())
             }
+            Event::Text(word) | Event::Code(word) if label => {
+                let row = found.last_mut().and_then(|table| table.rows.last_mut());
+                row.into_iter().for_each(|row| row.push_str(&word));
+            }
             Event::Text(word) => {
                 if let Some(heading) = &mut heading {
                     heading.push_str(&word);
                 }
-                if let Some(block) = found.last_mut().filter(|_| hidden == 0 && !label && !left_out)
-                {
+                if let Some(block) = found.last_mut().filter(|_| hidden == 0 && !left_out) {
                     match block.text.last_mut().filter(|part| part.end == span.start) {
                         Some(part) => part.end = span.end,
                         None => block.text.push(span),
@@ -155,6 +163,13 @@ mod tests {
             told(text),
             expected.map(|(small, text, marks)| (small, text.to_owned(), marks))
         );
+    }
+
+    #[test]
+    fn a_table_s_rows_have_heads() {
+        let table = "| h | a |\n|---|---|\n| S0 `x` | 1 |\n| **S5** 64 bits | |\n";
+        let heads: Vec<Vec<String>> = all(table).into_iter().map(|table| table.rows).collect();
+        assert_eq!(heads, [["S0 x", "S5 64 bits"]]);
     }
 
     #[test]

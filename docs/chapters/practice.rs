@@ -8,13 +8,14 @@ use common::app::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals};
-use crate::command;
 use crate::crew;
 use crate::exercise::{Exercise, Takes};
 use crate::program::Programs;
 use crate::progress::Progress;
 use crate::project::Project;
-use crate::workbench::{Workbench, has_display, solved};
+use crate::stop;
+use crate::window::has_display;
+use crate::workbench::{Workbench, solved};
 
 /// What is asked.
 #[derive(Debug, Args)]
@@ -57,6 +58,7 @@ impl Practice {
     /// # Errors
     /// If it cannot be done, or the exercise is not solved yet where that is asked.
     pub fn run(&self, project: &Project) -> Result<()> {
+        stop::on_signal();
         if self.prove {
             return self.prove(project);
         }
@@ -108,7 +110,7 @@ impl Practice {
         let takes = exercise.takes();
         let title = &exercise.patch.title;
         let heading = format!("{exercise} · {title} ({takes})\n\n{}\n\n", exercise.text);
-        // What takes only looking is not told before it is answered.
+        // What is seen once it is done would give the answer away.
         if exercise.takes == Takes::Look {
             bench.set_up()?;
             print(&heading)?;
@@ -116,7 +118,7 @@ impl Practice {
         }
         let there = bench.set_up()?;
         let on = if there { "You go on where you left it.\n" } else { "" };
-        print(&format!("{heading}Check: {}\n\n{}{on}\n", exercise.check, bench.introduction()))?;
+        print(&format!("{heading}{}{on}\n", bench.introduction()))?;
         bench.practise(!self.headless && has_display(), &mut progress)
     }
 
@@ -126,11 +128,8 @@ impl Practice {
             print(&answer)?;
             return bench.window()?.closed();
         }
-        let words = command::quoted(&bench.settings());
-        let chapter = &exercise.chapter;
-        let out = format!("target/exercises/{exercise}.png");
-        let command = format!("cargo run --bin {chapter} -- {words} --headless --out {out}");
-        print(&format!("{}\n{answer}", command.replace("--  ", "-- ")))
+        let render = bench.render().map_or_else(String::new, |render| format!("{render}\n"));
+        print(&format!("{render}{answer}"))
     }
 
     fn solution(&self, exercise: &Exercise, bench: &Workbench) -> Result<()> {
@@ -142,7 +141,7 @@ impl Practice {
                 Takes::Look => {
                     print(&format!("Answer: {answers}\nCheck: {}\n{why}", exercise.check))
                 }
-                _ => print(&format!("{}{why}", exercise.patch.diff())),
+                _ => print(&format!("{}\nCheck: {}\n{why}", exercise.patch.diff(), exercise.check)),
             };
         }
         if exercise.takes == Takes::Look {
@@ -169,7 +168,9 @@ impl Practice {
         let originals = &Originals::new(project, programs);
         // Printed as they come: those that are built take minutes.
         let prove = |exercise: &Exercise| {
+            stop::asked()?;
             let line = Attempt { project, programs, originals, exercise }.prove();
+            stop::asked()?;
             let proved = line.is_ok();
             print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))
                 .map(|()| proved)
@@ -191,7 +192,7 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
         bail!("{exercise} is not solved yet: it asks a question; answer it with --answer WORDS");
     }
     bench.set_up()?;
-    match bench.verdict()?.missed {
+    match bench.missed()? {
         Some(missed) => bail!("{exercise} is not solved yet: {missed}"),
         None => {
             progress.note(exercise)?;

@@ -35,7 +35,7 @@ impl Seen {
         let (out, report) = (folder.path().join("out.exr"), folder.path().join("report.json"));
         command.args(["--headless", "--validate"]).args(arguments);
         command.arg("--out").arg(&out).arg("--report").arg(&report);
-        let ended = child::run(&mut command, limit).context("the program does not start")?;
+        let ended = child::run(&mut command, limit)?;
         let said = ended.said.trim().replace('\n', " ");
         Ok(Self {
             picture: Picture::open_exr(&out).ok(),

@@ -19,9 +19,13 @@ use crate::laboratory;
 use crate::program::Programs;
 use crate::project::{Chapter, Project};
 use crate::sheet;
+use crate::stop;
 
 /// The size of the picture whose time is taken.
 pub const TIMED: &str = "480x300";
+
+/// How a program says that there is no device at all.
+const NO_DRIVER: &str = "no Vulkan driver";
 
 /// A survey of one device.
 pub struct Survey<'a> {
@@ -57,8 +61,10 @@ impl Survey<'_> {
     /// Runs everything, says so a line a chapter, and writes the card to a folder.
     ///
     /// # Errors
-    /// If the card cannot be written, or a chapter fails; the line says where the card is.
+    /// If there is no device, the card cannot be written, a signal asks for the end, or a chapter fails: then the
+    /// line says where the card is.
     pub fn run(&self, out: &Path) -> Result<()> {
+        stop::on_signal();
         let cannot = || format!("cannot write to '{}'", out.display());
         fs::create_dir_all(out).with_context(cannot)?;
         common::files::check_writable(&out.join("card.md"))?;
@@ -82,6 +88,7 @@ impl Survey<'_> {
         };
         for chapter in &self.project.chapters {
             let line = self.chapter(chapter, folder.path(), &mut card);
+            stop::asked()?;
             let told = match (&line.failed, line.milliseconds) {
                 (Some(why), _) => why.clone(),
                 (None, milliseconds) => {
@@ -93,6 +100,7 @@ impl Survey<'_> {
         }
         for (index, (what, arguments)) in laboratory.iter().enumerate() {
             let failed = self.ask(laboratory::NAME, arguments).err().map(|error| told(&error));
+            stop::asked()?;
             steps.told(what, failed.as_deref().unwrap_or("done"))?;
             match index {
                 0 => card.hard_cases = laboratory::hard_cases(failed, folder.path()),
@@ -141,13 +149,18 @@ impl Survey<'_> {
         cargo.status().map(drop).context("cargo does not start")
     }
 
-    /// Fails if `--device` names none, before anything is run for a card.
+    /// Fails if there is no device, or `--device` names none, before anything is run for a card.
     fn check_device(&self) -> Result<()> {
-        let (Some(_), Some(chapter)) = (self.device, self.project.chapters.last()) else {
-            return Ok(());
-        };
+        let Some(chapter) = self.project.chapters.last() else { return Ok(()) };
         let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
-        ended.refused().map_or(Ok(()), |line| Err(Usage(line).into()))
+        if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
+            return Err(Usage(line).into());
+        }
+        // What else keeps a program from running is a line of the card.
+        match ended.failed().filter(|line| line.starts_with(NO_DRIVER)) {
+            Some(line) => bail!("{line}"),
+            None => Ok(()),
+        }
     }
 
     /// Runs a program to its end.
@@ -169,7 +182,7 @@ impl Survey<'_> {
         if let Some(device) = self.device {
             command.args(["--device", device]);
         }
-        child::run(command.args(arguments), self.limit).context("it does not start")
+        child::run(command.args(arguments), self.limit)
     }
 
     /// One chapter: its golden picture under validation, its time, and what compilers say.

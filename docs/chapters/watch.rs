@@ -4,17 +4,18 @@ use std::collections::hash_map::DefaultHasher;
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use notify::{PollWatcher, RecursiveMode, Watcher, recommended_watcher};
 
 use crate::copy::files_below;
+use crate::stop;
 
 /// Editors save in several steps; look once they are done.
 const DEBOUNCE: Duration = Duration::from_millis(100);
-/// How often to look where the system does not tell of changes.
+/// How often to look for a signal, and for changes where the system does not tell of them.
 const GLANCE: Duration = Duration::from_millis(500);
 
 /// Folders that are watched.
@@ -39,14 +40,18 @@ impl Watch {
     /// wait for.
     ///
     /// # Errors
-    /// If the folders cannot be watched any more.
+    /// If the folders cannot be watched any more, or a signal asks for the end.
     pub fn wait(&mut self) -> Result<()> {
         loop {
             let now = contents(&self.folders);
             if self.last.replace(now) != Some(now) {
                 return Ok(());
             }
-            self.saved.recv().context("the folder cannot be watched any more")?;
+            while let Err(error) = self.saved.recv_timeout(GLANCE) {
+                stop::asked()?;
+                let lost = error == RecvTimeoutError::Disconnected;
+                ensure!(!lost, "the folder cannot be watched any more");
+            }
             while self.saved.recv_timeout(DEBOUNCE).is_ok() {}
         }
     }

@@ -3,21 +3,23 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Stdio};
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, anyhow};
 use common::app::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals, Verdict};
-use crate::copy::{Changed, copy_shaders};
+use crate::command::quoted;
+use crate::copy::{Changed, copy_shaders, file_on_the_way};
 use crate::edition::Edition;
 use crate::exercise::{Exercise, Takes};
 use crate::program::{BUILD, Programs};
 use crate::progress::Progress;
 use crate::project::Project;
 use crate::step::Run;
+use crate::stop;
 use crate::watch::Watch;
+use crate::window::Window;
 
 /// The place of an exercise.
 pub struct Workbench<'a> {
@@ -54,8 +56,9 @@ impl<'a> Workbench<'a> {
             Some(folder) => std::path::absolute(folder).context("no folder is named")?,
             None => project.root.join(own),
         };
-        if folder.exists() && !folder.is_dir() {
-            return Err(Usage(format!("'{shown}' is no folder; name another with --folder")).into());
+        if let Some(file) = file_on_the_way(&folder) {
+            let what = if file == folder { shown } else { file.display().to_string() };
+            return Err(Usage(format!("'{what}' is no folder; name another with --folder")).into());
         }
         Ok(Self { project, programs, exercise, folder, shown })
     }
@@ -78,18 +81,18 @@ impl<'a> Workbench<'a> {
                 let book = self.project.root.join("shaders");
                 let is_book =
                     |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
-                ensure!(
-                    !self.folder.ancestors().any(is_book),
-                    "'{}' holds the book's own shaders; name another with --folder",
-                    self.shown
-                );
+                let refused = |what: &str| {
+                    Usage(format!("'{}' {what}; name another with --folder", self.shown))
+                };
+                if self.folder.ancestors().any(is_book) {
+                    return Err(refused("holds the book's own shaders").into());
+                }
                 let filled =
                     self.folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
                 if filled {
                     let own = self.folder.join(&self.exercise.chapter).is_dir();
                     let what = "holds something else than a copy of the shaders";
-                    ensure!(own, "'{}' {what}; name another with --folder", self.shown);
-                    return Ok(true);
+                    return if own { Ok(true) } else { Err(refused(what).into()) };
                 }
                 let failed = || format!("cannot make '{}'", self.shown);
                 let above = self.folder.parent().with_context(failed)?;
@@ -153,17 +156,45 @@ impl<'a> Workbench<'a> {
                 )
             }
         };
-        format!(
-            "{place}\nThe picture after each save: {shown}.png\nStuck? cargo chapters exercise {name} --hint\n"
-        )
+        let mut lines = vec![place];
+        if let Some(render) = self.render() {
+            lines.push(format!("The picture after each save: {shown}.png"));
+            lines.push(format!("Make it yourself: {render}"));
+        }
+        lines.push(format!("Stuck? cargo chapters exercise {name} --hint"));
+        lines.iter().map(|line| format!("{line}\n")).collect()
     }
 
-    /// Whether the exercise is solved; keeps the picture beside the folder.
+    /// The command by which a reader makes the first picture without a window: that which is checked, or of what
+    /// takes only looking one in the usual size. `None` where only tests run.
+    pub fn render(&self) -> Option<String> {
+        let look = self.exercise.takes == Takes::Look;
+        let mut words = if look { self.settings() } else { self.first_run()?.to_vec() };
+        words.extend(["--headless".to_owned(), "--out".to_owned(), self.own_picture()]);
+        let shaders = match self.exercise.takes {
+            Takes::Shader => format!("SHADERS={} ", quoted(&[self.shown.clone()])),
+            _ => String::new(),
+        };
+        let chapter = &self.exercise.chapter;
+        Some(format!("{shaders}cargo run --bin {chapter} -- {}", quoted(&words)))
+    }
+
+    /// Where the reader's picture lies.
+    fn own_picture(&self) -> String {
+        format!("{}.png", self.shown)
+    }
+
+    /// Where the picture lies with which it was compared.
+    fn other_picture(&self) -> String {
+        format!("{}.other.png", self.shown)
+    }
+
+    /// What keeps the exercise from being solved, in a line; keeps the pictures beside the folder.
     ///
     /// # Errors
     /// If it cannot be told.
-    pub fn verdict(&self) -> Result<Verdict> {
-        self.verdict_with(&self.originals())
+    pub fn missed(&self) -> Result<Option<String>> {
+        self.missed_with(&self.originals())
     }
 
     fn originals(&self) -> Originals<'a> {
@@ -173,16 +204,22 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    fn verdict_with(&self, originals: &Originals) -> Result<Verdict> {
+    fn missed_with(&self, originals: &Originals) -> Result<Option<String>> {
         let Self { project, programs, exercise, .. } = *self;
-        let verdict =
+        let Verdict { missed, picture } =
             Attempt { project, programs, originals, exercise }.verdict(&self.edition())?;
-        if let Some(picture) = &verdict.picture {
-            let file = PathBuf::from(format!("{}.png", self.folder.display()));
-            fs::create_dir_all(file.parent().context("a file lies in a folder")?)?;
-            picture.save(&file)?;
+        let [own, other] = ["png", "other.png"]
+            .map(|extension| PathBuf::from(format!("{}.{extension}", self.folder.display())));
+        fs::create_dir_all(own.parent().context("a file lies in a folder")?)?;
+        if let Some(picture) = &picture {
+            picture.save(&own)?;
         }
-        Ok(verdict)
+        match missed.as_ref().and_then(|missed| missed.compared.as_ref()) {
+            Some((_, picture)) => picture.save(&other)?,
+            // It may lie there from the save before.
+            None => drop(fs::remove_file(&other)),
+        }
+        Ok(missed.map(|missed| missed.told(&self.own_picture(), &self.other_picture())))
     }
 
     /// Checks on each save, a line each, until the exercise is solved.
@@ -203,10 +240,9 @@ impl<'a> Workbench<'a> {
             watch.wait()?;
             // A program that runs cannot be built anew everywhere.
             let again = self.exercise.takes != Takes::Shader && window.take().is_some();
-            let missed = match self.verdict_with(&originals) {
-                Ok(verdict) => verdict.missed,
-                Err(error) => Some(format!("{error:#}")),
-            };
+            let missed =
+                self.missed_with(&originals).unwrap_or_else(|error| Some(format!("{error:#}")));
+            stop::asked()?;
             if again {
                 window = self.window().ok();
             }
@@ -226,19 +262,12 @@ impl<'a> Workbench<'a> {
     /// If it does not start.
     pub fn window(&self) -> Result<Window> {
         let command = self.edition().command(self.project, self.programs, &self.exercise.chapter);
-        let mut command = command?;
-        command.args(self.settings()).stdin(Stdio::null()).stdout(Stdio::null());
-        Ok(Window(command.spawn().context("the window does not open")?))
+        Window::open(command?.args(self.settings()))
     }
 
     /// The arguments of the first run that are of use in a window.
-    pub fn settings(&self) -> Vec<String> {
-        let program = |run: &'a Run| match run {
-            Run::Program(arguments) => Some(arguments),
-            Run::Test(..) => None,
-        };
-        let runs = self.exercise.steps.iter().map(|step| &step.run);
-        let mut words = runs.filter_map(program).next().into_iter().flatten();
+    fn settings(&self) -> Vec<String> {
+        let mut words = self.first_run().into_iter().flatten();
         let mut settings = Vec::new();
         while let Some(word) = words.next() {
             match &**word {
@@ -247,6 +276,14 @@ impl<'a> Workbench<'a> {
             }
         }
         settings
+    }
+
+    /// The arguments of the first run of the program.
+    fn first_run(&self) -> Option<&'a [String]> {
+        self.exercise.steps.iter().find_map(|step| match &step.run {
+            Run::Program(arguments) => Some(&arguments[..]),
+            Run::Test(..) => None,
+        })
     }
 
     /// Applies the solution to the reader's place, and returns the files that it changes.
@@ -278,37 +315,11 @@ impl<'a> Workbench<'a> {
 
 /// What to print once an exercise is solved.
 pub fn solved(exercise: &Exercise) -> String {
+    // Who has answered has read it.
+    let check = match exercise.takes {
+        Takes::Look => String::new(),
+        _ => format!("Check: {}\n", exercise.check),
+    };
     let why = exercise.why.as_ref().map_or_else(String::new, |why| format!("Why: {why}\n"));
-    format!("{exercise} is solved.\n{why}")
-}
-
-/// A chapter's window, closed with its owner.
-pub struct Window(Child);
-
-impl Window {
-    /// Waits until the reader closes it.
-    ///
-    /// # Errors
-    /// If the system does not tell.
-    pub fn closed(mut self) -> Result<()> {
-        if self.0.try_wait()?.is_none() {
-            print("Close the window to end.\n")?;
-        }
-        self.0.wait()?;
-        Ok(())
-    }
-}
-
-impl Drop for Window {
-    fn drop(&mut self) {
-        // One that has ended already needs no end.
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// Whether a window can be opened here.
-pub fn has_display() -> bool {
-    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")
+    format!("{exercise} is solved.\n{check}{why}")
 }

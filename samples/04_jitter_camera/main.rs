@@ -120,7 +120,7 @@ impl Sample for Demo {
             pixel_filter: self.filter.into(),
             seed: self.seed,
             frame: frame.index,
-            accumulated: if self.accumulates() { frame.index } else { 0 },
+            accumulated: if self.accumulates() { frame.accumulated } else { 0 },
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),

@@ -42,7 +42,7 @@ pub fn chess() -> Result<Scene> {
     for material in scene.model.materials.iter_mut().filter(|material| material.name == "black") {
         material.base_color = Vec3::new(0.5, 0.035, 0.02);
     }
-    scene.camera = Camera::new(DVec3::new(5.3, 2.7, -4.4), DVec3::new(0.1, 0.35, -0.55), 31.0);
+    scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.3, -1.1), 33.0);
     Ok(scene)
 }
 

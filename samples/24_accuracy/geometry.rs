@@ -16,7 +16,7 @@ use reference::Ray;
 use reference::sphere::Sphere;
 use serde::Serialize;
 
-use crate::probe::{IDENTITY, instance};
+use crate::batch::{IDENTITY, instance};
 
 /// Pixels of the picture's side; the sphere's diameter is a little less.
 const SIDE: u32 = 512;

@@ -9,10 +9,11 @@ use common::files::write_whole;
 use common::gpu::Gpu;
 use serde::Serialize;
 
+use crate::batch::Batch;
 use crate::cases::{self, Case};
 use crate::judge::{Judgement, Verdict, judge};
 use crate::ladder::{Code, Primitive, Rung};
-use crate::probe::{Batch, Probe, Way};
+use crate::probe::{Probe, Way};
 use crate::shape::Shape;
 
 // ANCHOR: range

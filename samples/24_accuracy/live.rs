@@ -8,10 +8,11 @@ use reference::Ray;
 use reference::sphere::Sphere;
 use serde::Serialize;
 
+use crate::batch::Batch;
 use crate::families::Family;
 use crate::ladder::{Primitive, Rung};
 use crate::measure::{Errors, tally};
-use crate::probe::{Batch, Probe, Way};
+use crate::probe::{Probe, Way};
 use crate::specimen::{SUN, Specimen};
 
 /// Rays across the view, and down.

@@ -10,12 +10,13 @@ use common::gpu::{Blueprint, Gpu};
 use reference::ulp::ulp_error;
 use serde::Serialize;
 
+use crate::batch::Batch;
 use crate::compiled::{self, Compiled};
 use crate::families::Family;
 use crate::geometry::{self, Form};
 use crate::judge::ExpectedHit;
 use crate::ladder::{Code, Primitive, Rung};
-use crate::probe::{Answer, Batch, Instrument, Probe, Way};
+use crate::probe::{Answer, Instrument, Probe, Way};
 
 /// All that a run measured.
 #[derive(Serialize)]

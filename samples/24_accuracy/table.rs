@@ -84,10 +84,10 @@ fn times(ladder: &[Measured]) -> String {
         let _ = writeln!(text, "| {rung} {name} | {timed} | {p50} | {p99} | {wrong} |");
     }
     if let Some(noise) = noise {
-        let (low, high) = (noise.low, noise.high);
+        let (low, high, shape) = (noise.low, noise.high, ladder[0].primitive);
         let _ = writeln!(
             text,
-            "| the cheapest again (noise) | {:.2} | {low:.2} to {high:.2} | | | | |",
+            "| the cheapest {shape} again (noise) | {:.2} | {low:.2} to {high:.2} | | | | |",
             noise.median
         );
     }

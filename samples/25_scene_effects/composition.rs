@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use common::scene::{Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
-use crate::{Box, Face, Solid, Sphere};
+use crate::{Box, Face, Finish, Solid, Sphere};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,8 @@ pub struct BoardPlane {
 pub struct Composition {
     /// Meshes in use, materials, instances, the camera.
     pub scene: Scene,
+    /// A finish for each material; none for those that nothing wears.
+    pub finishes: Vec<Finish>,
     /// At most [`MAX_LIGHTS`].
     pub lights: Vec<SceneLight>,
     /// The plane, if there is one.
@@ -95,6 +97,7 @@ impl Composition {
     pub fn of_meshes(scene: Scene) -> Self {
         let light = Light::directional(&Sun::default(), 0.0);
         let mut composition = Self {
+            finishes: vec![Finish::NONE; scene.model.materials.len()],
             scene,
             lights: vec![SceneLight { light, shadows: true }],
             plane: None,
@@ -117,12 +120,19 @@ impl Composition {
         self.in_use().into_iter().map(|index| &self.scene.model.materials[index])
     }
 
-    fn in_use(&self) -> BTreeSet<usize> {
+    /// Their numbers.
+    pub(crate) fn in_use(&self) -> BTreeSet<usize> {
         let meshes = self.scene.instances.iter().map(|instance| instance.material);
         let spheres = self.spheres.iter().map(|sphere| sphere.material as usize);
         let boxes = self.boxes.iter().map(|b| b.material as usize);
         let solids = self.solids.iter().map(|solid| solid.material as usize);
         meshes.chain(spheres).chain(boxes).chain(solids).collect()
+    }
+
+    /// The finishes, if any material in use has one; shaders read no others.
+    pub fn finishes_to_read(&self) -> &[Finish] {
+        let plain = self.finishes.iter().all(|finish| *finish == Finish::NONE);
+        if plain { &[] } else { &self.finishes }
     }
 
     // ANCHOR: prune
@@ -139,6 +149,7 @@ impl Composition {
         for (number, material) in model.materials.iter_mut().enumerate() {
             if !used.contains(&number) {
                 (material.base_texture, material.opacity_texture) = (None, None);
+                self.finishes[number] = Finish::NONE;
             }
         }
         let slots = |m: &Material| [m.base_texture, m.opacity_texture];

@@ -33,13 +33,17 @@ pub enum Effect {
     AreaLight,
     /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
     Mirror,
+    /// Marble, wood or a checker that a surface is cut from (13).
+    Patterns,
+    /// Lines along the edges of triangles (20).
+    Wireframe,
     /// Several rays a pixel (04).
     AntiAliasing,
 }
 
 impl Effect {
     /// All effects, by number: that of an effect is its bit.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Triangles,
         Textures,
         CutOut,
@@ -52,6 +56,8 @@ impl Effect {
         DirectionalShadows,
         AreaLight,
         Mirror,
+        Patterns,
+        Wireframe,
         AntiAliasing,
     ];
 
@@ -70,6 +76,8 @@ impl Effect {
             DirectionalShadows => "directional shadows",
             AreaLight => "area light",
             Mirror => "mirror",
+            Patterns => "patterns",
+            Wireframe => "wireframe",
             AntiAliasing => "anti-aliasing",
         }
     }

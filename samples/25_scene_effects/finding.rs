@@ -3,7 +3,7 @@
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
-use crate::{Composition, Effects, SceneLight};
+use crate::{Composition, Effects, Finish, SceneLight};
 
 /// Whether an effect is called for, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,6 +38,13 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
     let worn = |is: &dyn Fn(&Material) -> bool, what: &str| {
         let mut worn = scene.materials_in_use();
         worn.find(|material| is(material)).map(|m| format!("material `{}` {what}", m.name))
+    };
+    let finished = |is: &dyn Fn(&Finish) -> Option<String>| {
+        let mut worn = scene.in_use().into_iter();
+        worn.find_map(|number| {
+            let name = &scene.scene.model.materials[number].name;
+            is(&scene.finishes[number]).map(|what| format!("material `{name}` {what}"))
+        })
     };
     let light = |is: &dyn Fn(&SceneLight) -> bool, what: &str| {
         let number = scene.lights.iter().position(is)?;
@@ -75,6 +82,8 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
             let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
             mirrors.then(|| "the plane mirrors".to_owned())
         }),
+        Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
+        Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
     }
 }
@@ -94,6 +103,8 @@ fn why_not(effect: Effect) -> &'static str {
         DirectionalShadows => "no directional light casts shadows",
         AreaLight => "no light that casts shadows has a size",
         Mirror => "nothing in use mirrors, or paths end at once",
+        Patterns => "no material in use has a pattern",
+        Wireframe => "no material in use has lines",
         AntiAliasing => "one ray a pixel",
     }
 }

@@ -68,6 +68,9 @@ impl SceneGeometry {
         geometry.shapes.solids = geometry.records(gpu, "solids", &from.solids, &order)?;
         let as_they_come: Vec<u32> = (0..from.faces.len() as u32).collect();
         geometry.shapes.faces = geometry.records(gpu, "faces", &from.faces, &as_they_come)?;
+        let finishes = from.finishes_to_read();
+        let as_they_come: Vec<u32> = (0..finishes.len() as u32).collect();
+        geometry.shapes.finishes = geometry.records(gpu, "finishes", finishes, &as_they_come)?;
         let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
         geometry.level(gpu, Kind::Ground, &bounds)?;
         Ok(geometry)

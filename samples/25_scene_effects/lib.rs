@@ -7,10 +7,12 @@ mod composition;
 mod effect;
 mod file;
 mod finding;
+mod finish;
 mod shapes;
 
 pub use composition::{BoardPlane, Composition, Heightfield, MAX_LIGHTS, SceneLight};
 pub use effect::{Effect, Effects};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
+pub use finish::{Finish, Pattern};
 pub use shapes::{Box, Face, Solid, Sphere};

@@ -18,23 +18,17 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, anyhow};
 use ash::vk;
 use common::app::output;
-use common::gpu::{
-    Address, Buffer, Descriptor, Gpu, Requirements, ShaderStruct, Variant, Variants,
-};
-use common::scene::plane::Plane;
-use common::scene::{
-    Camera, CameraBasis, Light, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
-};
+use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements, Variant, Variants};
+use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
 use common::{Controls, Frame, Sample, Setup};
 use costs::Costs;
-use effects::{Composition, Effect, Face, Finding, Solid, Sphere, findings, needed};
+use effects::{Composition, Effect, Finding, findings, needed};
 use geometry::SceneGeometry;
 use glam::Vec3;
-use ground::{Ground, HeightfieldShape};
 use recipe::{Recipe, pipeline};
 use scenes::{EVERYTHING, FILE, SCENES};
 use serde_json::Value;
-use world::{Board, World};
+use world::World;
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -84,18 +78,7 @@ impl Sample for Demo {
         let path = file.clone().unwrap_or_else(|| scenes::path(EVERYTHING));
         let scene = effects::open(&path)?;
         output::warn(&scene.scene.model.warnings);
-        gpu.share_structs(&[
-            World::LAYOUT,
-            Plane::LAYOUT,
-            Board::LAYOUT,
-            Ground::LAYOUT,
-            HeightfieldShape::LAYOUT,
-            Light::LAYOUT,
-            Sphere::LAYOUT,
-            effects::Box::LAYOUT,
-            Solid::LAYOUT,
-            Face::LAYOUT,
-        ]);
+        gpu.share_structs(&world::LAYOUTS);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;
         Ok(Self {
@@ -162,7 +145,10 @@ impl Sample for Demo {
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let camera = self.camera.basis(frame.aspect());
         let shapes = self.geometry.as_ref().context("no scene")?.shapes;
-        self.world.update(frame.cmd, &[World::new(&self.scene, shapes, camera.origin)])?;
+        // With --samples, each frame has rays of its own.
+        let first = frame.first().wrapping_mul(self.scene.samples);
+        let world = World::new(&self.scene, shapes, camera.origin, first);
+        self.world.update(frame.cmd, &[world])?;
         let recipe = self.recipe();
         if !self.measure {
             self.costs = None;
@@ -176,6 +162,10 @@ impl Sample for Demo {
 
     fn accumulates(&self) -> bool {
         self.costs.as_ref().is_some_and(Costs::wants_more)
+    }
+
+    fn gathers(&self) -> bool {
+        !self.measure
     }
 
     fn report(&self) -> Result<Value> {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{Binding, Gpu, HitGroup, RayTracingPipeline, TextureTable};
 use effects::Effect::*;
-use effects::{Composition, Effect, Effects, MAX_LIGHTS};
+use effects::{Composition, Effect, Effects, Finish, MAX_LIGHTS};
 
 use crate::Push;
 
@@ -48,6 +48,8 @@ pub struct Recipe {
     pub light_kinds: u32,
     /// How many lights at most.
     pub lights: u32,
+    /// Which patterns it knows, one bit each.
+    pub patterns: u32,
 }
 
 impl Recipe {
@@ -56,12 +58,23 @@ impl Recipe {
     pub fn specialised(scene: &Composition, effects: Effects) -> Self {
         let kinds =
             scene.lights.iter().fold(0, |kinds, light| kinds | 1 << u32::from(light.light.kind));
-        Self { effects, light_kinds: kinds, lights: scene.lights.len() as u32 }
+        let patterns = scene.finishes.iter().filter_map(Finish::pattern);
+        Self {
+            effects,
+            light_kinds: kinds,
+            lights: scene.lights.len() as u32,
+            patterns: patterns.fold(0, |bits, pattern| bits | 1 << pattern as u32),
+        }
     }
 
     /// For any scene.
     pub fn everything() -> Self {
-        Self { effects: Effects::everything(), light_kinds: 3, lights: MAX_LIGHTS as u32 }
+        Self {
+            effects: Effects::everything(),
+            light_kinds: 3,
+            lights: MAX_LIGHTS as u32,
+            patterns: 0b1110,
+        }
     }
     // ANCHOR_END: constants
 
@@ -120,6 +133,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .constant(0, recipe.light_kinds)
         .constant(1, recipe.lights)
         .constant(2, recipe.mask())
+        .constant(3, recipe.patterns)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

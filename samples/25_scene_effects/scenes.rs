@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 14] = [
+pub const SCENES: [&str; 15] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -18,14 +18,15 @@ pub const SCENES: [&str; 14] = [
     "mirror balls",
     "solids",
     "lake",
+    "colonnade",
     "everything",
     "file",
 ];
 
 /// What the chapter begins with.
-pub const EVERYTHING: u32 = 12;
+pub const EVERYTHING: u32 = 13;
 /// Where `--scene` names a file.
-pub const FILE: u32 = 13;
+pub const FILE: u32 = 14;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -1,13 +1,13 @@
 //! The world as shaders get it: addresses of shapes, plane, ground and lights, all in one buffer.
 
 use ash::vk;
-use common::gpu::Address;
+use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
 use common::scene::{Light, LightKind};
-use effects::{BoardPlane, Composition, MAX_LIGHTS};
+use effects::{BoardPlane, Composition, Face, Finish, MAX_LIGHTS, Solid, Sphere};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::ground::Ground;
+use crate::ground::{Ground, HeightfieldShape};
 
 /// Where shaders find the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,6 +20,8 @@ pub struct Shapes {
     pub solids: vk::DeviceAddress,
     /// Of [`effects::Face`].
     pub faces: vk::DeviceAddress,
+    /// Of [`effects::Finish`].
+    pub finishes: vk::DeviceAddress,
 }
 
 common::shader_struct! {
@@ -49,6 +51,7 @@ common::shader_struct! {
         pub boxes: Address,
         pub solids: Address,
         pub faces: Address,
+        pub finishes: Address,
         pub plane: Plane,
         pub board: Board,
         pub ground: Ground,
@@ -57,14 +60,31 @@ common::shader_struct! {
         pub shadows: u32,
         pub light_samples: u32,
         pub samples: u32,
+        pub first_sample: u32,
         pub depth: u32,
         pub plane_on: u32,
+        pub finish_count: u32,
     }
 }
 
+/// What lies behind the world's address.
+pub const LAYOUTS: [StructLayout; 11] = [
+    World::LAYOUT,
+    Plane::LAYOUT,
+    Board::LAYOUT,
+    Ground::LAYOUT,
+    HeightfieldShape::LAYOUT,
+    Light::LAYOUT,
+    Sphere::LAYOUT,
+    effects::Box::LAYOUT,
+    Solid::LAYOUT,
+    Face::LAYOUT,
+    Finish::LAYOUT,
+];
+
 impl World {
-    /// The world of a scene, seen from `eye`.
-    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3) -> Self {
+    /// The world of a scene, seen from `eye` by rays that are counted from `first_sample` on.
+    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3, first_sample: u32) -> Self {
         let nowhere = BoardPlane {
             normal: Vec3::Y,
             distance: 0.0,
@@ -93,6 +113,7 @@ impl World {
             boxes: shapes.boxes.into(),
             solids: shapes.solids.into(),
             faces: shapes.faces.into(),
+            finishes: shapes.finishes.into(),
             plane,
             board: Board::new(&board, &plane),
             ground: scene.heightfield.as_ref().map_or_else(Ground::none, Ground::new),
@@ -101,8 +122,10 @@ impl World {
             shadows,
             light_samples: scene.light_samples,
             samples: scene.samples,
+            first_sample,
             depth: scene.depth,
             plane_on: scene.plane.is_some().into(),
+            finish_count: scene.finishes_to_read().len() as u32,
         }
     }
 }

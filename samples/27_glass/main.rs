@@ -10,6 +10,7 @@ mod scenes;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, Variant, Variants, barrier,
@@ -161,14 +162,18 @@ impl Sample for Demo {
         let size =
             u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
         if self.sums.size != size {
-            self.sums = Buffer::new(frame.gpu, "sums", size, input_usage())?;
+            let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+            self.sums = Buffer::new(frame.gpu, "sums", size, usage)?;
+        }
+        let is_start = frame.accumulated == 0 && frame.is_first_band();
+        if is_start {
+            self.sums.clear(frame.cmd);
         }
         // The frame before may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: sums
         // ANCHOR: world
-        // The first sample since anything changed.
-        if frame.index == 0 && frame.is_first_band() {
+        if is_start {
             let world = World {
                 scene: self.on_gpu.addresses,
                 glasses: self.glasses.address.into(),

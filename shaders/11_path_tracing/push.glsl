@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
     float minimum_contribution;
     float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
     uint seed;
-    uint sample_index;    // since anything changed: which of a pixel's samples
+    uint sample_index;    // which of a pixel's samples
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.

@@ -16,6 +16,8 @@
 #define EFFECT_DIRECTIONAL_SHADOWS
 #define EFFECT_AREA_LIGHT
 #define EFFECT_MIRROR
+#define EFFECT_PATTERNS
+#define EFFECT_WIREFRAME
 #define EFFECT_ANTI_ALIASING
 #endif
 // ANCHOR_END: everything
@@ -33,12 +35,16 @@
 #if defined(SHADOWS) && defined(EFFECT_TRIANGLES)
 #define LIFTS
 #endif
-// Squares, averaged over what a pixel sees of them: a ray has a cone.
-#if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD)
-#define SQUARES
+// Squares, averaged over what a pixel sees of them, and lines as wide as pixels: a ray has a cone.
+#if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD) || defined(EFFECT_WIREFRAME)
+#define CONES
 #endif
 // A curved mirror changes the cone.
-#if defined(SQUARES) && defined(EFFECT_MIRROR)
+#if defined(CONES) && defined(EFFECT_MIRROR)
 #define CURVES
+#endif
+// What a material has beside what an MTL file can say.
+#if defined(EFFECT_PATTERNS) || defined(EFFECT_WIREFRAME)
+#define FINISHES
 #endif
 // ANCHOR_END: derived

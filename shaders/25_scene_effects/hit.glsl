@@ -7,7 +7,8 @@ struct Hit {
     float t;          // the distance along the ray; -1 if the ray met nothing
     vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
     uint material;    // which material: push.scene.materials.at[material]; or one of the two below
-    vec3 color;       // the material's colour, its texture already read; for a miss, the sky's
+    vec3 color;       // the material's colour, its texture already read; of a material with a pattern, the
+                      // place in the mesh's own space, by which raygen finds it; for a miss, the sky's
 #ifdef DEPARTURES
     float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
     vec3 face;        // the surface's own normal: unit, on the same side
@@ -18,7 +19,10 @@ struct Hit {
 #ifdef CURVES
     float curvature;  // by how much the normal turns in a unit of length
 #endif
-};                    // 44 to 76 bytes
+#ifdef EFFECT_WIREFRAME
+    vec2 line;        // told to the shader: the ray's cone. Told by it, in x: how much of a pixel lines cover
+#endif
+};                    // 44 to 84 bytes
 // ANCHOR_END: hit
 
 // The ground and the plane are made of nothing that is in the list of materials.

@@ -17,6 +17,13 @@ struct Placed {
 #include "common/place.glsl"
 #undef Hit
 
+#ifdef FINISHES
+#include "finish.glsl"
+#endif
+#ifdef EFFECT_WIREFRAME
+#include "lines.glsl"
+#endif
+
 #ifdef EFFECT_TEXTURES
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
@@ -36,6 +43,21 @@ float curvature(InstanceRecord instance, uint triangle) {
         most = max(most, length(b.normal - a.normal) / length(edge));
     }
     return most;
+}
+#endif
+
+#ifdef FINISHES
+// The triangle's corners in the mesh's own space.
+vec3[3] corners_of(InstanceRecord instance, uint triangle) {
+    uvec3 corner = instance.triangles.at[triangle];
+    return vec3[](
+        instance.vertices.at[corner.x].position,
+        instance.vertices.at[corner.y].position,
+        instance.vertices.at[corner.z].position);
+}
+
+vec3 point_between(vec3 corners[3], vec2 w) {
+    return corners[0] + w.x * (corners[1] - corners[0]) + w.y * (corners[2] - corners[0]);
 }
 #endif
 
@@ -68,5 +90,25 @@ void main() {
 #endif
 #ifdef CURVES
     hit.curvature = curvature(instance, triangle);
+#endif
+#ifdef FINISHES
+    Finish finish = finish_of(instance.material);
+#endif
+#ifdef EFFECT_PATTERNS
+    if (finish.pattern != PATTERN_PLAIN) {
+        hit.color = point_between(corners_of(instance, triangle), weights);
+    }
+#endif
+#ifdef EFFECT_WIREFRAME
+    float covered = 0.0;
+    if (finish.lines > 0.0) {
+        vec3 corners[3] = corners_of(instance, triangle);
+        for (int k = 0; k < 3; k++) {
+            corners[k] = gl_ObjectToWorldEXT * vec4(corners[k], 1.0);
+        }
+        covered = line_coverage(
+            corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.line, finish.lines);
+    }
+    hit.line = vec2(covered, 0.0);
 #endif
 }

@@ -46,6 +46,15 @@ struct Board {
     vec2 anchor;     // on which square the plane's anchor lies
 };
 
+// What a material has beside what an MTL file can say.
+struct Finish {
+    vec3 second;     // the colour where the pattern is 1; where it is 0, the material's own is seen
+    float scale;     // cells of the pattern's lattice a unit
+    vec3 ink;        // the colour of lines
+    float lines;     // how wide they are, in pixels; 0 for none
+    uint pattern;
+};
+
 struct Ground {
     HeightfieldShape shape;
     vec3 low;
@@ -61,6 +70,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sph
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Boxes { Box at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Solids { Solid at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Faces { Face at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Finishes { Finish at[]; };
 
 const uint MAX_LIGHTS = 4;
 
@@ -72,6 +82,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Boxes boxes;
     Solids solids;
     Faces faces;
+    Finishes finishes;
     Plane plane;
     Board board;
     Ground ground;
@@ -80,8 +91,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
     uint samples;         // rays a pixel
+    uint first_sample;    // the number of the first
     uint depth;           // how often a path may be reflected
     uint plane_on;
+    uint finish_count;    // of materials, if one in use has a finish; else 0
 };
 // ANCHOR_END: world
 
@@ -93,10 +106,11 @@ layout(push_constant, scalar) uniform Push {
 
 // ANCHOR: constants
 // Which kinds of light there are, one bit a kind; how many lights at most; which kinds of geometry rays
-// look at. The compiler drops what such a constant rules out.
+// look at; which patterns there are, one bit each. The compiler drops what such a constant rules out.
 layout(constant_id = 0) const uint LIGHT_KINDS = 3;
 layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
+layout(constant_id = 3) const uint PATTERNS = 14;
 // ANCHOR_END: constants
 
 // ANCHOR: flags

@@ -6,7 +6,7 @@ struct Ray {
 #ifdef EFFECT_PLANE
     bool on_plane;   // it leaves the plane
 #endif
-#ifdef SQUARES
+#ifdef CONES
     float width;     // of the cone, where the ray begins
     float spread;    // by how much that widens in a unit of length
 #endif

@@ -1,5 +1,9 @@
 // What the hit shaders of shapes report: spheres, boxes and solids, placed as they are.
 
+#ifdef EFFECT_PATTERNS
+#include "finish.glsl"
+#endif
+
 // ANCHOR: report
 // `own` is what the shape's test costs, in roundings; the device's own transform of the ray takes 30 of
 // the point's coordinates (chapter 08, with the unit matrix).
@@ -10,6 +14,11 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
     hit.normal = faceforward(outward, gl_WorldRayDirectionEXT, outward);
     hit.material = material;
     hit.color = push.scene.materials.at[material].base_color;
+#ifdef EFFECT_PATTERNS
+    if (finish_of(material).pattern != PATTERN_PLAIN) {
+        hit.color = point;
+    }
+#endif
 #ifdef DEPARTURES
     const float ROUNDING = 5.9604645e-8;
     hit.height = ROUNDING * dot(abs(hit.normal), own + 30.0 * abs(point));
@@ -20,6 +29,9 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #endif
 #ifdef CURVES
     hit.curvature = curvature;
+#endif
+#ifdef EFFECT_WIREFRAME
+    hit.line = vec2(0.0);
 #endif
     return hit;
 }

@@ -3,7 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
-#include "common/sum.glsl"
+#include "common/pixel_sum.glsl"
 #include "glass.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push {
     float minimum_contribution;
     float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
     uint seed;
-    uint sample_index;    // since anything changed: which of a pixel's samples
+    uint sample_index;    // which of a pixel's samples
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.

@@ -1,27 +1,47 @@
-// Taught by 11_path_tracing; what 27 has of it: the samples of a pixel, added up without rounding the sum.
+// Taught by 24_accuracy, as fixed-point sums of 64 bits; these have 128, and room for negative colours.
+//
+// A sum is a whole number of 2^-64: four words, the lowest first, negative as two's complement. Whole
+// numbers do not round, so that it does not matter in which order samples are added, nor by whom.
 
-// 32 bits before the point and 32 after it, for each colour.
-struct PixelSum {
-    uvec3 whole;
-    uvec3 part;     // in units of 2^-32
-    uint count;     // how many samples are in it
-};
+// No colour that can be added is as large: 2^31, as a float's exponent. Infinities and NaN are above it.
+const uint TOO_LARGE = 127 + 31;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Sums { PixelSum at[]; };
-
-// ANCHOR: add
-// A sample is rounded once, to a multiple of 2^-32, and the sum never: it does not depend on the order,
-// and sums of some samples each add up to the sum of all.
-void add_whole(inout PixelSum sum, vec3 value) {
-    // What is no number, or less than nothing, would spoil all samples of the pixel.
-    value = clamp(mix(value, vec3(0.0), isnan(value)), 0.0, 65535.0);
-    vec3 whole = floor(value);
-    uvec3 carry;
-    sum.part = uaddCarry(sum.part, uvec3((value - whole) * 4294967296.0), carry);
-    sum.whole += uvec3(whole) + carry;
+// Whether a colour is a number that can be added.
+bool is_addable(float value) {
+    return (floatBitsToUint(value) >> 23 & 0xffu) < TOO_LARGE;
 }
 
-vec3 mean_of_whole(PixelSum sum) {
-    return (vec3(sum.whole) + vec3(sum.part) / 4294967296.0) / float(sum.count);
+// ANCHOR: add
+// Adds a float by its bits: nothing is computed in floats, and only what is below 2^-64 is rounded.
+void add_to_sum(inout uvec4 sum, float value) {
+    uint bits = floatBitsToUint(value);
+    uint exponent = max(bits >> 23 & 0xffu, 1u);
+    uint digits = bits & 0x7fffffu | (bits << 1 >= 1u << 24 ? 1u << 23 : 0u);
+    // The value is digits * 2^(exponent - 150), or so many units times 2^place.
+    int place = int(exponent) - 150 + 64;
+    uvec4 units = uvec4(0);
+    if (place < 0) {
+        uint below = min(uint(-place), 31u);
+        units.x = (digits + (1u << (below - 1))) >> below;
+    } else {
+        uint low;
+        uint high;
+        umulExtended(digits, 1u << (uint(place) & 31u), high, low);
+        uint word = uint(place) >> 5;
+        units.x = word == 0 ? low : 0;
+        units.y = word == 0 ? high : word == 1 ? low : 0;
+        units.z = word == 1 ? high : word == 2 ? low : 0;
+        units.w = word == 2 ? high : 0;
+    }
+    // Minus x is the complement of x and one more.
+    bool is_negative = bits >> 31 == 1;
+    units = is_negative ? ~units : units;
+    uint carry = is_negative ? 1 : 0;
+    for (int i = 0; i < 4; i++) {
+        uint first;
+        uint second;
+        sum[i] = uaddCarry(uaddCarry(sum[i], units[i], first), carry, second);
+        carry = first + second;
+    }
 }
 // ANCHOR_END: add

@@ -132,6 +132,18 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
     }
     fixture.write(file, &whole);
+    // The first run of what takes only looking is shown to the reader.
+    let look = "docs/exercises/02.2.diff";
+    let text = fixture.read(look);
+    fixture.write(
+        look,
+        &text.replace("Answer: up", "Answer: 45 to 55").replace("50x30", "50x30 --frames 50"),
+    );
+    let told = fixture.run(&["exercise", "--list"]).err;
+    let line =
+        "3: the first run, which a reader is shown, holds the answer: 50; begin with another run";
+    assert_eq!(told, format!("error: {look}:{line}\n"));
+    fixture.write(look, &text);
     for (file, what) in [
         ("docs/exercises/07.1.diff", "1: there is no chapter 07; rename it"),
         ("docs/exercises/notes.txt", "1: an exercise is a file NN.k.diff; rename it"),
@@ -149,7 +161,8 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
     let file = "docs/exercises/02.1.diff";
     let prove = |name| fixture.run(&["exercise", name, "--prove"]);
     let outcome = prove("02.1");
-    let solved = "02.1: differs by 0.0000, not at least 0.05; solved by its solution\n";
+    let solved =
+        "02.1: differs by 0.0000, not at least 0.05 with --size 50x30; solved by its solution\n";
     assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
     assert_eq!(prove("02.2").out, "02.2: its answer holds\n");
     let whole = fixture.read(file);
@@ -189,10 +202,14 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
 fn a_readers_copy_is_checked_and_never_overwritten() {
     let fixture = Fixture::new();
     let ask = |words: &[&str]| fixture.run(&[&["exercise", "02.1"], words].concat());
-    let unsolved = "error: 02.1 is not solved yet: differs by 0.0000, not at least 0.05\n";
+    let unsolved = "error: 02.1 is not solved yet: differs by 0.0000, not at least 0.05 with --size 50x30: \
+                    yours target/exercises/02.1.png, the book's target/exercises/02.1.other.png\n";
     let outcome = ask(&["--check"]);
     assert_eq!((outcome.code, &*outcome.err), (1, unsolved));
-    assert!(fixture.path("target/exercises/02.1.png").is_file(), "no picture is kept");
+    for picture in ["02.1.png", "02.1.other.png"] {
+        let picture = fixture.path("target/exercises").join(picture);
+        assert!(picture.is_file(), "{} is not kept", picture.display());
+    }
     let camera = "target/exercises/02.1/02_basic/camera.rgen";
     // Half an edit.
     fixture.replace(camera, "payload);", "payload");
@@ -207,7 +224,8 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     assert_eq!((outcome.code, &*outcome.err), (1, misfit));
     fixture.replace(camera, "payload\n", "vec4(1.0)); // mine\n");
     let outcome = ask(&["--check"]);
-    let solved = "02.1 is solved.\nWhy: The picture is what is stored.\n";
+    let solved = "02.1 is solved.\nCheck: The picture is white, all 1,500 pixels of it.\n\
+                  Why: The picture is what is stored.\n";
     assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
     assert!(fixture.read(camera).contains("// mine"));
     // The book's own shaders are as they were.
@@ -247,17 +265,69 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
     let edit =
         "Edit in target/exercises/02.1, a copy of the shaders: 02_basic/camera.rgen (void main)";
     assert!(told.iter().any(|line| line == edit), "{told:#?}");
-    assert_eq!(told.last().expect("a line"), "not yet: differs by 0.0000, not at least 0.05");
+    let render = "Make it yourself: SHADERS=target/exercises/02.1 cargo run --bin 02_basic -- --size 50x30 \
+                  --headless --out target/exercises/02.1.png";
+    assert!(told.iter().any(|line| line == render), "{told:#?}");
+    // What is seen once it is solved is told with the verdict.
+    assert!(!told.iter().any(|line| line.contains("Check:")), "{told:#?}");
+    let last = told.last().expect("a line");
+    let first = "not yet: differs by 0.0000, not at least 0.05 with --size 50x30: yours ";
+    assert!(last.starts_with(first), "{last}");
     fixture.replace(camera, "payload);", "payload) // half");
     let line = next();
     assert!(line.starts_with("not yet: shader does not compile: 02_basic/camera.rgen:"), "{line}");
     fixture.replace(camera, "payload) // half", "vec4(0.9));");
-    assert_eq!(next(), "not yet: 0 pixels are [255, 255, 255], not 1500");
+    // Nothing is compared here, and no picture of the save before is left.
+    let pixels = "not yet: 0 pixels are [255, 255, 255], not 1500 with --size 50x30: target/exercises/02.1.png";
+    assert_eq!(next(), pixels);
+    assert!(!fixture.path("target/exercises/02.1.other.png").exists());
     fixture.replace(camera, "vec4(0.9)", "vec4(1.0)");
     assert_eq!(next(), "02.1 is solved.");
     assert!(child.0.wait().expect("an end").success());
     let list = fixture.run(&["exercise", "02"]).out;
     assert!(list.starts_with("02.1  shader        solved  Make it white\n02.2  look "), "{list}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_signal_ends_the_tool_and_the_window_that_it_has_opened() {
+    use std::io::Read;
+    use std::os::unix::fs::PermissionsExt;
+    let fixture = Fixture::new();
+    let signal = |what: &str, id: u32| {
+        let kill = format!("kill -{what} {id} 2> /dev/null");
+        Command::new("sh").args(["-c", &kill]).status().expect("a shell").success()
+    };
+    // In place of the chapter a program that is open until it is closed.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [tool, window, id] = ["chapters", "02_basic", "id"].map(|name| folder.path().join(name));
+    fs::copy(fixture.tool(), &tool).expect("a copy of the tool");
+    let script =
+        format!("#!/bin/sh\necho $$ > {0}.new\nmv {0}.new {0}\nexec sleep 60\n", id.display());
+    fs::write(&window, script).expect("a program");
+    fs::set_permissions(&window, fs::Permissions::from_mode(0o755)).expect("a program");
+    for what in ["TERM", "INT", "HUP"] {
+        let _ = fs::remove_file(&id);
+        // Where the tests run under nohup, it would begin with a signal ignored.
+        let mut command = Command::new("env");
+        command.arg("--default-signal=TERM,INT,HUP").arg(&tool);
+        command.args(["exercise", "02.2", "--root"]).arg(fixture.path("")).env("DISPLAY", ":0");
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
+        let mut child = Started(child.expect("the tool starts"));
+        let opened = loop {
+            match fs::read_to_string(&id) {
+                Ok(text) => break text.trim().parse().expect("a number"),
+                Err(_) => std::thread::sleep(std::time::Duration::from_millis(10)),
+            }
+        };
+        assert!(signal("0", opened) && signal(what, child.0.id()));
+        let mut said = String::new();
+        let mut errors = child.0.stderr.take().expect("its errors");
+        errors.read_to_string(&mut said).expect("UTF-8");
+        assert_eq!(said, "error: stopped by a signal\n", "{what}");
+        assert_eq!(child.0.wait().expect("an end").code(), Some(1));
+        assert!(!signal("0", opened), "{what} leaves the window open");
+    }
 }
 
 #[test]
@@ -267,7 +337,7 @@ fn hints_solutions_and_answers_are_given() {
     assert_eq!(ask(&["02.1", "--hint"]).out, "White is `vec4(1.0)`.\n");
     let solution = ask(&["basic.1", "--solution"]).out;
     assert!(solution.starts_with("--- shaders/02_basic/camera.rgen\n+++"), "{solution}");
-    assert!(solution.ends_with("+    imageStore(picture, ivec2(id), vec4(1.0));\n\nWhy: The picture is what is stored.\n"), "{solution}");
+    assert!(solution.ends_with("+    imageStore(picture, ivec2(id), vec4(1.0));\n\nCheck: The picture is white, all 1,500 pixels of it.\n\nWhy: The picture is what is stored.\n"), "{solution}");
     assert_eq!(
         ask(&["02.1", "--solution", "--apply"]).out,
         "shaders/02_basic/camera.rgen: changed\n"
@@ -366,10 +436,10 @@ fn wrong_names_folders_and_options_are_one_line() {
         (&["02.1", "--check", "--folder", &file], 2, "is no folder; name another with --folder"),
         (
             &["02.1", "--check", "--folder", &other],
-            1,
+            2,
             "holds something else than a copy of the shaders",
         ),
-        (&["02.1", "--check", "--folder", &below], 1, "cannot make '"),
+        (&["02.1", "--check", "--folder", &below], 2, "/file' is no folder; name another with"),
         (&["02.1", "--check", "--folder", ""], 2, "a value is required for '--folder <FOLDER>'"),
     ];
     for (arguments, code, words) in cases {

@@ -120,6 +120,61 @@ fn what_is_no_longer_what_was_measured_is_named() {
     }
 }
 
+/// A table with figures of two measurements on two devices, one of them a compiler without times.
+const ROWS: &str = "
+| rung | time | registers |
+|---|---|---|
+| S0 textbook | 1.00 | 32 |
+| T0 device |  | 36 |
+<!-- figures times: *.ratio; compiled: *.registers -->
+
+> Measured: llvmpipe, Mesa 25.0.7, 2026-11-22. Estimated: RADV, Mesa 25.0.7, 2026-11-21.
+
+";
+
+/// A project with that table, and what it is of.
+fn with_rows() -> Fixture {
+    let fixture = project();
+    fixture.replace(PAGE, BELOW, &format!("{ROWS}{BELOW}"));
+    let marker = "<!-- measure times compiled: cargo test --test samples basic::first -->";
+    fixture.replace(PAGE, "<!-- measure rows -->", &format!("{marker}\n\n<!-- measure rows -->"));
+    let [head, tail] = [0, 1].map(|part| {
+        let rows = fixture.read(FILE);
+        rows.split("\"timed\"").nth(part).expect("a stored measurement").to_owned()
+    });
+    let sources = tail.split("\"sources\": ").nth(1).expect("sources").split(',').next().unwrap();
+    let of = |device: &str, day: &str, values: &str| {
+        format!(
+            r#"{head}"timed": false, "device": "{device}", "driver": "Mesa 25.0.7-2", "date": "{day}", "sources": {sources}, "values": {{ {values} }} }}"#
+        )
+    };
+    let file = |name: &str| FILE.replace("rows", name);
+    let times = of("llvmpipe", "2026-11-22", r#""S0-textbook.ratio": 1.0"#);
+    fixture.write(&file("times"), &times);
+    let registers = r#""S0-textbook.registers": 32, "T0-device.registers": 36"#;
+    fixture.write(&file("compiled"), &of("RADV", "2026-11-21", registers));
+    fixture
+}
+
+#[test]
+fn a_table_s_figures_are_named_once_for_all_rows() {
+    let cases: [(&str, &str, &str, &str); 5] = [
+        ("a figure changed by hand", "| 36 |", "| 63 |", "the figure 63 is 36 in"),
+        ("a cell that should be empty", "|  | 36 |", "| 1.00 | 36 |", "3 names for 4 numbers"),
+        ("a row by another name", "| T0 device |", "| T1 device |", "2 names for 3 numbers"),
+        ("another compiler", "RADV, Mesa 25.0.7", "RADV, Mesa 26.0.1", "this note says 26.0.1"),
+        ("no compiler", "RADV, Mesa 25.0.7", "its compiler, Mesa 25.0.7", "no note says which"),
+    ];
+    let whole = with_rows().check();
+    assert_eq!(whole, "");
+    for (name, from, to, what) in cases {
+        let fixture = with_rows();
+        fixture.replace(PAGE, from, to);
+        let found = fixture.check();
+        assert!(found.contains(what), "{name}: {found}");
+    }
+}
+
 #[test]
 fn what_only_an_author_can_mend_is_named() {
     let cases: [Case; 13] = [

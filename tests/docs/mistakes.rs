@@ -88,9 +88,16 @@ fn a_copy_is_made_once_and_says_how_to_run_it() {
     assert!(said.ends_with(&format!("SHADERS={out} cargo run --bin 02_basic\n")), "{said}");
     let patched = std::fs::read_to_string(format!("{out}/02_basic/camera.rgen")).expect("a copy");
     assert!(patched.contains("0x00,"), "{patched}");
-    let (code, _, err) = tool(&["cull_mask_0", "--out", out]);
-    assert_eq!(code, 1);
-    assert!(err.contains("is not empty; name another folder with --out"), "{err}");
+    let file = format!("{out}/02_basic/camera.rgen");
+    let below = format!("{file}/copy");
+    let a_file = "is a file, and the copy is a folder";
+    for (out, path, what) in
+        [(out, out, "is not empty"), (&file, &*file, a_file), (&below, &file, a_file)]
+    {
+        let (code, _, err) = tool(&["cull_mask_0", "--out", out]);
+        let line = format!("error: '{path}' {what}; name another folder with --out\n");
+        assert_eq!((code, err), (2, line));
+    }
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-use std::time::Instant;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use run::{copy, figures, program, root};
 use serde_json::{Value, json};
@@ -142,15 +142,18 @@ fn a_broken_shader_is_a_line_of_the_card() {
 }
 
 #[test]
-fn a_missing_driver_is_a_line_of_the_card() {
+fn a_missing_driver_is_told_once_before_anything_runs() {
     let (project, programs) = (project(), programs(&[]));
-    let nowhere = Path::new("/nonexistent");
-    let environment = [("VK_DRIVER_FILES", nowhere), ("VK_ICD_FILENAMES", nowhere)];
-    let (outcome, card, sheet) = survey(&project, programs.path(), &environment, &[]);
-    assert_eq!(card["device"], Value::Null);
-    for told in failures((outcome, card, sheet)) {
-        assert!(told.contains("Vulkan driver") && told.contains("run ./setup"), "{told}");
-    }
+    let tool = programs.path().join(format!("chapters{EXE_SUFFIX}"));
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(tool);
+    command.arg("survey").arg("--out").arg(cards.path()).arg("--root").arg(project.path(""));
+    let nowhere = "/nonexistent";
+    let outcome = run(command.env("VK_DRIVER_FILES", nowhere).env("VK_ICD_FILENAMES", nowhere));
+    assert_eq!((outcome.code, &*outcome.out), (1, ""), "{}", outcome.err);
+    assert!(outcome.err.starts_with("error: no Vulkan driver: run ./setup"), "{}", outcome.err);
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    assert!(cards.path().read_dir().expect("a folder").next().is_none());
 }
 
 #[test]
@@ -295,4 +298,27 @@ fn the_whole_survey_in_time() {
     let outcome = run(&mut command);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
     figures::give_timed("devices/survey", json!({ "seconds": start.elapsed().as_secs_f64() }));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_ends_a_survey_and_nothing_is_left() {
+    let (project, programs) =
+        (project(), programs(&[("01_one", "echo $$ > started; exec sleep 60")]));
+    let [cards, temporary] = [(); 2].map(|()| tempfile::tempdir().expect("a temporary folder"));
+    // Where the tests run under nohup, it would begin with a signal ignored.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=TERM,INT,HUP").arg(programs.path().join("chapters"));
+    command.args(["survey", "--out"]).arg(cards.path()).arg("--root").arg(project.path(""));
+    let child = command.env("TMPDIR", temporary.path()).stdout(Stdio::null()).spawn();
+    let mut child = child.expect("the tool starts");
+    while !project.path("started").exists() {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let kill = format!("kill -TERM {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    assert_eq!(child.wait().expect("an end").code(), Some(1));
+    for folder in [&cards, &temporary] {
+        assert!(folder.path().read_dir().expect("a folder").next().is_none());
+    }
 }

@@ -56,6 +56,36 @@ fn files_that_are_no_scene() {
 }
 
 #[test]
+fn a_file_and_a_scene_of_the_chapters_own() {
+    let (_folder, mut command) = command(HEAD.as_bytes(), &[]);
+    command.args(["--set", "scene=lake"]);
+    let words = ["--scene s.toml and --set \"scene=lake\" are two scenes", "leave one of them out"];
+    refused_by(command, 2, &words);
+}
+
+#[test]
+fn patterns_and_lines_that_are_wrong() {
+    let paint = |keys: &str| format!("{PAINT}{keys}");
+    table_refused(
+        &paint("pattern = \"marbel\"\nsecond = [0, 0, 0]\n"),
+        "s.toml:8: unknown variant `marbel`, expected one of `marble`, `wood`, `checker`",
+    );
+    table_refused(&paint("pattern = \"wood\"\n"), "s.toml:6: a pattern has a `second` colour");
+    table_refused(
+        &paint("scale = 2\n"),
+        "s.toml:6: `second` and `scale` are of a `pattern`: marble, wood or checker",
+    );
+    table_refused(&paint("scale = 0\n"), "s.toml:8: 0.0 is not a number from 0.000001");
+    table_refused(&paint("lines = 21\n"), "s.toml:8: 21.0 is not a number from 0 to 20");
+    table_refused(&paint("ink = [0, 0, 0]\n"), "s.toml:6: `ink` is the colour of `lines`");
+    let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n";
+    table_refused(
+        &paint(&format!("lines = 1\n{ball}")),
+        "s.toml:12: \"a\" has holes, a texture or lines, which only meshes can have",
+    );
+}
+
+#[test]
 fn another_chapter_says_who_reads_scene_files() {
     for name in ["02_basic", "12_infinite_plane"] {
         let mut command = run::command(name);

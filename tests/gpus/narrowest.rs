@@ -10,9 +10,10 @@ use ash::vk;
 
 // ANCHOR: unsuitable
 /// The samples for which the narrowest device will not do, and the limits that they ask for.
-const UNSUITABLE: [(&str, &str); 4] = [
+const UNSUITABLE: [(&str, &str); 5] = [
     ("10_position_fetch", "lacks VK_KHR_ray_tracing_position_fetch"),
     ("16_ray_query", "lacks VK_KHR_ray_query"),
+    ("17_ray_query_raster", "lacks VK_KHR_ray_query"),
     ("20_wireframe", "lacks VK_KHR_ray_tracing_position_fetch"),
     // Its picture shows how far a rung is off from error-free sums, which need their rounding declared.
     ("24_accuracy", "lacks shaderRoundingModeRTEFloat32, shaderSignedZeroInfNanPreserveFloat32"),
@@ -168,6 +169,20 @@ fn a_card_without_graphics_traces_without_a_window() {
     for sample in ["01_foundation", "02_basic"] {
         runs(&narrow, sample, &[]);
     }
+}
+
+/// What draws needs a queue that draws, and says so beside what else is missing.
+#[test]
+fn a_card_without_graphics_is_refused_by_what_draws() {
+    let lacks = |faults: &str, what: &str| {
+        let narrow = Narrow::new(faults);
+        let mut list = narrow.command("17_ray_query_raster");
+        quiet("17", list.arg("--list-devices").output().expect("it starts")).contains(what)
+    };
+    assert!(lacks("compute-only", "a queue with graphics"));
+    assert!(!lacks("", "a queue with graphics"));
+    assert!(lacks("without=dynamicRendering", "feature dynamicRendering"));
+    assert!(!lacks("", "feature dynamicRendering"));
 }
 
 /// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::tables;
+
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
 /// Holds that each rung has figures of each family, and that they say what the page says of them.
@@ -40,4 +42,12 @@ pub fn check(report: &Value) {
             assert!(dear > 4.0 * cheap, "{family}: {dear} is not far above {cheap}");
         }
     }
+    // So the page says of the stable rungs.
+    for stable in ["S2 stable", "P2 compensated", "I1 host inverse", "O5 bound"] {
+        let rung = rungs.iter().find(|rung| stable.starts_with(rung["rung"].as_str().unwrap()));
+        let told = rung.unwrap()["compiled_for"].as_array().unwrap();
+        let shown = told.iter().find(|row| row["family"] == "navi31").unwrap();
+        assert!(shown["ratio"].as_f64().unwrap() <= 1.5, "{stable}: {shown}");
+    }
+    tables::hold_estimates(report);
 }

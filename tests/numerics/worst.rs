@@ -1,10 +1,13 @@
 //! The hard cases and the random families in the worst arithmetic that conforms: each top rung is held to
 //! the bar that it has on the driver itself.
 
-use serde_json::Value;
+use run::figures;
+use serde_json::{Value, json};
 
 use crate::bars::{Row, report};
+use crate::hard::is_own;
 use crate::laboratory;
+use crate::tables::{Table, ladders, text};
 
 /// The rungs that are right because 64-bit floats are: Vulkan promises no more of them than of 32 bits.
 const NEED_64_BITS: [&str; 4] = ["S5", "B4", "P4", "C3"];
@@ -17,10 +20,13 @@ const MEASURED: [&str; 7] =
 /// Rays of each family.
 const RAYS: &str = "300";
 
-fn cases(arithmetic: &str) -> Value {
+/// The ways to compute, as the page's tables have them.
+const ARITHMETICS: [&str; 3] = ["driver", "worst", "worst-by-place"];
+
+fn cases(arithmetic: &str, more: &[&str]) -> Value {
     let file = "tests/data/hard_cases.json";
-    let of = ["--cases", file, "--tops", "--report", "-", "--arithmetic", arithmetic];
-    let output = laboratory(&of);
+    let of = ["--cases", file, "--report", "-", "--arithmetic", arithmetic];
+    let output = laboratory(&[&of, more].concat());
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arithmetic}: {errors}");
     let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
@@ -30,7 +36,7 @@ fn cases(arithmetic: &str) -> Value {
 }
 
 fn every_hard_case_is_right(arithmetic: &str) {
-    let report = cases(arithmetic);
+    let report = cases(arithmetic, &["--tops"]);
     assert_eq!((&report["cases"], &report["skipped"]), (&114.into(), &0.into()));
     let mut tops = Vec::new();
     for row in report["rungs"].as_array().unwrap() {
@@ -98,4 +104,82 @@ fn every_top_rung_keeps_its_bar_on_random_rays() {
 #[test]
 fn so_it_does_where_copies_of_a_formula_disagree() {
     every_family_is_right("worst-by-place");
+}
+
+/// The page's table, and what it says of the smallest direction.
+#[test]
+#[ignore = "asks every rung for a table of the page, for minutes"]
+fn the_hard_cases_of_every_rung_in_each_arithmetic() {
+    let reports = ARITHMETICS.map(|arithmetic| cases(arithmetic, &[]));
+    let all = reports.each_ref().map(|report| ladders(report));
+    let mut table = Table::new();
+    for (number, (shape, rows)) in all[0].iter().enumerate() {
+        table.insert(format!("{shape}.cases"), rows[0]["cases"].clone());
+        for (at, row) in rows.iter().enumerate().filter(|(_, row)| is_own(row)) {
+            for (arithmetic, ladders) in ARITHMETICS.iter().zip(&all) {
+                let right = ladders[number].1[at]["right"].clone();
+                table.insert(format!("{}.{arithmetic}", text(row, "rung")), right);
+            }
+        }
+    }
+    figures::hold("arithmetic/hard_cases", table.into());
+
+    let answers = reports[1]["answers"].as_array().unwrap().iter();
+    let smallest =
+        answers.filter(|answer| answer["case"] == "sph_dirscale_1e-20" && is_own(answer));
+    let smallest: Vec<&Value> = smallest.collect();
+    let of = |rung: &str| smallest.iter().find(|answer| answer["rung"] == rung).unwrap();
+    assert_eq!(
+        (&of("S0")["verdict"], &of("S4")["verdict"]),
+        (&json!("not-finite"), &json!("right"))
+    );
+    let off = |rung: &&str| of(rung)["ulp"].as_f64();
+    let off = ["S0h", "S1", "S2", "S3"].iter().filter_map(off).fold(0.0, f64::max);
+    let misses = ["S0h", "S1", "S2", "S3"].iter().filter(|rung| of(rung)["hit"] == false).count();
+    figures::hold("arithmetic/smallest", json!({ "off": off, "misses": misses }));
+}
+
+/// The page's table: of each ladder the largest p99 and the largest error of its families.
+#[test]
+#[ignore = "asks thousands of rays for a table of the page, for minutes"]
+fn random_rays_in_each_arithmetic() {
+    let rows = |report: &Value| -> Vec<(String, Vec<Row>)> {
+        let of = |(shape, ladder): (&str, &[Value])| {
+            // With 64 bits, a ladder has two tops on the driver.
+            let [rung, ..] = ladder else { panic!("no rung of {shape}") };
+            let rows = rung["errors"].as_array().unwrap().iter();
+            (shape.to_owned(), rows.map(|row| Row(row.clone())).collect())
+        };
+        ladders(report).into_iter().map(of).collect()
+    };
+    let reports = ARITHMETICS
+        .map(|arithmetic| rows(&report(&["--tops", "--rays", "1000", "--arithmetic", arithmetic])));
+    let (mut table, mut departures, mut wrong) = (Table::new(), 0.0, 0.0);
+    for (number, (shape, rows)) in reports[0].iter().enumerate() {
+        let rays: f64 = rows.iter().map(|row| row.number("rays")).sum();
+        let is_about_t = shape != "secondary origin";
+        if is_about_t {
+            table.insert(format!("{shape}.rays"), (rays as u64).into());
+        } else {
+            departures = rays;
+        }
+        for (arithmetic, report) in ARITHMETICS.iter().zip(&reports) {
+            let rows = &report[number].1;
+            let faults = ["never_offered", "not_finite"];
+            wrong += rows.iter().map(Row::wrong).sum::<f64>();
+            wrong += faults
+                .map(|key| rows.iter().map(|row| row.number(key)).sum::<f64>())
+                .iter()
+                .sum::<f64>();
+            // Of three sums there is no p99.
+            let keys: &[&str] = if shape == "accumulation" { &["max"] } else { &["p99", "max"] };
+            for key in keys.iter().filter(|_| is_about_t) {
+                let most = rows.iter().map(|row| row.number(key)).fold(0.0, f64::max);
+                table.insert(format!("{shape}.{arithmetic}.{key}"), most.into());
+            }
+        }
+    }
+    figures::hold("arithmetic/random_rays", table.into());
+    let found = json!({ "departures": departures as u64, "wrong": wrong as u64 });
+    figures::hold("arithmetic/faults", found);
 }

@@ -152,12 +152,30 @@ fn draw_one<'a>(
     if series.iter().any(|series| !series.name.is_empty()) {
         context
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(free_corner(chart))
             .background_style(WHITE.mix(0.9))
             .label_font(font)
             .draw()?;
     }
     Ok(())
+}
+
+/// Where the legend hides no point, if it must not stand in the upper right corner.
+fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
+    let part = |axis: &Axis, value: f64| {
+        let Range { start, end } = axis.range();
+        let [start, value, end] = [start, value, end].map(|value| axis.place(value));
+        (value - start) / (end - start)
+    };
+    let is_free = |corner: fn([f64; 2]) -> bool| {
+        let points = series.iter().flat_map(|series| &series.points);
+        !points.into_iter().any(|&[a, b]| corner([part(x, a), part(y, b)]))
+    };
+    let upper_right = is_free(|[right, up]| right > 0.35 && up > 0.68);
+    match !upper_right && is_free(|[right, up]| right < 0.65 && up < 0.32) {
+        true => SeriesLabelPosition::LowerLeft,
+        false => SeriesLabelPosition::UpperRight,
+    }
 }
 
 /// The left top corners of names beside their dots, none over a dot or another name while there is room.

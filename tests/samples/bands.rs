@@ -6,7 +6,7 @@ use run::{bits, render};
 fn many_bands_give_the_same_bytes_as_few() {
     // What a first frame costs is not known before: its first band is one row. The second frame is its like,
     // and so small that on any but the busiest machine it is one band.
-    let choices: [(&str, &[&str]); 15] = [
+    let choices: [(&str, &[&str]); 16] = [
         ("02_basic", &[]),
         ("03_any_hit", &["mode=random", "samples=2"]),
         ("04_jitter_camera", &["accumulate=off", "sequence=centre"]),
@@ -17,6 +17,7 @@ fn many_bands_give_the_same_bytes_as_few() {
         ("09_instancing", &["coordinates=both", "light size=0.5"]),
         ("12_infinite_plane", &["light size=0.5"]),
         ("16_ray_query", &["light size=0.5", "workgroup=16x16"]),
+        ("17_ray_query_raster", &["light size=0.5"]),
         ("21_heightfield", &["light size=0.5"]),
         ("22_solids", &["light size=0.5"]),
         ("24_accuracy", &[]),

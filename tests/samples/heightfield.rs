@@ -22,7 +22,8 @@ use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
 
 use run::plot::{Shown, draw_panels};
-use run::{golden, render};
+use run::{figures, golden, render};
+use serde_json::{Map, json};
 
 const NAME: &str = "21_heightfield";
 /// The ground's instance, after those of the 28 pieces. Alone it comes after one triangle.
@@ -59,6 +60,7 @@ fn each_rung_in_each_view() {
         "| view | rung | steps | right | too near | too far | through | false | lost | p50 | p99 |"
     );
     let mut by_angle = Vec::new();
+    let (mut rows, mut views) = (Map::new(), Map::new());
     for (view, landscape) in VIEWS {
         let preset = format!("preset={view}");
         let marched = Marched::new(&alone, "96x60", &[&preset], landscape);
@@ -70,16 +72,22 @@ fn each_rung_in_each_view() {
         }
         let rays = marched[0].0.len();
         for (rung, marched) in RUNGS.iter().zip(&marched) {
-            println!("| {view} | {rung} | {} |", marched.row());
+            let row = marched.row();
+            println!("| {view} | {rung} | {row} |");
+            rows.extend(row.figures(&format!("{view}.{rung}")));
         }
         let [relaxed, lipschitz, over_relaxed, bisected] = &marched;
         let hits = relaxed.hits();
-        let misses = marched.each_ref().map(|marched| format!("{:.1}", marched.steps_of_misses()));
-        println!(
-            "{hits} of {rays} rays hit the ground, at {:.1} degrees (median); steps of the others: {}",
-            relaxed.angle(),
-            misses.join(", ")
-        );
+        println!("{hits} of {rays} rays hit, at {:.1} degrees (median)", relaxed.angle());
+        let of_view = |what: &str| format!("{view}.{what}").replace(' ', "-");
+        views.insert(of_view("rays"), rays.into());
+        views.insert(of_view("angle"), relaxed.angle().into());
+        views.insert(of_view("relaxed.wrong"), (rays - relaxed.right()).into());
+        for (rung, marched) in RUNGS.iter().zip(&marched) {
+            let steps = marched.steps_of_misses();
+            println!("{rung}: {steps:.1} steps of a ray that misses");
+            views.insert(of_view(&format!("{rung}.steps_of_misses")), steps.into());
+        }
         // What bisects errs nowhere; where hills have their edges, rounding may decide.
         for best in [over_relaxed, bisected] {
             assert_eq!(best.right(), rays, "{view}");
@@ -107,6 +115,7 @@ fn each_rung_in_each_view() {
             assert!(bisected.steps() < part * relaxed.steps(), "{view}");
         }
     }
+    let mut angles = Map::new();
     println!("| angle | rays | relaxed | lipschitz | over-relaxed | bisected |");
     for (from, to) in [(0.0, 5.0), (5.0, 15.0), (15.0, 45.0), (45.0, 90.0)] {
         let rays = by_angle.iter().filter(|(angle, _)| (from..to).contains(angle));
@@ -115,11 +124,44 @@ fn each_rung_in_each_view() {
             count += 1;
             sums = std::array::from_fn(|rung| sums[rung] + steps[rung]);
         }
-        let [relaxed, lipschitz, over_relaxed, bisected] = sums.map(|sum| sum / f64::from(count));
+        let means = sums.map(|sum| sum / f64::from(count));
+        let [relaxed, lipschitz, over_relaxed, bisected] = means;
+        angles.insert(format!("{from}.rays"), count.into());
+        angles.extend(
+            RUNGS.iter().zip(means).map(|(rung, mean)| (format!("{from}.{rung}"), mean.into())),
+        );
         println!(
             "| {from} to {to} | {count} | {relaxed:.1} | {lipschitz:.1} | {over_relaxed:.1} | {bisected:.1} |"
         );
         assert!(count > 100 && (to > 15.0 || bisected < 0.75 * relaxed));
+    }
+    figures::hold("21_heightfield/rungs", rows.into());
+    figures::hold("21_heightfield/views", views.into());
+    figures::hold("21_heightfield/angles", angles.into());
+}
+
+/// The bounds of the page that follow from the formula of the land alone.
+#[test]
+fn the_land_is_as_steep_and_as_exact_as_the_page_says() {
+    let slope = |landscape: Landscape| f64::from(landscape.shape().lipschitz);
+    let (low, high) = HILLS.bounds(0.0);
+    let reach = low.abs().max(high.abs()).as_dvec3();
+    let values = json!({
+        "hills.slope": slope(HILLS),
+        "steep.slope": slope(STEEP),
+        "error": HILLS.error(reach),
+    });
+    figures::hold_exact("21_heightfield/land", values);
+    for landscape in [HILLS, STEEP] {
+        // Half the bound at least is reached somewhere, and it is never passed.
+        let field = judged::exact(landscape);
+        let places = (0..400).flat_map(|i| (0..400).map(move |j| [i, j]));
+        let slopes = places.map(|[i, j]| {
+            let (_, [dx, dz]) = field.height(f64::from(i) * 0.16, f64::from(j) * 0.16);
+            dx.hypot(dz)
+        });
+        let steepest = slopes.fold(0.0, f64::max);
+        assert!(steepest <= slope(landscape) && steepest > 0.5 * slope(landscape), "{steepest}");
     }
 }
 
@@ -133,7 +175,14 @@ fn error_maps() {
         [("hills", HILLS), ("near ground", HILLS), ("steep", STEEP)].map(|(view, landscape)| {
             let preset = format!("preset={view}");
             let marched = Marched::new(&alone, "240x150", &[&preset], landscape);
-            let labels = RUNGS.map(|rung| format!("{view}, {rung}"));
+            // The share of rays that are wrong; the first panel of a row names its view, too.
+            let label = |number: usize| {
+                let march = &marched[number];
+                let part = 1.0 - march.right() as f64 / march.0.len() as f64;
+                let view = if number == 0 { format!("{view}, ") } else { String::new() };
+                format!("{view}{}: {:.0} % wrong", RUNGS[number], 100.0 * part)
+            };
+            let labels = [0, 1, 2, 3].map(label);
             labels.into_iter().zip(marched.map(|marched| marched.map(WIDTH))).collect::<Vec<_>>()
         });
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
@@ -151,7 +200,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
         let sets = ["preset=flat", "camera eye=8,1,0", &target, "field of view=1"];
         Marched::new(&alone, "25x25", &sets, FLAT)
     };
-    let (mut gave_up, mut early, mut example) = (0, 0, String::new());
+    let (mut gave_up, mut early, mut example) = (0, 0, None);
     let [relaxed, .., bisected] = march(0.2);
     for (march, best) in relaxed.0.iter().zip(&bisected.0) {
         let sine = -march.ray.direction.y;
@@ -170,7 +219,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
             assert!((t / end - 1.0).abs() < 1e-3, "{t} for {end}, {exact}");
             gave_up += 1;
             if (sine - 0.2f64.to_radians().sin()).abs() < 2e-5 {
-                example = format!("at 0.2 degrees: a hit at {t:.1}, the ground is at {exact:.1}");
+                example = Some((t, exact));
             }
         }
     }
@@ -181,7 +230,9 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
         assert!(t > stop * 0.9999 && t < 1.0 / sine, "{t} {stop}");
         early += 1;
     }
-    println!("{example}");
+    let (found, ground) = example.expect("a ray at 0.2 degrees");
+    println!("at 0.2 degrees: a hit at {found:.1}, the ground is at {ground:.1}");
+    figures::hold("21_heightfield/gave_up", json!({ "found": found, "ground": ground }));
     println!("{gave_up} rays gave up after 300 steps, {early} stopped early");
     assert!(gave_up > 100 && early == 625, "{gave_up} {early}");
 }

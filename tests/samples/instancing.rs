@@ -14,7 +14,8 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Run, bits, golden, render};
+use run::{Run, bits, figures, golden, render};
+use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
 #[path = "../../samples/09_instancing/formation.rs"]
@@ -206,7 +207,38 @@ fn copies_look_the_same_and_take_the_memory() {
     let per_piece = ["top_level_bytes", "record_bytes", "instance_bytes"]
         .map(|name| (number(&more, name) - number(&instances, name)) as f64 / pieces as f64);
     println!("bytes a piece, top level, record, instance: {per_piece:.1?}");
+    let [top_level, record, _] = per_piece;
+    figures::hold("09_instancing/piece", json!({ "top_level": top_level, "record": record }));
     assert!(per_piece.iter().sum::<f64>() < 500.0, "{per_piece:?}");
+}
+
+/// The page's table of memory.
+#[test]
+fn copies_of_a_thousand_squares_take_what_the_page_says() {
+    let [instances, copies] = ["instances", "copies"].map(|geometry| {
+        let sets = ["squares=1000", &format!("geometry={geometry}")];
+        run(SIZE, &sets).report
+    });
+    let mut table = Map::new();
+    let mut row = |name: &str, of: fn(&Value, &str) -> u64| {
+        let pair = [&instances, &copies].map(|report| of(report, name));
+        println!("| {name} | {} | {} |", pair[0], pair[1]);
+        table.insert(format!("{name}.instances"), pair[0].into());
+        table.insert(format!("{name}.copies"), pair[1].into());
+        pair
+    };
+    let own = |report: &Value, name: &str| report["chapter"][name].as_u64().unwrap();
+    let parts = ["mesh_bytes", "bottom_level_bytes", "top_level_bytes", "record_bytes"];
+    let parts = parts.map(|name| row(name, own));
+    let all = row("bytes_allocated", |report, name| report[name].as_u64().unwrap());
+    let pieces = own(&copies, "pieces");
+    let each = (parts[0][1] + parts[1][1]) / pieces;
+    println!("{pieces} pieces, {each} bytes for a copy");
+    figures::hold("09_instancing/memory", table.into());
+    figures::hold("09_instancing/copies", json!({ "pieces": pieces, "each": each }));
+    // What is in the table is less than all by what the frame needs, and the same in both columns.
+    let rest = [0, 1].map(|i| all[i] - parts.iter().map(|pair| pair[i]).sum::<u64>());
+    assert!(rest.iter().all(|&bytes| bytes < 16 << 20) && all[1] > 30 * all[0], "{rest:?}");
 }
 
 #[test]

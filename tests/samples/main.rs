@@ -1,5 +1,6 @@
 //! Every chapter, rendered headless and small, under validation: one module a chapter.
 
+mod animation;
 mod any_hit;
 mod bands;
 mod basic;
@@ -12,10 +13,12 @@ mod instancing;
 mod intersection;
 mod jitter_camera;
 mod leaving_a_surface;
+mod long_renders;
 mod multi_closest_hit;
 mod path_tracing;
 mod position_fetch;
 mod ray_query;
+mod ray_query_raster;
 mod reflection;
 mod settings;
 mod shadow_miss;

@@ -136,3 +136,16 @@ fn sums_of_integers_and_of_floats_begin_alike() {
     let bound = 34.0 * 0.5f64.powi(24);
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() <= bound * a + 1e-9));
 }
+
+#[test]
+fn threads_that_change_places_make_the_same_picture() {
+    let listed = run::command(NAME).arg("--list-controls").output().expect("the sample starts");
+    let controls = String::from_utf8(listed.stdout).expect("text");
+    assert!(controls.contains("roulette"), "{controls}");
+    if !controls.lines().any(|line| line.starts_with("reorder\t")) {
+        println!("not tried: this device does not reorder");
+        return;
+    }
+    let [off, on] = ["reorder=off", "reorder=on"].map(|set| picture(SIZE, 4, &[set]));
+    assert_eq!(bits(&off), bits(&on));
+}

@@ -3,7 +3,8 @@
 use common::app::Picture;
 use common::gpu::{ComputePipeline, Gpu, GpuOptions, Requirements};
 
-use run::{bits, golden, render};
+use run::{bits, figures, golden, render};
+use serde_json::json;
 
 const NAME: &str = "16_ray_query";
 /// What every test below compares with.
@@ -93,4 +94,19 @@ fn a_query_needs_no_groups_and_no_table() {
     let report = render(NAME, "8x8", &[]).report;
     assert_eq!(report["groups"], 0);
     assert_eq!(report["stages"], serde_json::json!(["16_ray_query/trace.comp"]));
+}
+
+/// How long a frame of queries takes, over how long the pipeline's takes.
+#[test]
+#[ignore = "takes times"]
+fn the_time_of_a_frame() {
+    let time = |name: &str| {
+        let run = render(name, "480x300", &["--frames", "5"]);
+        run.report["gpu_milliseconds"]["min"].as_f64().unwrap()
+    };
+    let mut ratios: Vec<f64> = (0..20).map(|_| time(NAME) / time(PIPELINE)).collect();
+    ratios.sort_by(f64::total_cmp);
+    let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);
+    println!("{ratio:.2}, middle half {low:.2} to {high:.2}");
+    figures::give_timed("16_ray_query/time", json!({ "ratio": ratio, "low": low, "high": high }));
 }

@@ -29,14 +29,17 @@ impl Near {
             2 | 7 | 9 | 10 | 20 | 24 => Self { flips: 1, mean: 0.00125 },
             // A second decision: a hole or a random number (03), what a shadow ray meets (04 and later),
             // which of two faces of a solid is first (22), which cell of a lattice a point is in (13).
-            3 | 4 | 5 | 8 | 13 | 16 | 21 | 22 => Self { flips: 2, mean: 0.00125 },
+            3 | 4 | 5 | 8 | 13 | 14 | 16 | 21 | 22 => Self { flips: 2, mean: 0.00125 },
+            // Sixteen decisions more, of rays to the sky, each a sixteenth of the ambient light (17).
+            17 => Self { flips: 2, mean: 0.0025 },
             // Rays that round mirrors send on: an error grows by the way over the radius each time, and two
             // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
             // factor.
             6 | 12 | 25 | 26 => Self { flips: 2, mean: 0.0025 },
-            // Some five rays a path, and as many to the light: ten decisions, and ways by chance, which are one
-            // decision more at each turn.
-            11 => Self { flips: 15, mean: 0.005 },
+            // At each of some four turns of a path there is a ray, one to the light, the choice of a way and
+            // roulette: 15 decisions. One that flips sends the rest of the path elsewhere, which can make five
+            // pixels seem wholly others: 15 times 5 of 5,760.
+            11 => Self { flips: 15, mean: 0.013 },
             // Ten surfaces a path, each small and round: an error grows by the way over the radius at each of
             // them, to more than a pixel in places, and each is a choice by chance as well. One pixel of a
             // hundred sees another way.

@@ -12,11 +12,11 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
     (random.between(low, high) * 100.0).round() / 100.0
 }
 
-/// What of a set a scene can call for: holes and textures are on triangles, a size is a shadow's, and a
-/// mirror is on something.
+/// What of a set a scene can call for: holes, textures and lines are on triangles, a size is a shadow's, and
+/// a mirror and a pattern are on something.
 pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
-        set = set.without(Textures).without(CutOut);
+        set = set.without(Textures).without(CutOut).without(Wireframe);
     }
     if !set.has_any(&[PointShadows, DirectionalShadows]) {
         set = set.without(AreaLight);
@@ -24,23 +24,55 @@ pub fn possible(mut set: Effects) -> Effects {
     if !set.has_any(&[Triangles, Spheres, Boxes, Plane, Solids]) {
         set = set.without(Mirror);
     }
+    if !set.has_any(&[Triangles, Spheres, Boxes, Solids]) {
+        set = set.without(Patterns);
+    }
     set
+}
+
+/// Two effects that no set has in one of the four ways that are possible: neither, one, the other, both.
+pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
+    let ways = [(false, false), (true, false), (false, true), (true, true)];
+    let is_seen = |a: Effect, b: Effect| {
+        let all = ways.iter().filter(|&&(with_a, with_b)| {
+            // Holes, textures and lines are on triangles.
+            let is_possible =
+                a != Triangles || with_a || !with_b || ![Textures, CutOut, Wireframe].contains(&b);
+            is_possible && !sets.iter().any(|set| set.has(a) == with_a && set.has(b) == with_b)
+        });
+        all.count() == 0
+    };
+    let pairs = Effect::ALL.into_iter().flat_map(|a| Effect::ALL.map(|b| (a, b)));
+    pairs.filter(|&(a, b)| a < b).find(|&(a, b)| !is_seen(a, b))
 }
 
 /// Sixteen sets in which each two effects are seen in all four ways that are possible.
 ///
-/// An effect is in set number `r` if `r` has an odd number of bits in common with the effect's own
-/// number: any two different numbers from 1 to 15 are independent (an orthogonal array of strength 2:
-/// Rao, "Factorial Experiments Derivable from Combinatorial Arrangements of Arrays", 1947). The order of
-/// the numbers is one in which [`possible`] loses no pair.
+/// Each effect is in half of the sets, and never in the first: of two different halves neither holds the
+/// other, they have a set in common, and none has the first (Kleitman and Spencer, "Families of
+/// k-independent sets", 1973: that is enough for thousands of effects). [`possible`] takes some out again.
+/// So halves are drawn until no pair is lost.
 pub fn all_pairs() -> Vec<Effects> {
-    const NUMBERS: [u32; 13] = [14, 6, 10, 12, 11, 15, 3, 1, 9, 2, 13, 5, 7];
-    let set = |row: u32| {
-        let chosen = Effect::ALL.into_iter().zip(NUMBERS);
-        let chosen = chosen.filter(|&(_, number)| (row & number).count_ones() % 2 == 1);
-        chosen.fold(Effects::default(), |set, (effect, _)| set.with(effect))
-    };
-    (0..16).map(set).map(possible).collect()
+    let mut random = Random(16);
+    let drawn = (0..100_000).map(|_| {
+        let halves = Effect::ALL.map(|effect| (effect, half(&mut random)));
+        let set = |row: u32| {
+            let chosen = halves.iter().filter(|(_, half)| half >> row & 1 == 1);
+            chosen.fold(Effects::default(), |set, (effect, _)| set.with(*effect))
+        };
+        (0..16).map(set).map(possible).collect::<Vec<_>>()
+    });
+    drawn.into_iter().find(|sets| unseen(sets).is_none()).expect("sixteen sets are enough")
+}
+
+/// Eight of sixteen, without the first.
+fn half(random: &mut Random) -> u32 {
+    loop {
+        let bits = random.bits() as u32 & 0xfffe;
+        if bits.count_ones() == 8 {
+            return bits;
+        }
+    }
 }
 
 /// Writes a scene that calls for a set of effects, and its model, into a folder.
@@ -122,15 +154,25 @@ fn text(set: Effects, random: &mut Random) -> String {
         has(PointShadows)
     );
     let mirror = has(Mirror);
-    for name in ["metal", "paint"] {
+    for (name, pattern) in [("metal", "marble"), ("paint", "wood"), ("sheet", "checker")] {
         text += &format!(
             "[[material]]\nname = \"{name}\"\ncolor = [{}, {}, {}]\nspecular = [0.6, 0.5, 0.4]\n\
              shininess = 80\nmirror = {}\n",
             n(0.1, 0.8),
             n(0.1, 0.8),
             n(0.1, 0.8),
-            mirror && name == "metal"
+            mirror && name != "paint"
         );
+        if has(Patterns) {
+            text += &format!(
+                "pattern = \"{pattern}\"\nsecond = [{}, 0.3, 0.1]\nscale = {}\n",
+                n(0.1, 0.8),
+                n(1.0, 4.0)
+            );
+        }
+        if has(Wireframe) && name == "sheet" {
+            text += &format!("lines = {}\nink = [0.1, 0, 0.2]\n", n(0.5, 3.0));
+        }
     }
     // Without one, every mesh of the model would be placed.
     if has(Triangles) {
@@ -144,7 +186,7 @@ fn text(set: Effects, random: &mut Random) -> String {
                     n(-40.0, 40.0)
                 );
                 if mesh == "tent" {
-                    text += "material = \"metal\"\n";
+                    text += "material = \"sheet\"\n";
                 }
             }
         }

@@ -47,9 +47,11 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // Its addresses are the host's alone.
         "01_foundation" => return Vec::new(),
         "24_accuracy" => &floats,
+        // What all chapters share adds up pictures.
+        "common" => &[],
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
         "11_path_tracing" => &[textures[0], textures[1], "rayTracingInvocationReorder"],
-        "16_ray_query" => &[textures[0], textures[1], "rayQuery"],
+        "16_ray_query" | "17_ray_query_raster" => &[textures[0], textures[1], "rayQuery"],
         // It binds the scene's textures and reads none.
         "20_wireframe" => &["rayTracingPositionFetch"],
         _ => &textures,

@@ -273,3 +273,9 @@ pub const KEY_ESCAPE: u32 = 0xff1b;
 pub const KEY_TAB: u32 = 0xff09;
 /// Home.
 pub const KEY_HOME: u32 = 0xff50;
+/// The space bar.
+pub const KEY_SPACE: u32 = 0x20;
+/// The comma.
+pub const KEY_COMMA: u32 = 0x2c;
+/// The full stop.
+pub const KEY_PERIOD: u32 = 0x2e;

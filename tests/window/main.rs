@@ -14,7 +14,7 @@ use image::{Rgb, RgbImage};
 
 use run::narrow::Narrow;
 
-use desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_TAB, wait};
+use desk::{Desk, KEY_COMMA, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_PERIOD, KEY_SPACE, KEY_TAB, wait};
 
 /// The slider "sun azimuth" in the panel, from end to end.
 const SLIDER: [(i16, i16); 2] = [(140, 236), (250, 236)];
@@ -73,6 +73,34 @@ fn a_window_shows_the_picture_and_answers_mouse_and_keys() {
     let with_panel = *desk.shown().get_pixel(60, 60);
     desk.key(KEY_TAB);
     wait("no panel", || (*desk.shown().get_pixel(60, 60) != with_panel).then_some(()));
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
+}
+
+#[test]
+fn an_animation_is_stepped_played_and_paused_by_keys() {
+    let _alone = alone();
+    let paused = ["--validate", "--size", "640x420", "--set", "play=off", "--set", "frame=100"];
+    let desk = Desk::open("14_animation", &paused, &[]);
+    let (first, _) = desk.picture();
+    desk.key(KEY_PERIOD);
+    let (next, _) = desk.picture();
+    assert!(!same(&first, &next), "a step changes nothing");
+    desk.key(KEY_COMMA);
+    let (back, _) = desk.picture();
+    assert!(same(&first, &back), "a step back does not lead back");
+
+    wait("the picture in the window", || same(&desk.shown(), &back).then_some(()));
+    desk.key(KEY_SPACE);
+    wait("what moves", || (!same(&desk.shown(), &back)).then_some(()));
+    let moving = desk.shown();
+    wait("what goes on moving", || (!same(&desk.shown(), &moving)).then_some(()));
+    desk.key(KEY_SPACE);
+    let (stopped, _) = desk.picture();
+    assert!(!same(&stopped, &back), "it is where it was");
+    wait("the picture in the window", || same(&desk.shown(), &stopped).then_some(()));
+    let (still, _) = desk.picture();
+    assert!(same(&still, &stopped), "it goes on while it is paused");
     desk.key(KEY_ESCAPE);
     ended_well(desk.end());
 }

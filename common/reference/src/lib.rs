@@ -8,6 +8,7 @@
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
 //! | [`capsule`], [`instance`] | the same for a capsule, and for a sphere under any matrix |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
+//! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
 //! | [`solid`] | half-spaces and balls combined: union, intersection, difference, inverse |
 //! | [`crossing`] | where a ray's line meets a triangle's plane, and how near to the border |
@@ -36,6 +37,7 @@ mod dot2;
 pub mod heightfield;
 pub mod hit;
 pub mod instance;
+pub mod occlusion;
 pub mod plane;
 pub mod random;
 pub mod rational;

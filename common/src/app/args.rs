@@ -1,5 +1,6 @@
 //! The command line, the same for every sample.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use ash::vk;
@@ -7,6 +8,7 @@ use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::compile_for::Family;
+use super::samples::range;
 use crate::gpu::Arithmetic;
 use crate::usage::Usage;
 
@@ -37,6 +39,22 @@ pub struct Args {
     /// With --headless, write device, times, stages and messages as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+
+    /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
+    #[arg(long, value_name = "A..B", value_parser = range, conflicts_with_all = ["frames", "compare"])]
+    pub samples: Option<Range<u32>>,
+
+    /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
+    #[arg(long, value_name = "FILE", requires = "samples")]
+    pub save: Option<PathBuf>,
+
+    /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
+    #[arg(long, value_name = "FILE", requires = "samples")]
+    pub resume: Option<PathBuf>,
+
+    /// Seconds from one --save to the next; 0 saves after each sample
+    #[arg(long, value_name = "SECONDS", default_value = "60", requires = "save")]
+    pub save_every: u64,
 
     /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
     /// whatever theirs; a name given again acts after all before it
@@ -95,7 +113,23 @@ pub struct Args {
 impl Args {
     /// Whether no window is to be opened.
     pub fn is_headless(&self) -> bool {
-        self.headless || self.list_controls || self.compare.is_some() || self.compile_for.is_some()
+        self.headless
+            || self.list_controls
+            || self.compare.is_some()
+            || self.compile_for.is_some()
+            || self.samples.is_some()
+    }
+
+    /// Fails if a file and a control both name the scene: one of them would be passed over.
+    fn one_scene(&self) -> Result<(), Usage> {
+        let set = self.sets.iter().find(|(name, value)| name == "scene" && value != "file");
+        match (&self.scene, set) {
+            (Some(file), Some((_, chosen))) => Err(Usage(format!(
+                "--scene {} and --set \"scene={chosen}\" are two scenes; leave one of them out",
+                file.display()
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// Parses the process's arguments.
@@ -123,7 +157,7 @@ impl Args {
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });
-        matches.map_err(|error| {
+        let (args, more) = matches.map_err(|error| {
             if !error.use_stderr() {
                 error.exit();
             }
@@ -132,7 +166,9 @@ impl Args {
             let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
             let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
             Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
-        })
+        })?;
+        args.one_scene()?;
+        Ok((args, more))
     }
 }
 

@@ -93,12 +93,12 @@ impl Bands {
         &mut self,
         sample: &mut S,
         (gpu, timer): (&Gpu, &Timer),
-        (image, index): (&Image, u32),
+        (image, index, accumulated): (&Image, u32, u32),
     ) -> Result<Option<f64>> {
         let Some(area) = self.next() else { return Ok(None) };
         gpu.submit(|cmd| {
             timer.start(cmd);
-            sample.render(&Frame { gpu, cmd, image, area, index })?;
+            sample.render(&Frame { gpu, cmd, image, area, index, accumulated })?;
             timer.stop(cmd);
             barrier::trace_to_trace(gpu, cmd);
             Ok(())

@@ -222,6 +222,8 @@ fn stages(flags: u32) -> String {
         (vk::ShaderStageFlags::INTERSECTION_KHR, "intersection"),
         (vk::ShaderStageFlags::CALLABLE_KHR, "callable"),
         (vk::ShaderStageFlags::COMPUTE, "compute"),
+        (vk::ShaderStageFlags::VERTEX, "vertex"),
+        (vk::ShaderStageFlags::FRAGMENT, "fragment"),
     ];
     let flags = vk::ShaderStageFlags::from_raw(flags);
     let found = names.into_iter().filter(|(flag, _)| flags.contains(*flag));

@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use anyhow::Result;
 use glam::{DVec3, Vec3};
 
+use super::Playback;
 use super::chart::Chart;
 use crate::gpu::ShaderEnum;
 use crate::scene::{Camera, Sun};
@@ -40,6 +41,13 @@ pub trait Visit {
     /// Sees the camera; by default as the controls that a script can set.
     fn camera(&mut self, camera: &mut Camera) -> bool {
         visit_camera(self, camera)
+    }
+
+    /// Sees an animation's frame; by default as the controls that a script can set.
+    fn playback(&mut self, playback: &mut Playback) -> bool {
+        let last = playback.last;
+        self.visit("frame", Value::Integer(&mut playback.frame, 0..=last))
+            | self.visit("play", Value::Checkbox(&mut playback.playing))
     }
 
     /// Sees what the sample has found out; only the panel has room for it.
@@ -117,6 +125,11 @@ impl<'a> Controls<'a> {
     /// A camera: moved with the mouse in a window, by three controls elsewhere.
     pub fn camera(&mut self, camera: &mut Camera) -> bool {
         self.visitor.camera(camera)
+    }
+
+    /// An animation: played, paused and stepped in a window, by two controls elsewhere.
+    pub fn playback(&mut self, playback: &mut Playback) -> bool {
+        self.visitor.playback(playback)
     }
 
     /// A sun: two angles place it.

@@ -9,6 +9,7 @@ use ash::vk;
 
 use super::args::Args;
 use super::bands::Bands;
+use super::gather::{self, Gather};
 use super::{
     Format, Milliseconds, Picture, Progress, Report, Sample, Setup, compare, compile_for, controls,
     output,
@@ -24,6 +25,7 @@ use crate::usage::Usage;
 pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let start = Instant::now();
     check_files(args)?;
+    let resumed = gather::resumed(args)?;
     let comparison = args.compare.as_deref().map(compare::parse).transpose()?;
     let requirements = match args.compiler_figures {
         true => S::requirements().compiler_figures_where_offered(),
@@ -51,13 +53,11 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
 
     let image = Image::storage(&gpu, "picture", args.size)?;
     let timer = Timer::new(&gpu)?;
-    let render = |sample: &mut S, bands: &mut Bands, like_the_last, index| -> Result<f64> {
-        if index == 0 {
-            sample.changed(&gpu)?;
-        }
-        bands.begin(args.size, like_the_last);
+    let render = |sample: &mut S, bands: &mut Bands, index, accumulated| -> Result<f64> {
+        bands.begin(args.size, true);
+        let frame = (&image, index, accumulated);
         let mut sum = 0.0;
-        while let Some(milliseconds) = bands.trace(sample, (&gpu, &timer), (&image, index))? {
+        while let Some(milliseconds) = bands.trace(sample, (&gpu, &timer), frame)? {
             sum += milliseconds;
         }
         Ok(sum)
@@ -72,25 +72,44 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             Some(compare::compare(&control, &values, args.frames, |value| {
                 controls::set_beside(&args.sets, &control, value, |c| sample.controls(c))?;
                 progress.step();
-                render(&mut sample, bands.entry(value.to_owned()).or_default(), true, 0)
+                sample.changed(&gpu)?;
+                render(&mut sample, bands.entry(value.to_owned()).or_default(), 0, 0)
             })?)
         }
     };
+    let mut gather = match args.samples.clone() {
+        Some(samples) => Some(Gather::begin((name, args, samples), &gpu, &mut sample, resumed)?),
+        None => None,
+    };
+    let frames = match &gather {
+        Some(gather) => gather.missing(),
+        None if comparison.is_some() => (0..1).into(),
+        None => (0..args.frames).into(),
+    };
     let mut times = Vec::new();
     let mut first_frame = Duration::ZERO;
-    let frames = if comparison.is_some() { 1 } else { args.frames };
-    let progress = Progress::new(frames.into(), "frames");
+    let progress = Progress::new(frames.count(), gather.as_ref().map_or("frames", |_| "samples"));
     let mut bands = Bands::default();
     let mut band_times = Vec::new();
-    for index in 0..frames {
-        times.push(render(&mut sample, &mut bands, true, index)?);
+    sample.changed(&gpu)?;
+    for (number, index) in frames.ranges().iter().cloned().flatten().enumerate() {
+        if let (true, Some(playback)) = (number > 0, sample.playback()) {
+            playback.advance(1);
+        }
+        // Samples are pictures alone: their mean is the sums'.
+        let accumulated = gather.as_ref().map_or(index, |_| 0);
+        times.push(render(&mut sample, &mut bands, index, accumulated)?);
         band_times.extend(&bands.times);
-        if index == 0 {
+        if first_frame.is_zero() {
             first_frame = start.elapsed();
+        }
+        if let Some(gather) = &mut gather {
+            gather.add(&gpu, &image, index)?;
         }
         progress.step();
     }
     drop(progress);
+    let gathered = gather.map(Gather::finish).transpose()?;
     if let (Some(comparison), false) = (&comparison, args.report == Some("-".into())) {
         output::print(&format!("{} · {}\n\n{}", gpu.name, gpu.driver, comparison.table()))?;
     }
@@ -105,7 +124,11 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
 
     if let Some(out) = &args.out {
         let (width, height) = (args.size.width, args.size.height);
-        Picture { width, height, pixels: image.read()? }.save(out)?;
+        let picture = match &gathered {
+            Some(sums) => sums.mean(),
+            None => Picture { width, height, pixels: image.read()? },
+        };
+        picture.save(out)?;
     }
     if let Some(path) = &args.report {
         let median = Milliseconds::of(&times).median;
@@ -119,7 +142,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
             arithmetic: gpu.arithmetic.to_string(),
             width: args.size.width,
             height: args.size.height,
-            frames: args.frames,
+            frames: gathered.as_ref().map_or(args.frames, |_| times.len() as u32),
             gpu_milliseconds: Milliseconds::of(&times),
             bands: bands.times.len(),
             band_milliseconds: Milliseconds::of(&band_times),
@@ -164,15 +187,17 @@ pub fn check_validation(validation: &Messages) -> Result<()> {
 pub fn check_files(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
     let report = args.report.as_deref().filter(|path| *path != Path::new("-"));
-    for file in [args.out.as_deref(), report].into_iter().flatten() {
+    let files =
+        [("--out", args.out.as_deref()), ("--report", report), ("--save", args.save.as_deref())];
+    let files: Vec<_> = files.into_iter().filter_map(|(name, file)| Some((name, file?))).collect();
+    for (i, (name, file)) in files.iter().enumerate() {
         files::check_writable(file)?;
-    }
-    match (&args.out, report) {
-        (Some(out), Some(report)) if files::same(out, report) => {
-            Err(Usage(format!("--out and --report both name '{}'", report.display())).into())
+        if let Some((other, _)) = files[..i].iter().find(|(_, other)| files::same(other, file)) {
+            let file = file.display();
+            return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
         }
-        _ => Ok(()),
     }
+    Ok(())
 }
 
 /// Fails if a picture is larger than the device allows.

@@ -6,12 +6,17 @@ pub mod chart;
 pub mod compare;
 pub mod compile_for;
 pub mod controls;
+mod gather;
 mod headless;
+mod interrupt;
 mod lighting;
 pub mod output;
 mod picture;
+mod playback;
 mod progress;
 mod report;
+mod samples;
+pub mod sums;
 mod window;
 
 use std::cell::Cell;
@@ -26,12 +31,15 @@ pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};
 pub use lighting::Lighting;
 pub use picture::{Format, Picture};
+pub use playback::Playback;
 pub use progress::Progress;
 pub use report::{Milliseconds, Report};
+pub use samples::{Samples, range};
 
 /// Compiles a shader below `shaders/` to SPIR-V; for 01, which may use nothing of `gpu`.
 pub use crate::gpu::shader::compile as compile_shader;
 
+use self::interrupt::Stopped;
 use crate::gpu::{self, Gpu, Image, Requirements};
 use crate::scene::text::shown;
 use crate::scene::{Scene, SceneOptions};
@@ -77,6 +85,18 @@ pub trait Sample: Sized {
     /// Without it, a window at rest renders nothing.
     fn accumulates(&self) -> bool {
         false
+    }
+
+    /// Whether a frame whose [`Frame::accumulated`] is 0 shows one sample, found from [`Frame::index`]
+    /// alone: then `--samples` gathers them.
+    fn gathers(&self) -> bool {
+        self.accumulates()
+    }
+
+    /// The frame that an animation shows. Time goes on between two pictures: `render` then records what
+    /// moves, and [`Sample::changed`] is not called.
+    fn playback(&mut self) -> Option<&mut Playback> {
+        None
     }
 
     /// What the chapter itself has to tell after the last frame; part of `--report`.
@@ -146,14 +166,23 @@ pub struct Frame<'a> {
     pub image: &'a Image,
     /// The band of it that is to be traced: whole rows.
     pub area: vk::Rect2D,
-    /// Frames since anything changed: 0 is the first after a start, a resize or a moved control.
+    /// Frames since anything changed: 0 is the first after a start, a resize or a moved control. With
+    /// `--samples`, the number of a sample.
     pub index: u32,
+    /// How many of the frames before belong to the same picture: all of them, or with `--samples` none, as
+    /// each sample is a picture alone.
+    pub accumulated: u32,
 }
 
 impl Frame<'_> {
     /// Width over height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.image.extent.width) / f64::from(self.image.extent.height)
+    }
+
+    /// The number of the frame that the picture begins with: 0, or with `--samples` this one's.
+    pub fn first(&self) -> u32 {
+        self.index - self.accumulated
     }
 
     /// Whether no band of this frame was traced yet.
@@ -164,7 +193,7 @@ impl Frame<'_> {
 
 /// Runs a sample as a program: reads the arguments, renders, and turns errors into one line.
 ///
-/// Exit codes: 0 done, 1 failed, 2 wrong arguments.
+/// Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 asked to stop, and what was gathered is saved.
 pub fn run<S: Sample>(name: &'static str) -> ExitCode {
     finish(Args::parse_for(name).map_err(Into::into).and_then(|args| start::<S>(name, &args)))
 }
@@ -173,6 +202,10 @@ pub fn run<S: Sample>(name: &'static str) -> ExitCode {
 pub fn finish(result: Result<()>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
+    if error.is::<Stopped>() {
+        output::complain(&line);
+        return ExitCode::from(3);
+    }
     output::complain(&format!("error: {line}"));
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }

@@ -5,19 +5,24 @@
 //! it turned out to need; an update moves primitives without changing which there are.
 
 mod compaction;
+mod input;
+mod update;
 
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
-use super::geometry::{self, Geometry};
+use super::geometry::Geometry;
 use super::{Buffer, Gpu, barrier};
+pub use input::Input;
+use input::Shape;
 
 /// What a build may cost and allow later.
 #[derive(Clone, Copy, Default)]
 pub struct BuildOptions {
-    /// Allow [`AccelerationStructure::update`].
+    /// Allow [`AccelerationStructure::update`], which a driver may pay for with memory and with a tree that is
+    /// slower to trace.
     pub updatable: bool,
     /// Copy the result into a buffer of just the size it needs.
     pub compact: bool,
@@ -33,9 +38,15 @@ pub struct AccelerationStructure {
     pub address: vk::DeviceAddress,
     /// Bytes of its buffer.
     pub size: u64,
+    /// Bytes that a build needs beside it.
+    pub build_scratch: u64,
+    /// Bytes that an update needs beside it.
+    pub update_scratch: u64,
     name: String,
-    updatable: bool,
-    update_scratch: u64,
+    options: BuildOptions,
+    shape: Shape,
+    /// Bytes that a build in its place would take: more than it has, once it is compacted.
+    build_size: u64,
     _buffer: Buffer,
     gpu: Gpu,
 }
@@ -51,14 +62,11 @@ impl AccelerationStructure {
         input: &[Geometry],
         options: BuildOptions,
     ) -> Result<Self> {
-        let geometries: Vec<_> = input.iter().map(Geometry::described).collect();
-        let counts: Vec<u32> = input.iter().map(Geometry::count).collect();
-        let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let total: u64 = input.iter().map(|geometry| u64::from(geometry.count())).sum();
         let limit = gpu.limits.max_primitive_count;
         ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
-        let level = vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL;
-        let built = Self::build(gpu, name, level, &geometries, &counts, options)?;
-        if options.compact { built.compacted(level) } else { Ok(built) }
+        let built = Self::build(gpu, name, Input::Geometries(input), options)?;
+        if options.compact { built.compacted() } else { Ok(built) }
     }
 
     /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
@@ -80,105 +88,29 @@ impl AccelerationStructure {
             "'{name}' has {count} instances; {} takes {limit}",
             gpu.name
         );
-        let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
-        Self::build(
-            gpu,
-            name,
-            level,
-            &[geometry::of_instances(instances.address)],
-            &[count],
-            options,
-        )
+        Self::build(gpu, name, Input::Instances(instances.address, count), options)
     }
 
-    /// Moves the primitives of a bottom level that was built `updatable`, recording into `cmd`.
-    ///
-    /// `input` must have the shape of the build: only positions and boxes may differ. `scratch` must
-    /// live until the commands are done.
-    ///
-    /// # Errors
-    /// If the structure is not updatable.
-    pub fn update_bottom(
-        &self,
-        cmd: vk::CommandBuffer,
-        input: &[Geometry],
-        scratch: &Buffer,
-    ) -> Result<()> {
-        let geometries: Vec<_> = input.iter().map(Geometry::described).collect();
-        let counts: Vec<u32> = input.iter().map(Geometry::count).collect();
-        let level = vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL;
-        self.update(cmd, level, &geometries, &counts, scratch)
-    }
-
-    /// Moves the instances of a top level that was built `updatable`, recording into `cmd`.
-    ///
-    /// # Errors
-    /// As [`AccelerationStructure::update_bottom`].
-    pub fn update_top(
-        &self,
-        cmd: vk::CommandBuffer,
-        instances: &Buffer,
-        count: u32,
-        scratch: &Buffer,
-    ) -> Result<()> {
-        let level = vk::AccelerationStructureTypeKHR::TOP_LEVEL;
-        self.update(cmd, level, &[geometry::of_instances(instances.address)], &[count], scratch)
-    }
-
-    /// A scratch buffer for updates.
-    ///
-    /// # Errors
-    /// If memory is short.
-    pub fn update_scratch(&self) -> Result<Buffer> {
-        scratch_buffer(&self.gpu, self.update_scratch)
-    }
-
-    fn update(
-        &self,
-        cmd: vk::CommandBuffer,
-        level: vk::AccelerationStructureTypeKHR,
-        geometries: &[vk::AccelerationStructureGeometryKHR],
-        counts: &[u32],
-        scratch: &Buffer,
-    ) -> Result<()> {
-        ensure!(self.updatable, "'{}' was not built to be updated", self.name);
+    fn build(gpu: &Gpu, name: &str, input: Input, options: BuildOptions) -> Result<Self> {
+        let (geometries, counts) = (input.described(), input.counts());
         let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
-            .ty(level)
-            .flags(flags(BuildOptions { updatable: true, ..BuildOptions::default() }))
-            .mode(vk::BuildAccelerationStructureModeKHR::UPDATE)
-            .geometries(geometries)
-            .src_acceleration_structure(self.handle)
-            .dst_acceleration_structure(self.handle)
-            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
-        record_build(&self.gpu, cmd, info, counts);
-        Ok(())
-    }
-
-    fn build(
-        gpu: &Gpu,
-        name: &str,
-        level: vk::AccelerationStructureTypeKHR,
-        geometries: &[vk::AccelerationStructureGeometryKHR],
-        counts: &[u32],
-        options: BuildOptions,
-    ) -> Result<Self> {
-        let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
-            .ty(level)
+            .ty(input.level())
             .flags(flags(options))
             .mode(vk::BuildAccelerationStructureModeKHR::BUILD)
-            .geometries(geometries);
+            .geometries(&geometries);
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         // SAFETY: info and counts describe the same geometries.
         unsafe {
             gpu.acceleration_structure.get_acceleration_structure_build_sizes(
                 vk::AccelerationStructureBuildTypeKHR::DEVICE,
                 &info,
-                counts,
+                &counts,
                 &mut sizes,
             );
         }
-        let mut built = Self::empty(gpu, name, level, sizes.acceleration_structure_size)?;
-        built.updatable = options.updatable;
+        let size = sizes.acceleration_structure_size;
+        let mut built = Self::empty(gpu, name, input.shape(), options, size)?;
+        built.build_scratch = sizes.build_scratch_size;
         built.update_scratch = sizes.update_scratch_size;
         let scratch = scratch_buffer(gpu, sizes.build_scratch_size)?;
         let info = info
@@ -186,7 +118,7 @@ impl AccelerationStructure {
             .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
         let start = Instant::now();
         gpu.submit(|cmd| {
-            record_build(gpu, cmd, info, counts);
+            record_build(gpu, cmd, info, &counts);
             Ok(())
         })
         .with_context(|| format!("cannot build '{name}'"))?;
@@ -197,7 +129,8 @@ impl AccelerationStructure {
     fn empty(
         gpu: &Gpu,
         name: &str,
-        level: vk::AccelerationStructureTypeKHR,
+        shape: Shape,
+        options: BuildOptions,
         size: u64,
     ) -> Result<Self> {
         let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
@@ -205,7 +138,7 @@ impl AccelerationStructure {
         // An acceleration structure's offset in memory must be a multiple of 256 bytes.
         let buffer = Buffer::aligned(gpu, name, size, usage, 256)?;
         let info = vk::AccelerationStructureCreateInfoKHR::default()
-            .ty(level)
+            .ty(shape.level())
             .buffer(buffer.handle)
             .size(size);
         // SAFETY: the buffer is large enough and lives beside the structure.
@@ -222,9 +155,12 @@ impl AccelerationStructure {
             handle,
             address,
             size,
-            name: name.to_owned(),
-            updatable: false,
+            build_scratch: 0,
             update_scratch: 0,
+            name: name.to_owned(),
+            options,
+            shape,
+            build_size: size,
             _buffer: buffer,
             gpu: gpu.clone(),
         })
@@ -271,6 +207,7 @@ fn record_build(
         .iter()
         .map(|&count| vk::AccelerationStructureBuildRangeInfoKHR::default().primitive_count(count))
         .collect();
+    barrier::trace_to_build(gpu, cmd);
     barrier::between_builds(gpu, cmd);
     // SAFETY: every address in info belongs to a buffer that outlives the submission.
     unsafe {

@@ -52,22 +52,49 @@ pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, both));
 }
 
+/// What earlier traces read and wrote in a buffer comes before a transfer clears it.
+pub fn trace_to_fill(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
+    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), written);
+}
+
 /// A buffer cleared or filled by a transfer becomes visible to the trace that adds to it.
 pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;
     memory(gpu, cmd, (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE), (TRACE, both));
 }
 
-/// Earlier traces have read a buffer before a recorded update changes it.
-pub fn trace_to_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    // Nothing was written that the update would have to see: waiting is enough.
-    memory(gpu, cmd, (TRACE, Access::NONE), (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE));
+/// Earlier traces have read an acceleration structure before a build or an update changes it.
+pub fn trace_to_build(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    // Nothing was written that the build would have to see: waiting is enough.
+    let written = Access::ACCELERATION_STRUCTURE_WRITE_KHR;
+    memory(gpu, cmd, (TRACE, Access::NONE), (BUILD, written));
 }
 
-/// What was recorded into a buffer becomes visible to the traces that read it.
-pub fn update_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
+/// Earlier traces and builds have read vertices before a compute shader moves them.
+pub fn trace_to_deform(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = Access::SHADER_STORAGE_WRITE;
+    memory(gpu, cmd, (TRACE | BUILD, Access::NONE), (Stage::COMPUTE_SHADER, written));
+}
+
+/// Vertices that a compute shader has moved become visible to builds, which read their input as shaders do,
+/// and to the hit shaders of later traces.
+pub fn deform_to_build(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::COMPUTE_SHADER, Access::SHADER_STORAGE_WRITE);
+    memory(gpu, cmd, written, (BUILD | TRACE, Access::SHADER_READ));
+}
+
+/// Earlier traces and builds have read a buffer before a recorded update changes it.
+pub fn reads_to_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    // Nothing was written that the update would have to see: waiting is enough.
     let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
-    memory(gpu, cmd, written, (TRACE, Access::SHADER_STORAGE_READ));
+    memory(gpu, cmd, (TRACE | BUILD, Access::NONE), written);
+}
+
+/// What was recorded into a buffer becomes visible to the traces and the builds that read it.
+pub fn update_to_reads(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
+    memory(gpu, cmd, written, (TRACE | BUILD, Access::SHADER_READ));
 }
 
 /// Earlier traces are done with the shader binding table before a transfer changes it.

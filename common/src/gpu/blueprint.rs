@@ -1,21 +1,18 @@
 //! What a pipeline is made from, as plain data: enough to make it once more, on another device too.
 
+mod graphics;
+
 use anyhow::{Result, bail};
 use ash::{Device, khr, vk};
 use serde::{Deserialize, Serialize};
 
-/// The stages that a push constant or descriptor is visible in.
-pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::RAYGEN_KHR.as_raw()
-        | vk::ShaderStageFlags::MISS_KHR.as_raw()
-        | vk::ShaderStageFlags::CLOSEST_HIT_KHR.as_raw()
-        | vk::ShaderStageFlags::ANY_HIT_KHR.as_raw()
-        | vk::ShaderStageFlags::INTERSECTION_KHR.as_raw()
-        | vk::ShaderStageFlags::CALLABLE_KHR.as_raw()
-        | vk::ShaderStageFlags::COMPUTE.as_raw(),
-);
+pub use graphics::Attachments;
 
-/// A pipeline before any driver has seen it: without groups, a compute pipeline of its one stage. Vulkan's enumerations and flags are their numbers.
+/// The stages that a push constant or descriptor is visible in.
+pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL;
+
+/// A pipeline before any driver has seen it: with attachments a graphics pipeline, with groups one that
+/// traces rays, else a compute pipeline of its one stage. Vulkan's enumerations and flags are their numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Blueprint {
     /// The pipeline's name.
@@ -24,6 +21,8 @@ pub struct Blueprint {
     pub stages: Vec<Stage>,
     /// The shader groups: raygen, miss, hit, callable.
     pub groups: Vec<Group>,
+    /// What a graphics pipeline draws to.
+    pub attachments: Option<Attachments>,
     /// Specialization constants, given to every stage: number and value.
     pub constants: Vec<(u32, u32)>,
     /// The descriptor type of each binding of set 0, which holds push descriptors.
@@ -67,9 +66,10 @@ pub struct Group {
 impl Blueprint {
     /// What the pipeline is bound as.
     pub fn bind_point(&self) -> vk::PipelineBindPoint {
-        match self.groups.is_empty() {
-            true => vk::PipelineBindPoint::COMPUTE,
-            false => vk::PipelineBindPoint::RAY_TRACING_KHR,
+        match (&self.attachments, self.groups.is_empty()) {
+            (Some(_), _) => vk::PipelineBindPoint::GRAPHICS,
+            (None, true) => vk::PipelineBindPoint::COMPUTE,
+            (None, false) => vk::PipelineBindPoint::RAY_TRACING_KHR,
         }
     }
 
@@ -161,6 +161,10 @@ impl Blueprint {
             }
             let flags = vk::PipelineCreateFlags::from_raw(self.flags) | flags;
             let pipelines = match (self.bind_point(), &infos[..]) {
+                (vk::PipelineBindPoint::GRAPHICS, stages) => {
+                    let attachments = self.attachments.clone().unwrap_or_default();
+                    attachments.pipeline(device, stages, layout, cache, flags)
+                }
                 (vk::PipelineBindPoint::COMPUTE, [stage]) => {
                     let info = [vk::ComputePipelineCreateInfo::default()
                         .flags(flags)

@@ -174,7 +174,8 @@ impl Buffer {
         })
     }
 
-    /// Records that the buffer begins with `data` for the traces that follow in `cmd`; nothing waits.
+    /// Records that the buffer begins with `data` for the traces and builds that follow in `cmd`; the host does
+    /// not wait.
     ///
     /// For what changes from frame to frame and is small, as the commands hold a copy of it: a multiple of
     /// 4 bytes, into a buffer made with `TRANSFER_DST`.
@@ -189,14 +190,22 @@ impl Buffer {
             "{size} bytes cannot be recorded for a buffer of {} bytes",
             self.size
         );
-        barrier::trace_to_update(&self.gpu, cmd);
+        barrier::reads_to_update(&self.gpu, cmd);
         for (number, part) in bytes.chunks(MOST_UPDATED).enumerate() {
             let offset = (number * MOST_UPDATED) as u64;
             // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
             unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, offset, part) };
         }
-        barrier::update_to_trace(&self.gpu, cmd);
+        barrier::update_to_reads(&self.gpu, cmd);
         Ok(())
+    }
+
+    /// Records that all of it is 0 for the traces that follow in `cmd`; made with `TRANSFER_DST`.
+    pub fn clear(&self, cmd: vk::CommandBuffer) {
+        barrier::trace_to_fill(&self.gpu, cmd);
+        // SAFETY: cmd is being recorded on this device, and the buffer outlives the submission.
+        unsafe { self.gpu.device.cmd_fill_buffer(cmd, self.handle, 0, vk::WHOLE_SIZE, 0) };
+        barrier::fill_to_trace(&self.gpu, cmd);
     }
 
     /// The content as a vector of `T`, copied back through a mapped buffer.

@@ -135,6 +135,19 @@ fn judge(
     if candidate.queue_family.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }
+    if wanted.raster {
+        // SAFETY: as above.
+        let depth = unsafe {
+            instance.get_physical_device_format_properties(handle, vk::Format::D32_SFLOAT)
+        };
+        let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+        let needed = [
+            ("a queue with graphics", candidate.graphics),
+            ("depth in D32_SFLOAT", depth.optimal_tiling_features.contains(drawn)),
+        ];
+        let lacking = needed.iter().filter(|(_, has)| !has);
+        candidate.missing.extend(lacking.map(|(what, _)| (*what).to_owned()));
+    }
     Ok(candidate)
 }
 

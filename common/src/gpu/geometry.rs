@@ -1,9 +1,11 @@
 //! What acceleration structures are built from: triangles, boxes, instances.
 
+use std::fmt::{Display, Formatter};
+
 use ash::vk;
 
 /// What a bottom level is built from.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub enum Geometry {
     /// Indexed triangles: three `u32` each, over positions of three `f32`.
     Triangles {
@@ -38,6 +40,25 @@ impl Geometry {
     pub fn count(&self) -> u32 {
         let (Self::Triangles { count, .. } | Self::Aabbs { count, .. }) = *self;
         count
+    }
+
+    /// What of it an update must not change: all but where it lies.
+    pub(super) fn without_addresses(&self) -> Self {
+        match *self {
+            Self::Triangles { vertex_count, count, opaque, no_duplicate_any_hit, .. } => {
+                let (vertices, indices, vertex_stride) = (0, 0, 0);
+                Self::Triangles {
+                    vertices,
+                    vertex_stride,
+                    vertex_count,
+                    indices,
+                    count,
+                    opaque,
+                    no_duplicate_any_hit,
+                }
+            }
+            Self::Aabbs { count, opaque, .. } => Self::Aabbs { boxes: 0, count, opaque },
+        }
     }
 
     /// As Vulkan takes it.
@@ -88,6 +109,20 @@ impl Geometry {
             .geometry_type(kind)
             .geometry(data)
             .flags(flags)
+    }
+}
+
+impl Display for Geometry {
+    /// What of it an update must not change.
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let opaque = |opaque: bool| if opaque { "opaque" } else { "not opaque" };
+        match *self {
+            Self::Triangles { vertex_count, count, opaque: is, no_duplicate_any_hit, .. } => {
+                let once = if no_duplicate_any_hit { ", each any-hit once" } else { "" };
+                write!(f, "{count} triangles of {vertex_count} vertices, {}{once}", opaque(is))
+            }
+            Self::Aabbs { count, opaque: is, .. } => write!(f, "{count} boxes, {}", opaque(is)),
+        }
     }
 }
 

@@ -1,4 +1,5 @@
-//! A two-dimensional image: the picture that rays write, or a texture that they read.
+//! A two-dimensional image: the picture that rays write, a texture that they read, or what a rasteriser
+//! draws to.
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
@@ -113,6 +114,33 @@ impl Image {
         Self::new(gpu, name, extent, format, view_format, usage)
     }
 
+    /// An image that is drawn to, for colour or depth as its format says, and for what else `usage` names;
+    /// its layout is undefined.
+    ///
+    /// # Errors
+    /// If a side is 0 or above the device's limit for attachments, or memory is short.
+    pub fn attachment(
+        gpu: &Gpu,
+        name: &str,
+        extent: vk::Extent2D,
+        format: vk::Format,
+        usage: vk::ImageUsageFlags,
+    ) -> Result<Self> {
+        let limit = gpu.limits.max_attachment_side;
+        ensure!(
+            extent.width.max(extent.height) <= limit,
+            "{}x{} is more than {} can draw to: each side must be at most {limit}",
+            extent.width,
+            extent.height,
+            gpu.name
+        );
+        let drawn = match aspect(format) {
+            vk::ImageAspectFlags::DEPTH => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            _ => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+        };
+        Self::new(gpu, name, extent, format, format, usage | drawn)
+    }
+
     fn new(
         gpu: &Gpu,
         name: &str,
@@ -164,7 +192,7 @@ impl Image {
             .image(handle)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(view_format)
-            .subresource_range(whole());
+            .subresource_range(image.range());
         // SAFETY: the allocation was made for this image and is freed after it.
         unsafe {
             gpu.device.bind_image_memory(handle, allocation.memory(), allocation.offset())?;
@@ -174,6 +202,11 @@ impl Image {
         gpu.name_object(handle, name);
         gpu.name_object(image.view, name);
         Ok(image)
+    }
+
+    /// The one mip level and layer, of colour or depth.
+    pub fn range(&self) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange { aspect_mask: aspect(self.format), ..whole() }
     }
 
     /// Changes the layout; everything before is done, and visible to everything after.
@@ -253,7 +286,15 @@ pub fn transition(
     unsafe { gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
 }
 
-/// The one mip level and layer that every image here has.
+/// What a texel of this format is: depth or colour.
+fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
+    match format {
+        vk::Format::D16_UNORM | vk::Format::D32_SFLOAT => vk::ImageAspectFlags::DEPTH,
+        _ => vk::ImageAspectFlags::COLOR,
+    }
+}
+
+/// The one mip level and layer that every image of colour here has.
 pub fn whole() -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange::default()
         .aspect_mask(vk::ImageAspectFlags::COLOR)

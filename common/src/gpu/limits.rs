@@ -35,6 +35,10 @@ pub struct Limits {
     pub max_primitive_count: u64,
     /// The largest side of a two-dimensional image.
     pub max_image_dimension: u32,
+    /// The largest side of an image that is drawn to.
+    pub max_attachment_side: u32,
+    /// Bits of a pixel's fraction that the rasteriser rounds a vertex to.
+    pub sub_pixel_precision_bits: u32,
     /// The most bytes of push constants.
     pub max_push_constants_size: u32,
     /// The most textures of a table: descriptors that may be written after they are bound.
@@ -115,6 +119,11 @@ impl Limits {
             max_instance_count: acceleration.max_instance_count,
             max_primitive_count: acceleration.max_primitive_count,
             max_image_dimension: core.max_image_dimension2_d,
+            max_attachment_side: [core.max_framebuffer_width, core.max_framebuffer_height]
+                .into_iter()
+                .chain(core.max_viewport_dimensions)
+                .fold(core.max_image_dimension2_d, u32::min),
+            sub_pixel_precision_bits: core.sub_pixel_precision_bits,
             max_push_constants_size: core.max_push_constants_size,
             // Set 0 has resources, too: at most as many as there are push descriptors.
             max_textures: [

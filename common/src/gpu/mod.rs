@@ -33,9 +33,9 @@ mod timing;
 mod validation;
 mod variants;
 
-pub use accel::{AccelerationStructure, BuildOptions};
+pub use accel::{AccelerationStructure, BuildOptions, Input};
 pub use arithmetic::Arithmetic;
-pub use blueprint::{Blueprint, Group, Stage};
+pub use blueprint::{Attachments, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions};
@@ -49,8 +49,8 @@ pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLay
 pub use limits::Limits;
 pub use margin::{margin, padded};
 pub use pipeline::{
-    Band, Binding, ComputePipeline, Descriptor, HitGroup, Pipeline, PipelineBuilder,
-    RayTracingPipeline,
+    Band, Binding, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,
+    PipelineBuilder, RayTracingPipeline,
 };
 pub use pipeline_cache::PipelineCache;
 pub use reflection::{Bound, Reflection};

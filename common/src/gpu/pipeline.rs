@@ -2,6 +2,7 @@
 
 mod builder;
 mod compute;
+mod graphics;
 mod stages;
 
 use std::ops::Deref;
@@ -13,6 +14,7 @@ use ash::vk;
 
 pub use builder::PipelineBuilder;
 pub use compute::{Band, ComputePipeline};
+pub use graphics::GraphicsPipeline;
 pub use stages::HitGroup;
 
 use super::blueprint::{Blueprint, STAGES};

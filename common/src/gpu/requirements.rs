@@ -121,6 +121,8 @@ pub struct Requirements {
     pub recursion: u32,
     /// The most bytes of push constants that a pipeline of the sample has.
     pub push_constants: u32,
+    /// A queue with graphics, and depth in 32-bit floats.
+    pub raster: bool,
     exact_floats: bool,
     list: Vec<Requirement>,
     wishes: Vec<Requirement>,
@@ -137,6 +139,7 @@ impl Requirements {
         Self {
             recursion: 1,
             push_constants: 128,
+            raster: false,
             exact_floats: false,
             list: vec![
                 requirement!(
@@ -221,6 +224,14 @@ impl Requirements {
     /// Rays that any stage traces by itself, without a ray tracing pipeline.
     pub fn ray_query(mut self) -> Self {
         self.list.push(requirement!(Some(khr::ray_query::NAME), "rayQuery", ray_query.ray_query));
+        self
+    }
+
+    /// Triangles that are drawn: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit
+    /// floats, which the specification does not promise (it promises that or `X8_D24_UNORM_PACK32`).
+    pub fn raster(mut self) -> Self {
+        self.raster = true;
+        self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
         self
     }
 

@@ -6,7 +6,9 @@ use std::thread::JoinHandle;
 
 use anyhow::{Context, Result, anyhow};
 
-use super::{ComputePipeline, Gpu, RayTracingPipeline, ShaderBindingTable, TextureTable};
+use super::{
+    ComputePipeline, Gpu, GraphicsPipeline, RayTracingPipeline, ShaderBindingTable, TextureTable,
+};
 
 /// A kind of pipeline, and the table that a launch of it needs.
 pub trait Launch: Sized + Send + 'static {
@@ -29,6 +31,14 @@ impl Launch for RayTracingPipeline {
 }
 
 impl Launch for ComputePipeline {
+    type Table = ();
+
+    fn table(&self, _: &Gpu) -> Result<()> {
+        Ok(())
+    }
+}
+
+impl Launch for GraphicsPipeline {
     type Table = ();
 
     fn table(&self, _: &Gpu) -> Result<()> {

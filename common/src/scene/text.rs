@@ -4,10 +4,12 @@
 //! opened only inside the folder of the OBJ file.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
@@ -18,7 +20,7 @@ const STATEMENT_BYTES: usize = 64 << 10;
 const NAME_BYTES: usize = 1024;
 
 /// A text file in memory.
-pub(super) struct Text {
+pub struct Text {
     /// The path as error messages show it.
     pub shown: String,
     bytes: Vec<u8>,
@@ -49,11 +51,29 @@ impl Text {
     }
 }
 
+/// Every file that was opened: what a picture depends on.
+static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// The files that [`open`] has opened, in this process.
+pub fn opened() -> Vec<PathBuf> {
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+}
+
+/// Opens a file of a scene as [`regular`] does, and takes note of it.
+///
+/// # Errors
+/// As [`regular`].
+pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
+    let file = regular(path, shown, limit)?;
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned());
+    Ok(file)
+}
+
 /// Opens a regular file of at most `limit` bytes; a pipe or a device could deliver without end.
 ///
 /// # Errors
 /// If it is missing, larger, or no regular file.
-pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
+pub fn regular(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => anyhow!("{shown}: there is no such file"),
         _ => anyhow!("{shown}: cannot be read: {error}"),
@@ -69,7 +89,7 @@ pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
 }
 
 /// Goes through a text's statements, leaving out comments and empty lines.
-pub(super) struct Statements<'a> {
+pub struct Statements<'a> {
     shown: &'a str,
     rest: &'a [u8],
     line: usize,
@@ -121,7 +141,7 @@ impl<'a> Iterator for Statements<'a> {
 }
 
 /// A keyword and what follows it, with its place.
-pub(super) struct Statement<'a> {
+pub struct Statement<'a> {
     shown: &'a str,
     line: usize,
     text: Cow<'a, str>,
@@ -157,7 +177,7 @@ impl Statement<'_> {
 }
 
 /// What stands before a comment. Names may hold a `#` ("Material #25"), numbers never do.
-pub(super) fn uncommented(rest: &str) -> &str {
+pub fn uncommented(rest: &str) -> &str {
     rest.split('#').next().unwrap_or_default()
 }
 

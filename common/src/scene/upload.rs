@@ -17,6 +17,8 @@ pub struct SceneOnGpu {
     pub tlas: AccelerationStructure,
     /// One bottom level a mesh, in the model's order.
     pub blas: Vec<AccelerationStructure>,
+    /// Where each mesh lies, in the model's order: what the record of an instance says, but for its material.
+    pub meshes: Vec<InstanceRecord>,
     /// Every texture of the model.
     pub textures: Arc<TextureTable>,
     /// Where shaders find the rest.
@@ -108,13 +110,12 @@ impl SceneOnGpu {
             let mut placed = instances.iter().filter(|instance| instance.mesh == index);
             let opaque = placed.all(|instance| !model.materials[instance.material].has_cutout());
             let on_gpu = MeshOnGpu::new(gpu, mesh, opaque, options)?;
-            meshes.push(on_gpu.addresses);
+            meshes.push(InstanceRecord { mesh: index as u32, ..on_gpu.addresses });
             blas.push(on_gpu.blas);
             buffers.extend(on_gpu.buffers);
         }
         let records = instances.iter().map(|instance| InstanceRecord {
             material: instance.material as u32,
-            mesh: instance.mesh as u32,
             ..meshes[instance.mesh]
         });
         let records: Vec<_> = records.collect();
@@ -136,7 +137,7 @@ impl SceneOnGpu {
             instance_on_gpu(&instance.transform, index as usize, instance.record_offset, blas)
         });
         let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
-        Ok(Self { tlas, blas, textures, addresses, options, _buffers: buffers })
+        Ok(Self { tlas, blas, meshes, textures, addresses, options, _buffers: buffers })
     }
 }
 
@@ -158,7 +159,7 @@ pub fn build_top(
 }
 
 /// An instance as the device reads it: 64 bytes.
-fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
+pub fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
     let mut bytes = [0; 64];
     bytes[..48].copy_from_slice(bytemuck::bytes_of(&instance.transform.matrix));
     let packed = |p: vk::Packed24_8| (p.low_24() | u32::from(p.high_8()) << 24).to_ne_bytes();
@@ -219,7 +220,7 @@ pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer
 ///
 /// A device may offer a triangle more than once, unless that is ruled out: with the worst arithmetic each is
 /// in the list twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
-fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
+pub fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
     let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
     let is_twice = gpu.arithmetic.is_worst() && !options.no_duplicate_any_hit;
     let times = if is_twice { 2 } else { 1 };

@@ -46,6 +46,16 @@ pub fn length<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
     within(from, 1e-6, FAR)
 }
 
+/// As [`length`], where nothing may be said.
+pub fn maybe_length<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    length(from).map(Some)
+}
+
+/// A line's width in pixels.
+pub fn maybe_width<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    within(from, 0.0, 20.0).map(Some)
+}
+
 /// A coordinate.
 pub fn coordinate<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
     within(from, -FAR, FAR)

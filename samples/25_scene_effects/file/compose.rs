@@ -13,7 +13,7 @@ use super::description::{Board, Description, Piece, View};
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
-use crate::{Box, Composition, MAX_LIGHTS, Sphere};
+use crate::{Box, Composition, Finish, MAX_LIGHTS, Sphere};
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
@@ -31,7 +31,7 @@ impl Description {
         source.check(&self.boxes, MOST, "boxes")?;
         source.check(&self.solid, MOST, "solids")?;
         let mut model = self.model(path, source)?;
-        let materials = self.paint(&mut model.materials, source)?;
+        let (materials, finishes) = self.paint(&mut model.materials, source)?;
         let view = self.camera.get_ref();
         let View { eye, target, field_of_view } = *view;
         if eye.distance(target) < 1e-9 {
@@ -48,6 +48,7 @@ impl Description {
             found.map_err(|what| source.error(land.span().start, what))
         });
         let mut composition = Composition {
+            finishes,
             lights: lights.collect::<Result<_>>()?,
             plane: self.plane.as_ref().map(Board::plane),
             spheres: Vec::new(),
@@ -86,8 +87,13 @@ impl Description {
         obj::load(&path.with_file_name(&found.name))
     }
 
-    /// Adds and changes materials, and returns the number of each name.
-    fn paint(&self, materials: &mut Vec<Material>, source: &Source) -> Result<Numbers> {
+    /// Adds and changes materials, and returns the number of each name, and the finishes.
+    fn paint(
+        &self,
+        materials: &mut Vec<Material>,
+        source: &Source,
+    ) -> Result<(Numbers, Vec<Finish>)> {
+        let mut finishes = vec![Finish::NONE; materials.len()];
         let mut numbers = numbers(materials.iter().map(|material| &material.name));
         let mut painted = HashSet::new();
         for paint in &self.material {
@@ -98,11 +104,18 @@ impl Description {
             }
             let number = *numbers.entry(name.clone()).or_insert_with(|| {
                 materials.push(Material { name: name.clone(), ..Material::default() });
+                finishes.push(Finish::NONE);
                 materials.len() - 1
             });
             paint.get_ref().apply(&mut materials[number]);
+            let finish = paint.get_ref().finish();
+            finishes[number] = finish.map_err(|what| source.error(paint.span().start, what))?;
+            if finishes[number].pattern().is_some() {
+                // It takes the place of the material's colour, and so of what multiplies that.
+                materials[number].base_texture = None;
+            }
         }
-        Ok(numbers)
+        Ok((numbers, finishes))
     }
 
     /// Pieces where they are put, or every mesh where its file has it.
@@ -124,7 +137,7 @@ impl Description {
     }
 
     fn add_shapes(&self, to: &mut Composition, materials: &Numbers, source: &Source) -> Result<()> {
-        let model = &to.scene.model;
+        let model = (&to.scene.model, to.finishes.as_slice());
         for ball in self.sphere.iter().map(Spanned::get_ref) {
             let material = opaque(model, materials, &ball.material, source)?;
             to.spheres.push(Sphere { center: ball.center, radius: ball.radius, material });

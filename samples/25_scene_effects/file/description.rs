@@ -11,6 +11,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bounded;
+use crate::Pattern;
 
 /// A scene file as it stands.
 #[derive(Deserialize)]
@@ -115,6 +116,15 @@ pub(super) struct Paint {
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) opacity: Option<f32>,
     pub(super) mirror: Option<bool>,
+    pub(super) pattern: Option<Pattern>,
+    #[serde(default, deserialize_with = "bounded::maybe_color")]
+    pub(super) second: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_length")]
+    pub(super) scale: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_width")]
+    pub(super) lines: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_color")]
+    pub(super) ink: Option<Vec3>,
 }
 
 #[derive(Deserialize)]

@@ -8,6 +8,7 @@ use common::scene::text::quoted;
 use toml::Spanned;
 
 use super::source::Source;
+use crate::Finish;
 
 /// What is called by a name, by position: the first of several.
 pub(super) type Numbers = HashMap<String, usize>;
@@ -48,19 +49,21 @@ pub(super) fn find(
     })
 }
 
-/// A material of a shape, which no any-hit shader asks for holes or texture coordinates.
+/// A material of a shape, which no any-hit shader asks for holes or texture coordinates, and which has no
+/// edges of triangles.
 pub(super) fn opaque(
-    model: &Model,
+    (model, finishes): (&Model, &[Finish]),
     materials: &Numbers,
     name: &Spanned<String>,
     source: &Source,
 ) -> Result<u32> {
     let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
-    match material.has_cutout() || material.base_texture.is_some() {
+    let textured = material.has_cutout() || material.base_texture.is_some();
+    match textured || finishes[number].lines > 0.0 {
         true => {
             let what = format!(
-                "{} has holes or a texture, which only meshes can have",
+                "{} has holes, a texture or lines, which only meshes can have",
                 quoted(&material.name)
             );
             Err(source.error(name.span().start, &what))

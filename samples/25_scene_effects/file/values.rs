@@ -3,7 +3,7 @@
 use common::scene::{Light, Material, PointLight, Sun};
 
 use super::description::{Board, Kind, Lamp, Land, Paint};
-use crate::{BoardPlane, Heightfield, SceneLight};
+use crate::{BoardPlane, Finish, Heightfield, SceneLight};
 
 impl Lamp {
     pub(super) fn light(&self) -> Result<SceneLight, &'static str> {
@@ -68,5 +68,24 @@ impl Paint {
         if let Some(mirror) = self.mirror {
             material.illumination = if mirror { 3 } else { 2 };
         }
+    }
+
+    pub(super) fn finish(&self) -> Result<Finish, &'static str> {
+        let &Self { pattern, second, scale, lines, ink, .. } = self;
+        match (pattern, second, scale) {
+            (None, None, None) | (Some(_), Some(_), _) => {}
+            (Some(_), None, _) => return Err("a pattern has a `second` colour"),
+            _ => return Err("`second` and `scale` are of a `pattern`: marble, wood or checker"),
+        }
+        if lines.is_none() && ink.is_some() {
+            return Err("`ink` is the colour of `lines`, which are so many pixels wide");
+        }
+        Ok(Finish {
+            second: second.unwrap_or(Finish::NONE.second),
+            scale: scale.unwrap_or(Finish::NONE.scale),
+            ink: ink.unwrap_or(Finish::NONE.ink),
+            lines: lines.unwrap_or(Finish::NONE.lines),
+            pattern: pattern.map_or(Finish::NONE.pattern, u32::from),
+        })
     }
 }

@@ -1,12 +1,13 @@
 //! Rays of a view, what each rung makes of them, and a row of the page's table.
 
-use std::collections::BTreeMap;
+use std::fmt;
 
 use common::app::Picture;
 use common::gpu::ShaderEnum;
 use common::scene::Camera;
 use glam::DVec3;
 use reference::Ray;
+use serde_json::{Value, json};
 
 use super::ground::Landscape;
 use super::judged::{Exact, Verdict};
@@ -140,32 +141,56 @@ impl Marched {
             .map(|part| errors.get((errors.len() as f64 * part) as usize).copied().unwrap_or(0.0))
     }
 
-    pub fn row(&self) -> String {
-        let counts: BTreeMap<_, _> = self.0.iter().fold(BTreeMap::new(), |mut counts, march| {
-            *counts.entry(march.verdict).or_insert(0) += 1;
-            counts
-        });
-        let of = |verdict| counts.get(&verdict).copied().unwrap_or(0);
-        let [near, far, through, false_hits, lost] = [
-            Verdict::TooNear,
-            Verdict::TooFar,
-            Verdict::Through,
-            Verdict::FalseHit,
-            Verdict::FalseMiss,
-        ]
-        .map(of);
-        let [half, most] = self.errors();
-        format!(
-            "{:.1} | {} | {near} | {far} | {through} | {false_hits} | {lost} | {half:.1e} | {most:.1e}",
-            self.steps(),
-            self.right()
-        )
+    /// What stands in a row of the page's table.
+    pub fn row(&self) -> Row {
+        let count = |verdict| self.count(verdict);
+        Row {
+            steps: self.steps(),
+            right: self.right(),
+            wrong: [
+                ("too_near", count(Verdict::TooNear)),
+                ("too_far", count(Verdict::TooFar)),
+                ("through", count(Verdict::Through)),
+                ("false", count(Verdict::FalseHit)),
+                ("lost", count(Verdict::FalseMiss)),
+            ],
+            errors: self.errors(),
+        }
     }
 
     /// A map of the errors, in the colours of `show=error`.
     pub fn map(&self, width: u32) -> Picture {
         let pixels: Vec<_> = self.0.iter().map(color).collect();
         Picture { width, height: pixels.len() as u32 / width, pixels }
+    }
+}
+
+/// A row of the page's table.
+pub struct Row {
+    steps: f64,
+    right: usize,
+    wrong: [(&'static str, usize); 5],
+    errors: [f64; 2],
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { steps, right, wrong, errors: [half, most] } = self;
+        let wrong = wrong.map(|(_, count)| count.to_string()).join(" | ");
+        write!(f, "{steps:.1} | {right} | {wrong} | {half:.1e} | {most:.1e}")
+    }
+}
+
+impl Row {
+    /// Its figures, each named after the row.
+    pub fn figures(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
+        let Self { steps, right, wrong, errors: [half, most] } = self;
+        let first = [("steps", json!(steps)), ("right", json!(right))];
+        let wrong = wrong.map(|(name, count)| (name, json!(count)));
+        let last = [("p50", json!(half)), ("p99", json!(most))];
+        let row = row.replace(' ', "-");
+        let all = first.into_iter().chain(wrong).chain(last);
+        all.map(move |(name, value)| (format!("{row}.{name}"), value))
     }
 }
 

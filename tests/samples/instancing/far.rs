@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 use reference::transform::U;
+use run::figures;
+use serde_json::{Map, json};
 
 use super::formation::{self, SceneKind};
 use super::{SPECIMEN, ViewedScene, absolute, percent_changed, picture};
@@ -29,14 +31,25 @@ fn far_away_only_camera_relative_coordinates_keep_the_picture() {
             rows.push((coordinates == world, far, triangles, dark));
         }
     }
+    let (mut table, mut most) = (Map::new(), [0f64; 2]);
     for (is_world, far, triangles, dark) in rows {
-        let distance: f64 = far.trim_start_matches("far=").parse().unwrap();
+        let far = far.trim_start_matches("far=");
+        let distance: f64 = far.parse().unwrap();
+        if is_world {
+            table.insert(format!("{far}.triangles"), json!(triangles / 100.0));
+            table.insert(format!("{far}.shadows"), json!(dark / 100.0));
+        } else {
+            most = [most[0].max(triangles / 100.0), most[1].max(dark / 100.0)];
+        }
         if !is_world {
             assert!(triangles < 0.05 && dark < 0.05, "{far}: {triangles} {dark}");
         } else if distance >= 1e6 {
             assert!(triangles > 20.0 && dark > 5.0, "{far}: {triangles} {dark}");
         }
     }
+    table.insert("relative.triangles".to_owned(), json!(most[0]));
+    table.insert("relative.shadows".to_owned(), json!(most[1]));
+    figures::hold("09_instancing/coordinates", table.into());
 }
 
 #[test]
@@ -73,6 +86,7 @@ fn origin_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> 
 
 #[test]
 fn the_difference_first_keeps_the_object_space_origin() {
+    let mut table = Map::new();
     println!("| far | object ray | error, relative, most | parts of the bound |");
     for far in [0.0, 1e3, 1e6] {
         let viewed = ViewedScene::new(
@@ -91,6 +105,7 @@ fn the_difference_first_keeps_the_object_space_origin() {
             let worst = knights.clone().fold(0.0, |worst, (_, error, _)| f64::max(worst, *error));
             let part = knights.clone().fold(0.0, |worst, (.., part)| f64::max(worst, *part));
             println!("| {far} | {rung} | {worst:.1e} | {part:.1} |");
+            table.insert(format!("{far}.{rung}"), json!(worst));
             assert!(knights.count() > 300);
             if rung == "inverse" {
                 assert!(errors.iter().all(|(.., part)| *part <= 1.0), "{far}: {part}");
@@ -99,4 +114,5 @@ fn the_difference_first_keeps_the_object_space_origin() {
             }
         }
     }
+    figures::hold("09_instancing/object_ray", table.into());
 }

@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 use reference::transform::U;
+use run::figures;
+use serde_json::{Map, json};
 
 use super::formation::{self, SceneKind};
 use super::{SPECIMEN, ViewedScene, absolute, picture};
@@ -29,6 +31,7 @@ fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> 
 
 #[test]
 fn normals_turn_with_the_inverse_transpose() {
+    let mut table = Map::new();
     println!("| far | normals | off by, in degrees, at most |");
     for far in [0.0, 1e6] {
         let viewed = ViewedScene::new(
@@ -42,7 +45,9 @@ fn normals_turn_with_the_inverse_transpose() {
             let (far_set, set) = (format!("far={far}"), format!("normals={normals}"));
             let errors = normal_errors(&viewed, &["coordinates=world", &far_set, &set]);
             let worst = errors.iter().fold(0.0, |worst, &(_, sine, _)| f64::max(worst, sine));
-            println!("| {far} | {normals} | {:.1e} |", worst.asin().to_degrees());
+            let degrees = worst.asin().to_degrees();
+            println!("| {far} | {normals} | {degrees:.1e} |");
+            table.insert(format!("{far}.{}", normals.replace(' ', "-")), json!(degrees));
             assert!(errors.len() > 2000, "{}", errors.len());
             // The specification says nothing of the device's, so nothing is asked of it.
             if normals == "host inverse" {
@@ -61,6 +66,10 @@ fn normals_turn_with_the_inverse_transpose() {
         }
     }
     println!("by the matrix, in degrees: {most:.5?}");
+    figures::hold("09_instancing/normals", table.into());
+    let of_knight = |(knight, degrees): (usize, &f64)| (knight.to_string(), json!(degrees));
+    let by_matrix: Map<_, _> = most.iter().enumerate().skip(2).map(of_knight).collect();
+    figures::hold("09_instancing/by_matrix", by_matrix.into());
     let (rigid, deformed) = most.split_at(2);
     assert!(rigid.iter().all(|&degrees| degrees < 1e-4), "{most:?}");
     assert!(deformed.iter().all(|&degrees| degrees > 15.0), "{most:?}");

@@ -43,7 +43,9 @@ const CAMERA: [(&str, &str); 9] = [
     ("1 … 9", "bookmark · Ctrl stores"),
 ];
 
-const WINDOW: [(&str, &str); 5] = [
+const WINDOW: [(&str, &str); 7] = [
+    ("Space", "play, pause"),
+    (",  .", "a frame back, forward"),
     ("F1  H  ?", "this help"),
     ("F2  P", "write the picture (PNG)"),
     ("F5", "reload shaders · also on save"),

@@ -18,6 +18,7 @@ mod reload;
 mod rows;
 mod session;
 mod style;
+mod transport;
 mod view;
 
 use anyhow::{Context, Result, anyhow};

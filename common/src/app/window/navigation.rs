@@ -4,6 +4,7 @@ use egui::{InputState, Key, PointerButton, Response};
 use glam::{DQuat, DVec2, DVec3};
 
 use super::bookmarks::Bookmarks;
+use super::transport::Transport;
 use crate::scene::Camera;
 
 /// How far a drag over the whole height of the window turns: half a circle.
@@ -80,6 +81,8 @@ fn turned(camera: &Camera, arm: DVec3, drag: DVec2, rise: f64) -> DVec3 {
 
 /// Reads the hand, remembers places, moves the camera.
 pub struct Navigation {
+    /// The hand on an animation.
+    pub transport: Transport,
     motion: Motion,
     home: Option<Camera>,
     go_home: bool,
@@ -92,7 +95,8 @@ impl Navigation {
     /// Navigation with the bookmarks of the chapter `name`.
     pub fn new(name: &str) -> Self {
         let (motion, bookmarks) = (Motion::default(), Bookmarks::open(name));
-        Self { motion, home: None, go_home: false, store: None, recall: None, bookmarks }
+        let transport = Transport::default();
+        Self { transport, motion, home: None, go_home: false, store: None, recall: None, bookmarks }
     }
 
     /// The next camera seen is the chapter's own, to come back to.

@@ -95,6 +95,7 @@ impl Panel {
         // While a number is being typed, keys are its digits.
         if !context.text_edit_focused() {
             context.input(|input| self.navigation.keys(input));
+            context.input_mut(|input| self.navigation.transport.keys(input));
             outcome.asked = keys::asked(&context);
             outcome.asked.retain(|ask| !self.answer(*ask));
         }

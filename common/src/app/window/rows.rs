@@ -5,6 +5,7 @@ use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
 
 use super::navigation::Navigation;
 use super::{dots, style};
+use crate::app::Playback;
 use crate::app::chart::Chart;
 use crate::app::controls::{Value, Visit};
 use crate::scene::Camera;
@@ -65,6 +66,16 @@ impl Visit for Rows<'_> {
         moved | zoomed | placed
     }
 
+    fn playback(&mut self, playback: &mut Playback) -> bool {
+        let stepped = self.navigation.transport.apply(playback);
+        let moved = self.visit("frame", Value::Integer(&mut playback.frame, 0..=playback.last));
+        self.ui.label("");
+        self.navigation.transport.buttons(self.ui, playback);
+        self.ui.end_row();
+        self.changed |= stepped;
+        stepped | moved
+    }
+
     fn chart(&mut self, chart: &Chart) {
         self.ui.colored_label(style::DIM, chart.name);
         dots::show(self.ui, chart, WIDGETS);
@@ -90,6 +101,12 @@ impl<'a> Hidden<'a> {
 impl Visit for Hidden<'_> {
     fn visit(&mut self, _: &str, _: Value) -> bool {
         false
+    }
+
+    fn playback(&mut self, playback: &mut Playback) -> bool {
+        let moved = self.navigation.transport.apply(playback);
+        self.changed |= moved;
+        moved
     }
 
     fn camera(&mut self, camera: &mut Camera) -> bool {

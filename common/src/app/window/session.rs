@@ -282,6 +282,7 @@ impl<S: Sample> Session<S> {
                 Some(now)
             }
             Stepped::Part => Some(now),
+            Stepped::Kept(_) if self.view.plays() => Some(now),
             Stepped::Kept(until) => until,
         };
         let resting = picture_at.is_none();

@@ -9,6 +9,7 @@ use ash::vk;
 use super::facts::Facts;
 use super::pace::{Pace, Step};
 use crate::app::bands::Bands;
+use crate::app::playback::Clock;
 use crate::app::{Picture, Sample};
 use crate::gpu::{Gpu, Image, Timer};
 
@@ -32,6 +33,7 @@ pub struct View<S> {
     /// Whether a change began it: then it is small.
     is_preview: bool,
     pace: Pace,
+    clock: Clock,
     timer: Timer,
     index: u32,
     changed: bool,
@@ -73,6 +75,7 @@ impl<S: Sample> View<S> {
             spent: 0.0,
             is_preview: true,
             pace: Pace::new(gpu.software, Instant::now()),
+            clock: Clock::default(),
             timer: Timer::new(gpu)?,
             index: 0,
             changed: true,
@@ -143,6 +146,7 @@ impl<S: Sample> View<S> {
             }
             return self.go_on();
         }
+        self.go_on_in_time();
         let busy = self.gpu.is_building();
         let improves = self.sample.accumulates() || busy;
         let now = Instant::now();
@@ -178,6 +182,24 @@ impl<S: Sample> View<S> {
         Ok(Stepped::Part)
     }
 
+    /// Whether the next picture is due because time goes on.
+    pub fn plays(&mut self) -> bool {
+        self.sample.playback().is_some_and(|playback| playback.playing)
+    }
+
+    /// Shows the frame that time has come to. A picture that was begun is finished first: all of it shows one
+    /// moment.
+    fn go_on_in_time(&mut self) {
+        let now = Instant::now();
+        if !self.plays() {
+            return self.clock.stop();
+        }
+        let frames = self.clock.frames(now);
+        if self.sample.playback().is_some_and(|playback| playback.advance(frames)) {
+            self.pace.change(now);
+        }
+    }
+
     fn begin(&mut self, extent: vk::Extent2D) -> Result<()> {
         if self.next.extent != extent {
             self.next = Image::storage(&self.gpu, "next picture", extent)?;
@@ -196,7 +218,8 @@ impl<S: Sample> View<S> {
     /// Traces a band; whether the picture is whole.
     fn trace_band(&mut self) -> Result<bool> {
         let device = (&self.gpu, &self.timer);
-        let took = self.bands.trace(&mut self.sample, device, (&self.next, self.index))?;
+        let frame = (&self.next, self.index, self.index);
+        let took = self.bands.trace(&mut self.sample, device, frame)?;
         self.spent += took.unwrap_or_default();
         Ok(self.bands.next().is_none())
     }

@@ -11,11 +11,12 @@ impl AccelerationStructure {
     ///
     /// # Errors
     /// If memory is short or the device fails.
-    pub(super) fn compacted(self, level: vk::AccelerationStructureTypeKHR) -> Result<Self> {
+    pub(super) fn compacted(self) -> Result<Self> {
         let gpu = &self.gpu;
         let size = self.compacted_size()?;
-        let mut small = Self::empty(gpu, &self.name, level, size)?;
-        small.updatable = self.updatable;
+        let mut small = Self::empty(gpu, &self.name, self.shape.clone(), self.options, size)?;
+        small.build_size = self.build_size;
+        small.build_scratch = self.build_scratch;
         small.update_scratch = self.update_scratch;
         let info = vk::CopyAccelerationStructureInfoKHR::default()
             .src(self.handle)

@@ -7,8 +7,8 @@ use anyhow::{Context, Result, ensure};
 use ash::vk;
 
 use super::stages::{HitGroup, Stages, general};
-use super::{Binding, ComputePipeline, Pipeline, RayTracingPipeline};
-use crate::gpu::blueprint::{Blueprint, Group, Stage};
+use super::{Binding, ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
+use crate::gpu::blueprint::{Attachments, Blueprint, Group, Stage};
 use crate::gpu::enumeration::ShaderConstant;
 use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
 use crate::gpu::reflection::Reflection;
@@ -16,8 +16,8 @@ use crate::gpu::shader::Shader;
 use crate::gpu::texture::TextureTable;
 use crate::gpu::{Arithmetic, Executable, Gpu};
 
-/// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`] or
-/// [`ComputePipeline::builder`].
+/// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`],
+/// [`ComputePipeline::builder`] or [`GraphicsPipeline::builder`].
 pub struct PipelineBuilder<'a> {
     name: &'a str,
     raygen: Vec<&'a str>,
@@ -26,6 +26,8 @@ pub struct PipelineBuilder<'a> {
     callable: Vec<&'a str>,
     compute: Option<&'a str>,
     workgroup: [u32; 2],
+    raster: Vec<&'a str>,
+    attachments: Attachments,
     bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
     push: Option<StructLayout>,
@@ -47,6 +49,8 @@ impl<'a> PipelineBuilder<'a> {
             callable: Vec::new(),
             compute: None,
             workgroup: [1, 1],
+            raster: Vec::new(),
+            attachments: Attachments::default(),
             bindings: Vec::new(),
             textures: None,
             push: None,
@@ -94,6 +98,30 @@ impl<'a> PipelineBuilder<'a> {
     pub fn workgroup(mut self, id: u32, size: [u32; 2]) -> Self {
         self.workgroup = size;
         self.constants.extend([(id, size[0]), (id + 1, size[1])]);
+        self
+    }
+
+    /// Sets the vertex shader.
+    pub fn vertex(mut self, shader: &'a str) -> Self {
+        self.raster.insert(0, shader);
+        self
+    }
+
+    /// Sets the fragment shader.
+    pub fn fragment(mut self, shader: &'a str) -> Self {
+        self.raster.push(shader);
+        self
+    }
+
+    /// Adds the next colour attachment, which takes the place of what was there: nothing is blended.
+    pub fn color(mut self, format: vk::Format) -> Self {
+        self.attachments.colors.push(format.as_raw());
+        self
+    }
+
+    /// Sets the depth attachment, and what a fragment's depth has to be against the one that is there.
+    pub fn depth(mut self, format: vk::Format, compare: vk::CompareOp) -> Self {
+        self.attachments.depth = Some((format.as_raw(), compare.as_raw()));
         self
     }
 
@@ -196,7 +224,8 @@ impl<'a> PipelineBuilder<'a> {
         }
         let shaders = stages.shaders;
         let count = [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()];
-        Ok(RayTracingPipeline { groups: count, pipeline: self.make(gpu, start, shaders, groups)? })
+        let pipeline = self.make(gpu, start, shaders, groups, None)?;
+        Ok(RayTracingPipeline { groups: count, pipeline })
     }
 
     /// Compiles the compute shader and makes the pipeline.
@@ -218,7 +247,30 @@ impl<'a> PipelineBuilder<'a> {
         let mut stages = self.stages(gpu);
         stages.add(shader)?;
         let shaders = stages.shaders;
-        Ok(ComputePipeline { workgroup, pipeline: self.make(gpu, start, shaders, Vec::new())? })
+        let pipeline = self.make(gpu, start, shaders, Vec::new(), None)?;
+        Ok(ComputePipeline { workgroup, pipeline })
+    }
+
+    /// Compiles the vertex and the fragment shader and makes the pipeline.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build); if there is no vertex or no fragment shader.
+    pub fn build_graphics(self, gpu: &Gpu) -> Result<GraphicsPipeline> {
+        let start = Instant::now();
+        let mut stages = self.stages(gpu);
+        for shader in &self.raster {
+            stages.add(shader)?;
+        }
+        let shaders = stages.shaders;
+        let kinds: Vec<_> = shaders.iter().map(|shader| shader.stage).collect();
+        ensure!(
+            kinds == [vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT],
+            "pipeline '{}' has the stages {kinds:?}; a vertex and a fragment shader are right",
+            self.name
+        );
+        let attachments = Some(self.attachments.clone());
+        let pipeline = self.make(gpu, start, shaders, Vec::new(), attachments)?;
+        Ok(GraphicsPipeline { pipeline })
     }
 
     fn stages(&self, gpu: &Gpu) -> Stages<'_> {
@@ -231,13 +283,14 @@ impl<'a> PipelineBuilder<'a> {
         }
     }
 
-    /// The pipeline of these shaders; without groups it is a compute pipeline.
+    /// The pipeline of these shaders; without groups and attachments it is a compute pipeline.
     fn make(
         &self,
         gpu: &Gpu,
         start: Instant,
         shaders: Vec<Shader>,
         groups: Vec<Group>,
+        attachments: Option<Attachments>,
     ) -> Result<Pipeline> {
         let push_size = self.push.map_or(0, |push| push.size);
         let most = gpu.requirements.push_constants;
@@ -266,6 +319,7 @@ impl<'a> PipelineBuilder<'a> {
             name: self.name.to_owned(),
             stages: shaders.into_iter().map(stage).collect(),
             groups,
+            attachments,
             constants: self.constants.clone(),
             bindings: self.bindings.iter().map(|kind| kind.descriptor_type().as_raw()).collect(),
             textures: self.textures.map(TextureTable::count),

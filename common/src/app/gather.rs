@@ -1,0 +1,281 @@
+//! A long render: samples of one picture, added up exactly, kept in a file, and gone on with another day.
+//!
+//! A frame is one sample of every pixel, found from its number alone. A compute shader adds it to the sums
+//! of all. So it does not matter who renders which sample, when, or in how many pieces.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use ash::vk;
+use glam::UVec2;
+
+use super::args::Args;
+use super::interrupt::{Interrupt, Stopped};
+use super::samples::Samples;
+use super::sums::{Header, Origin, Spoiled, Sums};
+use super::{Sample, controls, output};
+use crate::gpu::{
+    Address, Binding, Blueprint, Buffer, ComputePipeline, Descriptor, Gpu, Image, barrier,
+};
+use crate::scene::text::{opened, shown};
+use crate::usage::Usage;
+
+/// Width and height of a workgroup.
+const WORKGROUP: [u32; 2] = [8, 8];
+
+crate::shader_struct! {
+    /// What the shader that adds up is told.
+    struct Push {
+        sums: Address,
+        size: UVec2,
+    }
+}
+
+/// Sums on the device, and what is to become of them.
+pub struct Gather {
+    header: Header,
+    /// What is still to be rendered.
+    missing: Samples,
+    sums: Buffer,
+    pipeline: ComputePipeline,
+    /// The file, and how often it is written.
+    save: Option<(PathBuf, Duration)>,
+    saved: Instant,
+    interrupt: Option<Interrupt>,
+    /// What is gone on with, for messages.
+    resumed: String,
+    shaders_checked: bool,
+}
+
+/// Reads what `--resume` names, and refuses before the work what would be refused after it.
+///
+/// # Errors
+/// If that is no file of sums, or `--save` would write over samples that are not resumed.
+pub fn resumed(args: &Args) -> Result<Option<Sums>> {
+    let (save, resume) = (args.save.as_deref(), args.resume.as_deref());
+    let is_there = |path: &Path| path.symlink_metadata().is_ok();
+    if let Some(save) = save.filter(|save| Some(*save) != resume && is_there(save)) {
+        let name = shown(save);
+        bail!("'{name}' is there already: --resume '{name}' goes on with it");
+    }
+    // The command that goes on is that which begins: a batch system repeats it as it stands.
+    let resume = resume.filter(|resume| save != Some(resume) || is_there(resume));
+    resume.map(Sums::open).transpose()
+}
+
+impl Gather {
+    /// Begins what `--samples` asks for, with the sums of an earlier run if there are any.
+    ///
+    /// # Errors
+    /// If the sample does not gather, the earlier sums do not fit, or memory is short.
+    pub fn begin<S: Sample>(
+        (name, args, samples): (&str, &Args, Range<u32>),
+        gpu: &Gpu,
+        sample: &mut S,
+        resumed: Option<Sums>,
+    ) -> Result<Self> {
+        if !sample.gathers() {
+            let why = "its frames are no samples of one picture, as it is set";
+            return Err(Usage(format!("{name} takes no --samples: {why}")).into());
+        }
+        let interrupt = args.save.as_ref().map(|_| Interrupt::listen()).transpose()?;
+        let origin = origin(name, args, gpu, sample)?;
+        let pixels = args.size.width as usize * args.size.height as usize;
+        let file = args.resume.as_deref().map(shown).unwrap_or_default();
+        let sums = match resumed {
+            Some(sums) => {
+                fit(&file, &sums.header.origin, &origin)?;
+                sums
+            }
+            None => {
+                Sums { header: Header { origin, ..Header::default() }, values: vec![0; 4 * pixels] }
+            }
+        };
+        Ok(Self {
+            missing: sums.header.samples.missing(samples),
+            sums: buffer(gpu, &sums)?,
+            header: sums.header,
+            pipeline: pipeline(gpu)?,
+            save: args.save.clone().map(|file| (file, Duration::from_secs(args.save_every))),
+            saved: Instant::now(),
+            interrupt,
+            resumed: file,
+            shaders_checked: false,
+        })
+    }
+
+    /// What is still to be rendered.
+    pub fn missing(&self) -> Samples {
+        self.missing.clone()
+    }
+
+    /// Adds the sample of this number, which is the picture; writes the file if that is due.
+    ///
+    /// # Errors
+    /// If the device or the disk fails, or the shaders are not those of the sums so far; [`Stopped`] if a
+    /// signal has come, and the file is written.
+    pub fn add(&mut self, gpu: &Gpu, picture: &Image, index: u32) -> Result<()> {
+        self.check_shaders(gpu)?;
+        let extent = picture.extent;
+        gpu.submit(|cmd| {
+            let size = UVec2::new(extent.width, extent.height);
+            let push = Push { sums: self.sums.address.into(), size };
+            self.pipeline.bind(cmd, &[Descriptor::StorageImage(picture)], &push)?;
+            self.pipeline.dispatch(cmd, extent.into());
+            barrier::trace_to_trace(gpu, cmd);
+            Ok(())
+        })?;
+        let added = self.header.samples.add(&(index..index + 1).into());
+        added.map_err(|both| anyhow!("samples {both} are there already"))?;
+        let stop = self.interrupt.as_ref().is_some_and(Interrupt::came);
+        let Some((file, every)) = &self.save else { return Ok(()) };
+        if stop || self.saved.elapsed() >= *every {
+            let kept = self.read()?.save_unless_behind(file)?;
+            self.saved = Instant::now();
+            if stop {
+                let name = shown(file);
+                let hint = format!("--resume '{name}' goes on");
+                return Err(
+                    Stopped(format!("stopped: '{name}' keeps samples {kept}; {hint}")).into()
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Holds the shaders against those of the sums so far. They are known only now: a sample makes its
+    /// pipelines when it renders.
+    fn check_shaders(&mut self, gpu: &Gpu) -> Result<()> {
+        if std::mem::replace(&mut self.shaders_checked, true) {
+            return Ok(());
+        }
+        let shaders = Some(crc_of(&gpu.statistics().blueprints));
+        let here = Origin { shaders, ..self.header.origin.clone() };
+        fit(&self.resumed, &self.header.origin, &here)?;
+        self.header.origin = here;
+        Ok(())
+    }
+
+    /// Writes the file, if there is to be one, and gives the sums.
+    ///
+    /// # Errors
+    /// If the disk or the device fails.
+    pub fn finish(self) -> Result<Sums> {
+        let sums = self.read()?;
+        if let Some((file, _)) = &self.save {
+            let kept = sums.save_unless_behind(file)?;
+            if kept != sums.header.samples {
+                let line = "of another run, and stays as it is";
+                output::warn(&[format!("'{}' has samples {kept} {line}", shown(file))]);
+            }
+        }
+        let [width, _] = sums.header.origin.size;
+        output::warn(&Vec::from_iter(sums.header.spoiled.warning(width)));
+        Ok(sums)
+    }
+
+    fn read(&self) -> Result<Sums> {
+        let mut values: Vec<i128> = self.sums.read()?;
+        let notes = values.remove(0);
+        let first = !((notes >> 64) as u32);
+        let spoiled =
+            Spoiled { count: notes as u64, first: Some(first).filter(|_| first < u32::MAX) };
+        Ok(Sums { header: Header { spoiled, ..self.header.clone() }, values })
+    }
+}
+
+impl Sums {
+    /// Writes the file, unless another run has put more into it: then that stays. Gives what it has.
+    fn save_unless_behind(&self, path: &Path) -> Result<Samples> {
+        let there = Header::open(path).ok();
+        let there = there.filter(|there| self.header.origin.difference(&there.origin).is_none());
+        if let Some(there) = there.filter(|there| !self.header.samples.contain(&there.samples)) {
+            return Ok(there.samples);
+        }
+        self.save(path)?;
+        Ok(self.header.samples.clone())
+    }
+}
+
+/// Sums as the device has them: notes first.
+fn buffer(gpu: &Gpu, sums: &Sums) -> Result<Buffer> {
+    let Spoiled { count, first } = sums.header.spoiled;
+    let notes = i128::from(count) | i128::from(!first.unwrap_or(u32::MAX)) << 64;
+    let mut values = Vec::new();
+    values.try_reserve_exact(1 + sums.values.len()).context("no memory for the sums")?;
+    values.push(notes);
+    values.extend_from_slice(&sums.values);
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+        | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+        | vk::BufferUsageFlags::TRANSFER_SRC;
+    Buffer::with_data(gpu, "sums", &values, usage)
+}
+
+fn pipeline(gpu: &Gpu) -> Result<ComputePipeline> {
+    ComputePipeline::builder("common")
+        .compute("gather.comp")
+        .workgroup(0, WORKGROUP)
+        .binding(Binding::StorageImage)
+        .push_constants::<Push>()
+        .build_compute(gpu)
+}
+
+/// All that a picture depends on, but for the shaders, which are not compiled yet.
+fn origin<S: Sample>(name: &str, args: &Args, gpu: &Gpu, sample: &mut S) -> Result<Origin> {
+    let controls = controls::list(|c| sample.controls(c));
+    let mut settings: BTreeMap<_, _> =
+        controls.into_iter().map(|control| (control.name, control.value)).collect();
+    // Where a name is given twice, one control has chosen what the next was about, and shows it no longer.
+    let names = || args.sets.iter().map(|(name, _)| name);
+    if names().enumerate().any(|(i, name)| names().take(i).any(|before| before == name)) {
+        let sets: Vec<_> =
+            args.sets.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        settings.insert("--set".to_owned(), sets.join("; "));
+    }
+    let mut scene = BTreeMap::new();
+    for path in opened() {
+        let crc = Sums::crc_of(&path)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // Two of one name, from two folders, count together.
+        let both = |known: &mut u32| {
+            *known = crc32fast::hash(&[known.to_le_bytes(), crc.to_le_bytes()].concat());
+        };
+        scene.entry(name).and_modify(both).or_insert(crc);
+    }
+    Ok(Origin {
+        chapter: name.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        size: [args.size.width, args.size.height],
+        settings,
+        scene,
+        unordered: args.unordered,
+        shaders: None,
+        device: gpu.name.clone(),
+        driver: gpu.driver.clone(),
+        arithmetic: gpu.arithmetic.to_string(),
+    })
+}
+
+/// The CRC-32 of the SPIR-V and the constants of pipelines.
+fn crc_of(pipelines: &[Arc<Blueprint>]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    for Blueprint { stages, constants, .. } in pipelines.iter().map(AsRef::as_ref) {
+        stages.iter().for_each(|stage| hasher.update(bytemuck::cast_slice(&stage.words)));
+        for (number, value) in constants {
+            hasher.update(bytemuck::bytes_of(&[*number, *value]));
+        }
+    }
+    hasher.finalize()
+}
+
+/// Fails if a file's origin is not that of this run.
+fn fit(file: &str, theirs: &Origin, ours: &Origin) -> Result<()> {
+    let difference = theirs.difference(ours);
+    let line = difference.map(|difference| difference.line(["in it", "here"]));
+    ensure!(line.is_none(), "{file} does not fit: {}", line.unwrap_or_default());
+    Ok(())
+}

@@ -1,0 +1,192 @@
+//! Which samples of a picture there are: numbers, as ranges.
+
+use std::fmt;
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+/// A set of numbers of samples.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<[u32; 2]>", into = "Vec<[u32; 2]>")]
+pub struct Samples {
+    /// In order, apart from each other, none empty.
+    ranges: Vec<Range<u32>>,
+}
+
+impl Samples {
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.ranges.iter().map(|range| u64::from(range.end - range.start)).sum()
+    }
+
+    /// The numbers, range by range.
+    pub fn ranges(&self) -> &[Range<u32>] {
+        &self.ranges
+    }
+
+    /// What is in both.
+    pub fn overlap(&self, other: &Self) -> Self {
+        let mut both = Self::default();
+        for a in &self.ranges {
+            for b in &other.ranges {
+                both.push(a.start.max(b.start)..a.end.min(b.end));
+            }
+        }
+        both
+    }
+
+    /// What of `whole` is not there.
+    pub fn missing(&self, whole: Range<u32>) -> Self {
+        let mut missing = Self::default();
+        let mut next = whole.start;
+        for range in &self.ranges {
+            missing.push(next..range.start.min(whole.end));
+            next = next.max(range.end);
+        }
+        missing.push(next..whole.end);
+        missing
+    }
+
+    /// What is not there between the first and the last.
+    pub fn gaps(&self) -> Self {
+        match &self.ranges[..] {
+            [] => Self::default(),
+            [first, .., last] => self.missing(first.start..last.end),
+            [_] => Self::default(),
+        }
+    }
+
+    /// Whether all of `other` is there.
+    pub fn contain(&self, other: &Self) -> bool {
+        other.ranges.iter().all(|range| self.missing(range.clone()).count() == 0)
+    }
+
+    /// Adds `other`, of which nothing may be there: no sample counts twice.
+    ///
+    /// # Errors
+    /// With what is there already; then nothing is added.
+    pub fn add(&mut self, other: &Self) -> Result<(), Self> {
+        let both = self.overlap(other);
+        if both.count() > 0 {
+            return Err(both);
+        }
+        let mut ranges = std::mem::take(&mut self.ranges);
+        ranges.extend_from_slice(&other.ranges);
+        ranges.sort_by_key(|range| range.start);
+        ranges.into_iter().for_each(|range| self.push(range));
+        Ok(())
+    }
+
+    /// Appends a range that begins where the last ends, or later; an empty one is nothing.
+    fn push(&mut self, range: Range<u32>) {
+        match self.ranges.last_mut() {
+            _ if range.is_empty() => {}
+            Some(last) if last.end == range.start => last.end = range.end,
+            _ => self.ranges.push(range),
+        }
+    }
+}
+
+impl From<Range<u32>> for Samples {
+    fn from(range: Range<u32>) -> Self {
+        let mut samples = Self::default();
+        samples.push(range);
+        samples
+    }
+}
+
+impl From<Samples> for Vec<[u32; 2]> {
+    fn from(samples: Samples) -> Self {
+        samples.ranges.into_iter().map(|range| [range.start, range.end]).collect()
+    }
+}
+
+impl TryFrom<Vec<[u32; 2]>> for Samples {
+    type Error = String;
+
+    fn try_from(pairs: Vec<[u32; 2]>) -> Result<Self, String> {
+        let mut samples = Self::default();
+        for [start, end] in pairs {
+            let after = samples.ranges.last().map_or(0, |last| last.end);
+            if start >= end || start < after {
+                return Err(format!("{start}..{end} is no range of samples after {after}"));
+            }
+            samples.push(start..end);
+        }
+        Ok(samples)
+    }
+}
+
+impl fmt::Display for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let ranges = self.ranges.iter().map(|range| format!("{}..{}", range.start, range.end));
+        let ranges: Vec<_> = ranges.collect();
+        f.write_str(if ranges.is_empty() { "none" } else { "" })?;
+        f.write_str(&ranges.join(", "))
+    }
+}
+
+/// Reads `A..B`: from the sample A to the one before B, at least one.
+///
+/// # Errors
+/// With what would be right.
+pub fn range(text: &str) -> Result<Range<u32>, String> {
+    let ends = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
+    match ends {
+        Some((Ok(start), Ok(end))) if start < end => Ok(start..end),
+        _ => Err("samples are A..B, from A to the one before B, such as 0..64".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(ranges: &[Range<u32>]) -> Samples {
+        let mut samples = Samples::default();
+        ranges.iter().for_each(|range| samples.add(&range.clone().into()).unwrap());
+        samples
+    }
+
+    #[test]
+    fn ranges_that_meet_are_one() {
+        assert_eq!(of(&[4..8, 0..4, 10..12]).to_string(), "0..8, 10..12");
+        assert_eq!(of(&[4..8, 0..4, 10..12]).count(), 10);
+        assert_eq!(of(&[0..1, 2..3, 1..2]), of(&[0..3]));
+    }
+
+    #[test]
+    fn no_sample_is_added_twice() {
+        let mut samples = of(&[0..4, 8..12]);
+        assert_eq!(samples.add(&(3..9).into()).unwrap_err().to_string(), "3..4, 8..9");
+        assert_eq!(samples, of(&[0..4, 8..12]), "a refusal changes nothing");
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let samples = of(&[2..4, 8..12]);
+        assert_eq!(samples.missing(0..20).to_string(), "0..2, 4..8, 12..20");
+        assert_eq!(samples.missing(3..10).to_string(), "4..8");
+        assert_eq!(samples.missing(20..22).to_string(), "20..22");
+        assert_eq!(samples.missing(0..1).to_string(), "0..1");
+        assert_eq!(samples.gaps().to_string(), "4..8");
+        assert!(samples.contain(&of(&[2..3, 9..12])) && !samples.contain(&of(&[3..5])));
+    }
+
+    #[test]
+    fn text_that_is_no_range_is_refused() {
+        assert_eq!(range("0..64"), Ok(0..64));
+        for wrong in ["", "4", "4..4", "5..4", "-1..4", "0..4294967296", "a..b", "0..=4"] {
+            assert!(range(wrong).unwrap_err().contains("such as 0..64"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_file_with_ranges_out_of_order_is_refused() {
+        let read = |text: &str| serde_json::from_str::<Samples>(text);
+        assert_eq!(read("[[0,4],[4,8]]").unwrap(), of(&[0..8]));
+        for wrong in ["[[4,4]]", "[[5,4]]", "[[0,4],[3,8]]", "[[4,8],[0,2]]"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,377 @@
+//! Exact sums of samples, and the files that keep them.
+//!
+//! A colour's sum is a whole number of 2^-64 in 128 bits. Whole numbers do not round, so a sum does not
+//! depend on the order of the samples, nor on how a render was cut: 24_accuracy, rung A3, with more bits.
+//!
+//! A file is `RTSUMS`, its version and the length of its header in little-endian; the header, JSON; the
+//! sums, deflated; and a CRC-32 of all of it.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{Read, Write};
+use std::ops::Range;
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
+use serde::{Deserialize, Serialize};
+
+use super::Picture;
+use super::samples::Samples;
+use crate::files::write_whole;
+use crate::scene::text::{regular, shown};
+
+/// What a file begins with.
+const MAGIC: &[u8; 6] = b"RTSUMS";
+/// The form that this program reads and writes.
+const FORM: u16 = 1;
+/// Magic, form and the header's length.
+const BEGINNING: usize = 12;
+/// Bytes of a header at most: names and values of controls, a line a file.
+const HEADER_BYTES: u32 = 1 << 20;
+/// Bytes of a file at most: more than [`PIXELS`] take that no compression makes smaller.
+const FILE_BYTES: u64 = 5 << 30;
+/// Pixels of a picture at most, of 64 bytes each.
+const PIXELS: u64 = 1 << 26;
+/// Bits of a sum that stand for its fraction; the same number is in `sum.glsl`.
+const FRACTION: i32 = 64;
+
+/// What samples must have in common to be added: all that a picture depends on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Origin {
+    /// The chapter.
+    pub chapter: String,
+    /// The version of this program.
+    pub version: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Every control's value, by name.
+    pub settings: BTreeMap<String, String>,
+    /// The files of the scene, by name, each with a CRC-32 of its bytes.
+    pub scene: BTreeMap<String, u32>,
+    /// Whether acceleration structures are built in the model's order.
+    pub unordered: bool,
+    /// A CRC-32 of the SPIR-V of all shaders, once they are compiled.
+    pub shaders: Option<u32>,
+    /// The device's name.
+    pub device: String,
+    /// Its driver and that driver's version.
+    pub driver: String,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
+}
+
+/// What two origins do not have in common.
+pub struct Difference {
+    what: String,
+    values: [String; 2],
+}
+
+impl Difference {
+    /// One line, given where each of the two comes from, such as "in a.sums" and "here".
+    pub fn line(&self, [a, b]: [&str; 2]) -> String {
+        format!("{} is {} {a} and {} {b}", self.what, self.values[0], self.values[1])
+    }
+}
+
+impl Origin {
+    /// All of it, as names and values.
+    fn facts(&self) -> Vec<(String, String)> {
+        let Self { chapter, version, size: [width, height], device, driver, .. } = self;
+        let named = |(name, value): (&str, &str)| (name.to_owned(), format!("'{value}'"));
+        let mut facts: Vec<_> = [("the chapter", chapter), ("the version", version)]
+            .map(|(name, value)| named((name, value)))
+            .into();
+        facts.push(("the size".to_owned(), format!("{width}x{height}")));
+        let settings = self.settings.iter();
+        facts.extend(settings.map(|(name, value)| (format!("'{name}'"), format!("'{value}'"))));
+        let crc = |crc: &u32| format!("{crc:08x}");
+        let files = self.scene.iter();
+        facts.extend(files.map(|(name, sum)| (format!("the CRC-32 of '{name}'"), crc(sum))));
+        facts.push(("--unordered".to_owned(), self.unordered.to_string()));
+        facts.extend(self.shaders.map(|sum| ("the CRC-32 of the shaders".to_owned(), crc(&sum))));
+        let device = [("the device", device), ("the driver", driver)];
+        let arithmetic = ("--arithmetic", &self.arithmetic);
+        facts.extend(device.into_iter().chain([arithmetic]).map(|(n, v)| named((n, v))));
+        facts
+    }
+
+    /// The first thing that is not the same in `other`. Shaders that are not compiled yet fit any.
+    pub fn difference(&self, other: &Self) -> Option<Difference> {
+        let mut values = BTreeMap::<_, [Option<String>; 2]>::new();
+        let (mine, others) = (self.facts(), other.facts());
+        let order: Vec<_> = mine.iter().chain(&others).map(|(name, _)| name.clone()).collect();
+        for (side, facts) in [mine, others].into_iter().enumerate() {
+            for (name, value) in facts {
+                values.entry(name).or_default()[side] = Some(value);
+            }
+        }
+        let compiled = self.shaders.is_some() && other.shaders.is_some();
+        let differ = |name: &String| {
+            let [a, b] = &values[name];
+            a != b && (compiled || !name.ends_with("the shaders"))
+        };
+        let what = order.iter().find(|name| differ(name))?.clone();
+        let nothing = || "nothing".to_owned();
+        let values = values[&what].clone().map(|value| value.unwrap_or_else(nothing));
+        Some(Difference { what, values })
+    }
+}
+
+/// Samples that had a colour that is no number to add, and were added as black.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spoiled {
+    /// How many.
+    pub count: u64,
+    /// The first pixel that has one, counted row by row.
+    pub first: Option<u32>,
+}
+
+impl Spoiled {
+    /// What is to be told of a picture of this width, if there is anything.
+    pub fn warning(&self, width: u32) -> Option<String> {
+        let (first, count) = (self.first?, self.count);
+        let (x, y) = (first % width, first / width);
+        let what = "is not finite, or not below 2^31: added as black";
+        Some(format!("a colour of {count} samples, the first in pixel {x},{y}, {what}"))
+    }
+}
+
+/// What stands before the sums.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// What the samples have in common.
+    pub origin: Origin,
+    /// Which they are.
+    pub samples: Samples,
+    /// Those that could not be added.
+    pub spoiled: Spoiled,
+}
+
+/// Sums of samples.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// Of what.
+    pub header: Header,
+    /// Four a pixel, in units of 2^-64, rows from the top.
+    pub values: Vec<i128>,
+}
+
+impl Header {
+    /// How many sums follow it.
+    fn len(&self) -> usize {
+        let [width, height] = self.origin.size;
+        4 * width as usize * height as usize
+    }
+
+    /// Reads the header of a file, and nothing after it.
+    ///
+    /// # Errors
+    /// If there is no such file, or it is none of sums.
+    pub fn open(path: &Path) -> Result<Self> {
+        Self::read(&mut regular(path, &shown(path), FILE_BYTES)?, &shown(path))
+    }
+
+    fn read(file: &mut impl Read, name: &str) -> Result<Self> {
+        let mut beginning = [0; BEGINNING];
+        let is_ours = file.read_exact(&mut beginning).is_ok() && beginning.starts_with(MAGIC);
+        ensure!(is_ours, "{name}: is no file of sums that --save has written");
+        let form = u16::from_le_bytes([beginning[6], beginning[7]]);
+        ensure!(form == FORM, "{name}: has form {form}; this program reads form {FORM}");
+        let length = u32::from_le_bytes([beginning[8], beginning[9], beginning[10], beginning[11]]);
+        ensure!(length <= HEADER_BYTES, damaged(name, "its header is too long"));
+        let mut text = vec![0; length as usize];
+        file.read_exact(&mut text).map_err(|_| damaged(name, "it ends within its header"))?;
+        let header: Self = serde_json::from_slice(&text)
+            .map_err(|error| damaged(name, &format!("its header: {error}")))?;
+        let [width, height] = header.origin.size;
+        let pixels = u64::from(width) * u64::from(height);
+        ensure!(
+            (1..=PIXELS).contains(&pixels),
+            "{name}: {width}x{height} is too large or nothing: at most {PIXELS} pixels are read"
+        );
+        ensure!(header.samples.count() > 0, damaged(name, "it has no samples"));
+        Ok(header)
+    }
+}
+
+impl Sums {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If there is no such file, or it is none of sums, cut off or damaged.
+    pub fn open(path: &Path) -> Result<Self> {
+        let name = shown(path);
+        let file = regular(path, &name, FILE_BYTES)?;
+        let mut bytes = Vec::new();
+        let failed = |error: std::io::Error| anyhow!("{name}: cannot be read: {error}");
+        file.take(FILE_BYTES).read_to_end(&mut bytes).map_err(failed)?;
+        Self::parse(&bytes, &name)
+    }
+
+    fn parse(bytes: &[u8], name: &str) -> Result<Self> {
+        // What it is comes before whether it is whole: a picture that is given by mistake is no damage.
+        let mut all = bytes;
+        let header = Header::read(&mut all, name)?;
+        let (content, crc) =
+            bytes.split_last_chunk().ok_or_else(|| damaged(name, "it is cut off"))?;
+        let found = crc32fast::hash(content);
+        ensure!(
+            found == u32::from_le_bytes(*crc),
+            damaged(name, "it is cut off, or its bytes are not those that were written")
+        );
+        let mut sums = ZlibDecoder::new(&all[..all.len() - crc.len()]);
+        // It grows as there is something to put in, whatever the header promises.
+        let mut values = Vec::new();
+        let mut some = [0; 4096];
+        let mut left = 16 * header.len();
+        while left > 0 {
+            let part = &mut some[..left.min(4096)];
+            sums.read_exact(part).map_err(|_| damaged(name, "it has too few sums"))?;
+            left -= part.len();
+            let words = part.as_chunks::<16>().0;
+            values.extend(words.iter().map(|bytes| i128::from_le_bytes(*bytes)));
+        }
+        let more = sums.read(&mut some[..1]).unwrap_or(1);
+        ensure!(more == 0, damaged(name, "it has too many sums"));
+        Ok(Self { header, values })
+    }
+
+    /// The bytes of a file: of equal sums, equal bytes.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn bytes(&self) -> Result<Vec<u8>> {
+        let header = serde_json::to_vec(&self.header)?;
+        let length = u32::try_from(header.len()).ok().filter(|length| *length <= HEADER_BYTES);
+        let length = length.context("the settings are too long for a file of sums")?;
+        let mut bytes = [&MAGIC[..], &FORM.to_le_bytes(), &length.to_le_bytes()].concat();
+        bytes.extend(header);
+        let mut sums = ZlibEncoder::new(bytes, Compression::fast());
+        for values in self.values.chunks(256) {
+            let part: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+            sums.write_all(&part)?;
+        }
+        let mut bytes = sums.finish()?;
+        let crc = crc32fast::hash(&bytes);
+        bytes.extend(crc.to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// Writes a file, whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        write_whole(path, &self.bytes()?)
+    }
+
+    /// Adds the samples of `other`, which has the same origin; none may be there already.
+    ///
+    /// # Errors
+    /// With those that are; then nothing is added. Sums that no render can have are refused, too.
+    pub fn add(&mut self, other: &Self) -> Result<(), String> {
+        let mut samples = self.header.samples.clone();
+        samples.add(&other.header.samples).map_err(|both| format!("samples {both}"))?;
+        let pairs = self.values.iter().zip(&other.values);
+        let sums: Option<Vec<_>> = pairs.map(|(a, b)| a.checked_add(*b)).collect();
+        self.values = sums.ok_or("sums too large to be those of colours")?;
+        self.header.samples = samples;
+        let (mine, others) = (&mut self.header.spoiled, other.header.spoiled);
+        mine.count = mine.count.saturating_add(others.count);
+        mine.first = [mine.first, others.first].into_iter().flatten().min();
+        Ok(())
+    }
+
+    /// The mean of all samples: each sum divided by their number and rounded once, to nearest even.
+    pub fn mean(&self) -> Picture {
+        let [width, height] = self.header.origin.size;
+        let count = self.header.samples.count();
+        let pixels = self.values.as_chunks::<4>().0;
+        let pixels = pixels.iter().map(|sums| sums.map(|sum| quotient(sum, count))).collect();
+        Picture { width, height, pixels }
+    }
+
+    /// The CRC-32 of a file.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn crc_of(path: &Path) -> Result<u32> {
+        let failed = || format!("{}: cannot be read", shown(path));
+        let mut file = File::open(path).with_context(failed)?;
+        let mut hasher = crc32fast::Hasher::new();
+        let mut some = vec![0; 1 << 16];
+        loop {
+            match file.read(&mut some).with_context(failed)? {
+                0 => return Ok(hasher.finalize()),
+                count => hasher.update(&some[..count]),
+            }
+        }
+    }
+}
+
+fn damaged(name: &str, how: &str) -> anyhow::Error {
+    anyhow!("{name}: is damaged: {how}")
+}
+
+/// A sum over a count, as a float: rounded once, to nearest, ties to even.
+fn quotient(sum: i128, count: u64) -> f32 {
+    let size = sum.unsigned_abs();
+    if size == 0 || count == 0 {
+        return 0.0;
+    }
+    // As far up as it goes: the quotient has more digits than a float by far.
+    let up = size.leading_zeros();
+    let (dividend, divisor) = (size << up, u128::from(count));
+    let (digits, rest) = (dividend / divisor, dividend % divisor);
+    let dropped = u128::BITS - digits.leading_zeros() - f32::MANTISSA_DIGITS;
+    let (kept, below) = (digits >> dropped, digits & ((1 << dropped) - 1));
+    let half = 1 << (dropped - 1);
+    let is_above = below > half || (below == half && (rest > 0 || kept & 1 == 1));
+    // 24 bits, or a power of two: exact, and so is the scaling, for no sum is so small or large.
+    let kept = (kept + u128::from(is_above)) as f64;
+    let value = (kept * 2f64.powi(dropped as i32 - up as i32 - FRACTION)) as f32;
+    if sum < 0 { -value } else { value }
+}
+
+/// The union of files that lie together.
+///
+/// # Errors
+/// On files that do not fit together, or have samples in common: by name.
+pub fn merge(files: &[&Path]) -> Result<Sums> {
+    let [first, others @ ..] = files else { bail!("no files of sums") };
+    let mut sums = Sums::open(first)?;
+    let mut known = vec![(shown(first), sums.header.samples.clone())];
+    for file in others {
+        let name = shown(file);
+        let other = Sums::open(file)?;
+        if let Some(difference) = sums.header.origin.difference(&other.header.origin) {
+            let places = [format!("in {}", known[0].0), format!("in {name}")];
+            let line = difference.line(places.each_ref().map(String::as_str));
+            bail!("{name} does not fit: {line}");
+        }
+        for (before, samples) in &known {
+            let both = samples.overlap(&other.header.samples);
+            ensure!(both.count() == 0, "samples {both} are in {before} and in {name}, too");
+        }
+        sums.add(&other).map_err(|what| anyhow!("{name}: {what}"))?;
+        known.push((name, other.header.samples));
+    }
+    Ok(sums)
+}
+
+/// Fails if samples of `whole` are missing.
+///
+/// # Errors
+/// With those that are.
+pub fn check_complete(samples: &Samples, whole: Range<u32>) -> Result<()> {
+    let missing = samples.missing(whole);
+    ensure!(missing.count() == 0, "samples {missing} are missing");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,37 @@
+//! Files of sums that `--save` has written, merged: into one file, or into the picture.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use common::app::sums::{check_complete, merge};
+use common::app::{Format, output};
+use common::files::check_writable;
+
+/// Merges `files` and writes a picture if `out` is named as one, else a file of sums; returns the line that
+/// tells what it has.
+///
+/// # Errors
+/// If the files do not fit together, have samples in common, or lack some of `whole`; if `out` cannot be
+/// written.
+pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<String> {
+    check_writable(out)?;
+    let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
+    let sums = merge(&files)?;
+    let samples = &sums.header.samples;
+    if let Some(whole) = whole {
+        check_complete(samples, whole)?;
+    }
+    match Format::of(out) {
+        Ok(_) => sums.mean().save(out)?,
+        Err(_) => sums.save(out)?,
+    }
+    let [width, _] = sums.header.origin.size;
+    output::warn(&Vec::from_iter(sums.header.spoiled.warning(width)));
+    let gaps = samples.gaps();
+    let gaps = match gaps.count() {
+        0 => String::new(),
+        _ => format!("; {gaps} are missing"),
+    };
+    Ok(format!("{}: {} samples, {samples}{gaps}\n", out.display(), samples.count()))
+}

@@ -1,0 +1,232 @@
+//! Rays and triangles, in the plane.
+
+use glam::DVec2;
+
+use crate::sheet::Anchor::{End, Middle, Start};
+use crate::sheet::{BROWN, GREEN, LINE, Point, RED, Sheet, WHITE, YOURS};
+
+fn cross(a: DVec2, b: DVec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+fn point(p: DVec2) -> Point {
+    p.to_array()
+}
+
+/// The weights of a triangle's corners that mix to `p`.
+fn weights(p: DVec2, [a, b, c]: [DVec2; 3]) -> [f64; 3] {
+    let all = cross(b - a, c - a);
+    [cross(b - p, c - p) / all, cross(c - p, a - p) / all, cross(a - p, b - p) / all]
+}
+
+/// Where a ray first meets a triangle's outline, as t.
+fn meets(origin: DVec2, direction: DVec2, corners: [DVec2; 3]) -> Option<f64> {
+    let edge = |k: usize| {
+        let (from, along) = (corners[k], corners[(k + 1) % 3] - corners[k]);
+        let both = cross(direction, along);
+        let (t, s) = (cross(from - origin, along) / both, cross(from - origin, direction) / both);
+        (t > 0.0 && (0.0..=1.0).contains(&s)).then_some(t)
+    };
+    (0..3).filter_map(edge).reduce(f64::min)
+}
+
+/// One triangle and the pixels that it covers; one pixel and the triangle that its ray meets.
+pub fn from_raster() -> String {
+    let mut s = Sheet::new([840, 330], "Two questions");
+    let (left, top, side) = (40.0, 60.0, 22.0);
+    let corners = [DVec2::new(58.0, 76.0), DVec2::new(322.0, 126.0), DVec2::new(136.0, 246.0)];
+    for row in 0..9 {
+        for column in 0..14 {
+            let corner = DVec2::new(left + side * f64::from(column), top + side * f64::from(row));
+            let middle = corner + 0.5 * side;
+            let covered = weights(middle, corners).iter().all(|weight| *weight >= 0.0);
+            let (right, down) = (DVec2::new(side, 0.0), DVec2::new(0.0, side));
+            let square = [corner, corner + right, corner + right + down, corner + down].map(point);
+            s.polygon(&square, if covered { YOURS } else { WHITE }, "#c9d1d8");
+            s.dot(point(middle), 1.4, LINE);
+        }
+    }
+    s.polygon(&corners.map(point), "none", BROWN);
+    s.title([left, 286.0], Start, "Which pixels does this triangle cover?");
+    s.note([left, 306.0], Start, "A rasteriser asks for each triangle.");
+
+    let eye = DVec2::new(452.0, 160.0);
+    let film = 515.0;
+    for row in 0..9 {
+        let y = top + side * f64::from(row);
+        let fill = if row == 3 { YOURS } else { WHITE };
+        s.polygon(
+            &[[film - 5.0, y], [film + 5.0, y], [film + 5.0, y + side], [film - 5.0, y + side]],
+            fill,
+            LINE,
+        );
+    }
+    let direction = DVec2::new(film, top + 3.5 * side) - eye;
+    let at = |x: f64, y: f64| DVec2::new(440.0 + x, y);
+    let triangles = [
+        [at(170.0, 70.0), at(230.0, 200.0), at(150.0, 190.0)],
+        [at(250.0, 60.0), at(300.0, 150.0), at(240.0, 180.0)],
+        [at(330.0, 66.0), at(370.0, 190.0), at(300.0, 210.0)],
+    ];
+    let hits = triangles.map(|corners| meets(eye, direction, corners).unwrap_or(f64::INFINITY));
+    let nearest = hits.into_iter().fold(f64::INFINITY, f64::min);
+    for (corners, hit) in triangles.iter().zip(hits) {
+        s.polygon(&corners.map(point), if hit == nearest { YOURS } else { WHITE }, BROWN);
+    }
+    let hit = eye + nearest * direction;
+    s.dashes(&[point(hit), point(eye + 5.8 * direction)], LINE, 1.2);
+    s.arrow(&[point(eye), point(hit)]);
+    s.dot(point(eye), 5.0, LINE);
+    s.dot(point(hit), 4.0, BROWN);
+    s.note([eye.x, eye.y + 22.0], Middle, "eye");
+    s.title([440.0, 286.0], Start, "Which triangle does this ray meet first?");
+    s.note([440.0, 306.0], Start, "A ray tracer asks for each pixel.");
+    s.svg()
+}
+
+/// A point of a triangle and its three weights.
+pub fn barycentrics() -> String {
+    let mut s = Sheet::new([840, 330], "Barycentric coordinates: three weights that add up to 1");
+    let corners = [DVec2::new(70.0, 270.0), DVec2::new(420.0, 250.0), DVec2::new(220.0, 80.0)];
+    let mix = |[a, b, c]: [f64; 3]| a * corners[0] + b * corners[1] + c * corners[2];
+    let hit = [0.2, 0.3, 0.5];
+    let p = mix(hit);
+    let [a, b, c] = corners;
+    for (part, fill) in [([p, b, c], YOURS), ([p, c, a], WHITE), ([p, a, b], GREEN)] {
+        s.polygon(&part.map(point), fill, LINE);
+    }
+    s.polygon(&corners.map(point), "none", BROWN);
+    s.dot(point(p), 5.0, BROWN);
+    let names = ["a", "b", "c"];
+    let places = [DVec2::new(-14.0, 16.0), DVec2::new(14.0, 16.0), DVec2::new(0.0, -10.0)];
+    for k in 0..3 {
+        s.title(point(corners[k] + places[k]), Middle, names[k]);
+    }
+    for (part, weight) in [([p, b, c], hit[0]), ([p, c, a], hit[1]), ([p, a, b], hit[2])] {
+        let middle = (part[0] + part[1] + part[2]) / 3.0;
+        s.say([middle.x, middle.y + 4.0], Middle, &format!("{weight:.1}"));
+    }
+    let lines = [
+        ("The weight of a corner is the part of the", ""),
+        ("triangle’s area that lies opposite it.", ""),
+        ("", ""),
+        ("1 − u − v = 0.2", "weight of a"),
+        ("u = 0.3", "weight of b: the first hit attribute"),
+        ("v = 0.5", "weight of c: the second"),
+        ("", ""),
+        ("p = 0.2 a + 0.3 b + 0.5 c, and normals and texture", ""),
+        ("coordinates are mixed alike.", ""),
+    ];
+    for (row, (text, meaning)) in lines.into_iter().enumerate() {
+        let y = 84.0 + 22.0 * row as f64;
+        s.say([450.0, y], Start, text);
+        s.note([570.0, y], Start, meaning);
+    }
+    s.svg()
+}
+
+/// Three starts of a shadow ray.
+pub fn acne_and_leak() -> String {
+    let mut s = Sheet::new([840, 330], "Where a shadow ray may start");
+    let panels = [
+        (
+            24.0,
+            "too low: acne",
+            "The rounded point lies below",
+            "the surface, which hides the light.",
+            22.0,
+            RED,
+        ),
+        (
+            296.0,
+            "above the bound",
+            "No rounding puts the start",
+            "below the surface.",
+            -10.0,
+            BROWN,
+        ),
+        (
+            568.0,
+            "too high: a leak",
+            "The ray starts above what",
+            "should have stopped it.",
+            -74.0,
+            RED,
+        ),
+    ];
+    for (x, title, first, second, lift, color) in panels {
+        let floor = 220.0;
+        s.title([x, 66.0], Start, title);
+        s.polygon(
+            &[[x, floor], [x + 248.0, floor], [x + 248.0, floor + 34.0], [x, floor + 34.0]],
+            GREEN,
+            LINE,
+        );
+        // A thin piece that stands close by.
+        s.polygon(
+            &[
+                [x + 118.0, floor - 52.0],
+                [x + 128.0, floor - 52.0],
+                [x + 128.0, floor],
+                [x + 118.0, floor],
+            ],
+            YOURS,
+            LINE,
+        );
+        let hit = DVec2::new(x + 80.0, floor);
+        let start = hit + DVec2::new(0.0, lift);
+        let to_light = DVec2::new(0.62, -0.5);
+        let end = match title {
+            "too low: acne" => start + 44.0 * to_light,
+            "above the bound" => start + 61.0 * to_light,
+            _ => start + 150.0 * to_light,
+        };
+        s.arrow(&[point(start), point(end)]);
+        s.dot(point(hit), 3.0, LINE);
+        s.dot(point(start), 4.5, color);
+        s.note([x, 278.0], Start, first);
+        s.note([x, 296.0], Start, second);
+    }
+    s.note([816.0, 318.0], End, "Heights are exaggerated.");
+    s.svg()
+}
+
+/// What a pixel covers of a floor, near and far.
+pub fn footprint() -> String {
+    let mut s = Sheet::new(
+        [840, 300],
+        "The footprint of a pixel grows with the distance, and with the slant",
+    );
+    let eye = DVec2::new(50.0, 70.0);
+    let floor = 230.0;
+    s.polygon(
+        &[[24.0, floor], [816.0, floor], [816.0, floor + 10.0], [24.0, floor + 10.0]],
+        WHITE,
+        LINE,
+    );
+    // Squares of a checker board.
+    for square in 0..17 {
+        let x = 24.0 + 48.0 * f64::from(square);
+        let right = (x + 24.0).min(816.0);
+        s.polygon(
+            &[[x, floor], [right, floor], [right, floor + 10.0], [x, floor + 10.0]],
+            LINE,
+            LINE,
+        );
+    }
+    // Two pixels of the same size.
+    let half = 0.014_f64;
+    for (slope, name) in [(0.95_f64, "near: less than a square"), (0.243, "far: several squares")] {
+        let edge = |turn: f64| {
+            let angle = slope.atan() + turn;
+            eye + DVec2::new(angle.cos(), angle.sin()) * ((floor - eye.y) / angle.sin())
+        };
+        let (far, near) = (edge(-half), edge(half));
+        s.polygon(&[point(eye), point(near), point(far)], YOURS, BROWN);
+        s.line(&[[near.x, floor + 18.0], [far.x, floor + 18.0]], BROWN, 3.0);
+        s.note([0.5 * (near.x + far.x), floor + 38.0], Middle, name);
+    }
+    s.dot(point(eye), 5.0, LINE);
+    s.note([eye.x, eye.y - 12.0], Middle, "eye");
+    s.svg()
+}

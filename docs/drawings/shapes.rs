@@ -1,0 +1,97 @@
+//! Shapes that a ray enters and leaves.
+
+use glam::DVec3;
+use reference::Ray;
+use reference::solid::Solid;
+use reference::sphere::Sphere;
+
+use crate::sheet::Anchor::{Middle, Start};
+use crate::sheet::{BLUE, BROWN, GREEN, LINE, Sheet, WHITE, YOURS};
+
+/// A box in the plane as two slabs.
+pub fn slabs() -> String {
+    let mut s = Sheet::new([840, 340], "A box is where slabs overlap");
+    let (low, high) = ([230.0, 110.0], [390.0, 210.0]);
+    s.polygon(&[[low[0], 50.0], [high[0], 50.0], [high[0], 250.0], [low[0], 250.0]], BLUE, "none");
+    s.polygon(&[[60.0, low[1]], [560.0, low[1]], [560.0, high[1]], [60.0, high[1]]], GREEN, "none");
+    s.polygon(&[low, [high[0], low[1]], high, [low[0], high[1]]], YOURS, LINE);
+    let (origin, direction) = ([70.0, 236.0], [1.0, -0.42]);
+    // t at which the ray enters and leaves each slab.
+    let span = |axis: usize| {
+        let at = |edge: f64| (edge - origin[axis]) / direction[axis];
+        let (one, other) = (at(low[axis]), at(high[axis]));
+        [f64::min(one, other), f64::max(one, other)]
+    };
+    let (x, y) = (span(0), span(1));
+    let place = |t: f64| [origin[0] + t * direction[0], origin[1] + t * direction[1]];
+    s.arrow(&[origin, place(470.0)]);
+    s.dot(origin, 5.0, LINE);
+    for t in x.into_iter().chain(y) {
+        s.dot(place(t), 4.0, BROWN);
+    }
+    s.note([low[0] + 4.0, 64.0], Start, "slab of x");
+    s.note([66.0, low[1] + 16.0], Start, "slab of y");
+    let hit = [f64::max(x[0], y[0]), f64::min(x[1], y[1])];
+    let rows = [
+        ("in the slab of x", x, BLUE),
+        ("in the slab of y", y, GREEN),
+        ("in both: in the box", hit, YOURS),
+    ];
+    for (row, (name, [from, to], fill)) in rows.into_iter().enumerate() {
+        let top = 262.0 + 24.0 * row as f64;
+        s.line(&[[70.0, top + 9.0], [560.0, top + 9.0]], "#c9d1d8", 1.0);
+        s.card([origin[0] + from, top], [to - from, 18.0], fill, "", &[]);
+        s.say([580.0, top + 13.0], Start, name);
+    }
+    let lines = [
+        "Along the ray each slab is an interval",
+        "of t. The ray is in the box where both",
+        "intervals overlap: from the last entry",
+        "to the first exit. If the last entry comes",
+        "after the first exit, the ray misses.",
+    ];
+    for (row, line) in lines.into_iter().enumerate() {
+        s.say([586.0, 90.0 + 20.0 * row as f64], Start, line);
+    }
+    s.svg()
+}
+
+/// A ball less another, within a half-space: the intervals are those of the reference.
+pub fn intervals() -> String {
+    let mut s = Sheet::new([840, 360], "A solid is a rule on intervals");
+    let ball = |x: f64, radius: f64| Sphere { center: DVec3::new(x, 0.0, 0.0), radius };
+    let (a, b, cut) = (ball(3.0, 1.15), ball(4.1, 0.75), 2.2);
+    let half_space = Solid::HalfSpace { normal: DVec3::NEG_X, offset: -cut };
+    let carved = Solid::difference(Solid::Ball(a), Solid::Ball(b));
+    let solid = Solid::Intersection(vec![carved, half_space.clone()]);
+    let length = 6.6;
+    let origin = DVec3::new(0.0, 0.35, 0.0);
+    let ray = Ray { origin, direction: DVec3::X, tmin: 0.0, tmax: length };
+    let (left, middle, scale) = (40.0, 150.0, 82.0);
+    let place = |x: f64, y: f64| [left + scale * x, middle - scale * y];
+    let room = [place(cut, 1.2), place(6.5, 1.2), place(6.5, -1.2), place(cut, -1.2)];
+    s.polygon(&room, GREEN, "none");
+    s.circle(place(a.center.x, 0.0), scale * a.radius, YOURS, BROWN);
+    s.circle(place(b.center.x, 0.0), scale * b.radius, WHITE, BROWN);
+    s.arrow(&[place(0.0, origin.y), place(length, origin.y)]);
+    s.dot(place(0.0, origin.y), 5.0, LINE);
+    s.note(place(5.4, -1.0), Start, "half-space");
+    s.title(place(2.6, -0.5), Middle, "A");
+    s.title(place(4.3, -0.3), Middle, "B");
+    let rows = [
+        ("in A", Solid::Ball(a), YOURS),
+        ("in B", Solid::Ball(b), WHITE),
+        ("in the half-space", half_space, GREEN),
+        ("in A, not in B, in the half-space", solid, BROWN),
+    ];
+    for (row, (name, solid, fill)) in rows.into_iter().enumerate() {
+        let top = 258.0 + 24.0 * row as f64;
+        s.line(&[[left, top + 9.0], [left + length * scale, top + 9.0]], "#c9d1d8", 1.0);
+        for [from, to] in solid.intervals(&ray) {
+            let (from, to) = (from.max(0.0), to.min(length));
+            s.card([left + scale * from, top], [scale * (to - from), 18.0], fill, "", &[]);
+        }
+        s.say([596.0, top + 13.0], Start, name);
+    }
+    s.svg()
+}

@@ -1,0 +1,139 @@
+//! The acceleration structures of what moves: the flag's bottom level, and the top level of all instances. At each
+//! frame they are built again or updated.
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Input};
+use common::scene::{input_usage, instance_bytes};
+
+use super::costs::Costs;
+use super::flag::Flag;
+use super::world::World;
+
+common::shader_enum! {
+    /// What is done to a level when a frame has moved something.
+    pub enum Policy {
+        /// It is built again.
+        Rebuilt,
+        /// Its tree stays, and its boxes follow.
+        Updated,
+    }
+}
+
+/// What is done at each frame.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Plan {
+    pub flag: Policy,
+    pub top: Policy,
+    /// What is updated is built again at the frames that this divides.
+    pub every: u32,
+}
+
+/// The levels, and the frame that they show.
+pub struct Levels {
+    /// The top level.
+    pub tlas: AccelerationStructure,
+    flag: AccelerationStructure,
+    instances: Buffer,
+    scratch: [Buffer; 2],
+    /// Which instance each of the build is.
+    order: Vec<u32>,
+    shown: Option<(u32, Plan)>,
+    /// The frame of the last build of both.
+    built: Option<u32>,
+    costs: Costs,
+    gpu: Gpu,
+}
+
+impl Levels {
+    pub fn new(gpu: &Gpu, world: &World, flag: &Flag) -> Result<Self> {
+        let options = BuildOptions { updatable: true, ..BuildOptions::default() };
+        let bottom = AccelerationStructure::bottom(gpu, "flag", &[flag.geometry()], options)?;
+        let order = world.order(gpu, 0);
+        let bytes = world.instances(0, &order, &bottom);
+        let bytes: Vec<u8> = bytes.iter().flat_map(instance_bytes).collect();
+        // What is recorded into the buffer must be a copy's target.
+        let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+        let instances = Buffer::with_data(gpu, "instances", &bytes, usage)?;
+        let count = order.len() as u32;
+        let tlas = AccelerationStructure::top(gpu, "top level", &instances, count, options)?;
+        let scratch = [bottom.scratch()?, tlas.scratch()?];
+        let (costs, gpu) = (Costs::new(gpu)?, gpu.clone());
+        let (shown, built) = (None, None);
+        Ok(Self { tlas, flag: bottom, instances, scratch, order, shown, built, costs, gpu })
+    }
+
+    // ANCHOR: reach
+    /// Records what takes the levels to a frame. What they are there follows from the frame and the plan alone: built
+    /// at the last frame that `every` divides, and updated once from there.
+    pub fn reach(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        (world, flag): (&World, &Flag),
+        (frame, plan): (u32, Plan),
+    ) -> Result<()> {
+        if self.shown == Some((frame, plan)) {
+            return Ok(());
+        }
+        self.costs.settle()?;
+        let due = frame - frame % plan.every;
+        let same_plan = self.shown.is_some_and(|(_, before)| before == plan);
+        if self.built != Some(due) || !same_plan {
+            self.show(cmd, (world, flag), (due, plan), true)?;
+            self.built = Some(due);
+        }
+        if frame != due {
+            self.show(cmd, (world, flag), (frame, plan), false)?;
+        }
+        self.shown = Some((frame, plan));
+        Ok(())
+    }
+    // ANCHOR_END: reach
+
+    // ANCHOR: show
+    /// Moves everything to a frame: vertices, the flag's bottom level, instances, the top level, in this order.
+    fn show(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        (world, flag): (&World, &Flag),
+        (frame, plan): (u32, Plan),
+        anew: bool,
+    ) -> Result<()> {
+        flag.deform(cmd, frame)?;
+        let is_built = |policy| anew || policy == Policy::Rebuilt;
+        let (geometry, [for_flag, for_top]) = ([flag.geometry()], &self.scratch);
+        self.costs.time(cmd, 0, is_built(plan.flag), || match is_built(plan.flag) {
+            true => self.flag.rebuild(cmd, Input::Geometries(&geometry), for_flag),
+            false => self.flag.update(cmd, Input::Geometries(&geometry), for_flag),
+        })?;
+
+        // An update keeps the order of the build: instance i of both is the same piece.
+        if is_built(plan.top) {
+            self.order = world.order(&self.gpu, frame);
+        }
+        let instances = world.instances(frame, &self.order, &self.flag);
+        let bytes: Vec<u8> = instances.iter().flat_map(instance_bytes).collect();
+        self.instances.update(cmd, &bytes)?;
+        let input = Input::Instances(self.instances.address, instances.len() as u32);
+        self.costs.time(cmd, 1, is_built(plan.top), || match is_built(plan.top) {
+            true => self.tlas.rebuild(cmd, input, for_top),
+            false => self.tlas.update(cmd, input, for_top),
+        })
+    }
+    // ANCHOR_END: show
+
+    /// Bytes and milliseconds of both levels, built and updated.
+    pub fn report(&self) -> Result<serde_json::Value> {
+        self.costs.settle()?;
+        let level = |level: &AccelerationStructure, number: usize| {
+            serde_json::json!({
+                "bytes": level.size,
+                "build_scratch_bytes": level.build_scratch,
+                "update_scratch_bytes": level.update_scratch,
+                "build_milliseconds": self.costs.median(number, true),
+                "update_milliseconds": self.costs.median(number, false),
+            })
+        };
+        Ok(serde_json::json!({ "flag": level(&self.flag, 0), "top": level(&self.tlas, 1) }))
+    }
+}

@@ -1,0 +1,211 @@
+//! 14 · Animation: a game of chess is played, and a flag waves beside it.
+//!
+//! New since 05_shadow_miss: a frame's number says where everything is; a compute shader moves vertices; bottom
+//! and top levels are updated or built again, each behind its barriers.
+
+mod costs;
+mod flag;
+mod game;
+mod levels;
+mod motion;
+mod position;
+mod turned;
+mod world;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
+    Variants,
+};
+use common::scene::{
+    Camera, CameraBasis, Light, SceneAddresses, SceneOptions, ShadowRays, Sun, assets, text,
+};
+use common::usage::Usage;
+use common::{Controls, Frame, Lighting, Playback, Sample, Setup};
+use flag::Flag;
+use glam::{DVec3, Vec3};
+use levels::{Levels, Plan, Policy};
+use motion::Motion;
+use world::World;
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    world: World,
+    flag: Flag,
+    levels: Levels,
+    playback: Playback,
+    plan: Plan,
+    /// How many cells the flag shall have across.
+    cells: u32,
+    options: SceneOptions,
+    pipelines: Variants<Constants>,
+    camera: Camera,
+    lighting: Lighting,
+    constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+    }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    shadow_rays: ShadowRays,
+    smooth_terminator: bool,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: Light,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let motion = Motion::new(&game(setup)?);
+        let (cells, plan) = (48, Plan { flag: Policy::Updated, top: Policy::Updated, every: 240 });
+        let flag = Flag::new(gpu, cells, setup.options)?;
+        let playback = Playback::new(motion.last);
+        let world = World::new(gpu, motion, &flag, setup.options)?;
+        let levels = Levels::new(gpu, &world, &flag)?;
+        let camera = Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5);
+        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
+        Ok(Self {
+            world,
+            flag,
+            levels,
+            playback,
+            plan,
+            cells,
+            options: setup.options,
+            pipelines: Variants::default(),
+            camera,
+            lighting: Lighting::new(sun),
+            constants: Constants {
+                show: Show::Picture,
+                shadow_rays: ShadowRays::FirstHit,
+                smooth_terminator: true,
+            },
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.playback(&mut self.playback);
+        c.choice("flag", &mut self.plan.flag);
+        c.choice("top level", &mut self.plan.top);
+        c.integer("build every", &mut self.plan.every, 1..=3600);
+        c.integer("flag cells", &mut self.cells, 1..=512);
+        c.choice("show", &mut self.constants.show);
+        self.lighting.controls(c);
+        c.choice("shadow rays", &mut self.constants.shadow_rays);
+        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    /// What was set is reached before the next frame: its time is that of tracing.
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        if self.flag.across != self.cells {
+            self.flag = Flag::new(gpu, self.cells, self.options)?;
+            self.world.take(&self.flag)?;
+            self.levels = Levels::new(gpu, &self.world, &self.flag)?;
+        }
+        gpu.submit(|cmd| self.reach(cmd))
+    }
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // Bands share a picture: all of them show what the first has recorded.
+        if frame.is_first_band() {
+            self.reach(frame.cmd)?;
+        }
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.world.addresses,
+            light: self.lighting.shader(),
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.levels.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        let Variant { pipeline, sbt, .. } = self.pipelines.choose(
+            frame.gpu,
+            &self.world.scene.textures,
+            self.constants,
+            pipeline,
+        )?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+
+    fn playback(&mut self) -> Option<&mut Playback> {
+        Some(&mut self.playback)
+    }
+
+    fn report(&self) -> Result<serde_json::Value> {
+        self.levels.report()
+    }
+}
+
+impl Demo {
+    /// Records what takes everything that moves to the frame that is shown.
+    fn reach(&mut self, cmd: vk::CommandBuffer) -> Result<()> {
+        self.levels.reach(cmd, (&self.world, &self.flag), (self.playback.frame, self.plan))
+    }
+}
+
+/// The game that `--scene` names, else Morphy's at the opera.
+fn game(setup: &Setup) -> Result<Vec<position::Played>> {
+    let own = assets().join("games/opera.txt");
+    let path = setup.scene().unwrap_or(&own);
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("txt")) {
+        let what = "this chapter takes the moves of a game, a text file (.txt)";
+        return Err(Usage(format!("{}: {what}", text::shown(path))).into());
+    }
+    game::open(path)
+}
+
+// ANCHOR: pipeline
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.shadow_rays)
+        .constant(2, constants.smooth_terminator)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

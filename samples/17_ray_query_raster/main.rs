@@ -1,0 +1,144 @@
+//! 17 · Ray query and raster: triangles are drawn, and rays add what drawing cannot: shadows and occlusion.
+//!
+//! New since 16_ray_query: a graphics pipeline that fills a G-buffer, in `gbuffer.rs`; the compute shader begins
+//! at what that has seen; ambient occlusion.
+
+mod gbuffer;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::{
+    Address, Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable, Variant,
+    Variants,
+};
+use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, Sun};
+use common::{Controls, Frame, Lighting, Sample, Setup};
+use gbuffer::{GBuffer, Placed};
+use glam::Vec3;
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    gbuffer: GBuffer,
+    pipelines: Variants<Constants, ComputePipeline>,
+    camera: Camera,
+    lighting: Lighting,
+    occlusion_rays: u32,
+    constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Triangle, Weights, Hit, Direction = "ray direction", Shadow,
+        Occlusion = "ambient occlusion",
+    }
+}
+
+common::shader_enum! {
+    /// Who finds the surface that a pixel sees.
+    enum Primary: PRIMARY { Raster, Rays }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    primary: Primary,
+}
+
+common::shader_struct! {
+    /// What the compute shader of this chapter can read: 128 bytes, all that is promised.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        placed: Address<Placed>,
+        light: Light,
+        occlusion_rays: u32,
+        band: Band,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures().ray_query().raster()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(Scene::chess)?;
+        let camera = scene.camera;
+        let gbuffer = GBuffer::new(gpu, &scene)?;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
+        Ok(Self {
+            scene,
+            gbuffer,
+            pipelines: Variants::default(),
+            camera,
+            lighting: Lighting::new(sun),
+            occlusion_rays: 16,
+            constants: Constants { show: Show::Picture, primary: Primary::Raster },
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.choice("show", &mut self.constants.show);
+        c.choice("primary", &mut self.constants.primary);
+        self.gbuffer.controls(c);
+        c.integer("occlusion rays", &mut self.occlusion_rays, 0..=256);
+        self.lighting.controls(c);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
+        let camera = self.camera.basis(frame.aspect());
+        let Variant { pipeline, key, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        // All bands of a frame share what the first one draws.
+        if frame.is_first_band() {
+            let draws = key.primary == Primary::Raster;
+            self.gbuffer.prepare(frame, draws.then_some(camera), &self.scene)?;
+        }
+        let push = Push {
+            camera,
+            scene: self.scene.addresses,
+            placed: self.gbuffer.placed(),
+            light: self.lighting.shader(),
+            occlusion_rays: self.occlusion_rays,
+            band: frame.area.into(),
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+            Descriptor::StorageImage(self.gbuffer.seen()?),
+        ];
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        pipeline.dispatch(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+}
+
+// ANCHOR: pipeline
+/// One stage: no groups, no recursion, and nothing to put into a table.
+fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<ComputePipeline> {
+    ComputePipeline::builder(env!("CARGO_BIN_NAME"))
+        .compute("trace.comp")
+        .workgroup(3, [8, 4])
+        .constant(0, constants.show)
+        .constant(1, constants.primary)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build_compute(gpu)
+}
+// ANCHOR_END: pipeline

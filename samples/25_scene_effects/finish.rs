@@ -1,0 +1,57 @@
+//! What a material of a scene file has beyond those of an MTL file: a pattern, and lines along edges.
+
+use common::gpu::ShaderEnum;
+use glam::Vec3;
+use serde::Deserialize;
+
+common::shader_enum! {
+    /// A pattern that fills space (13).
+    #[derive(Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Pattern: PATTERN {
+        /// None: the material's own colour.
+        #[serde(skip)]
+        Plain,
+        /// Veins.
+        Marble,
+        /// Grain.
+        Wood,
+        /// Every other cell.
+        Checker,
+    }
+}
+
+impl Pattern {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        Self::LAYOUT.words[self as usize]
+    }
+}
+
+common::shader_struct! {
+    /// A finish as shaders get it.
+    #[derive(PartialEq)]
+    pub struct Finish {
+        /// The colour where the pattern is 1, linear RGB; where it is 0, the material's own is seen.
+        pub second: Vec3,
+        /// Cells of the pattern's lattice a unit of the mesh's own space.
+        pub scale: f32,
+        /// Colour of the lines, linear RGB.
+        pub ink: Vec3,
+        /// How wide lines along the edges of triangles are, in pixels; 0 for none.
+        pub lines: f32,
+        /// A [`Pattern`].
+        pub pattern: u32,
+    }
+}
+
+impl Finish {
+    /// Neither a pattern nor lines.
+    pub const NONE: Self =
+        Self { second: Vec3::ZERO, scale: 1.0, ink: Vec3::ZERO, lines: 0.0, pattern: 0 };
+
+    /// The pattern, if there is one.
+    pub fn pattern(&self) -> Option<Pattern> {
+        Pattern::ALL[1..].iter().copied().find(|&kind| kind as u32 == self.pattern)
+    }
+}

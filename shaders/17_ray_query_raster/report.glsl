@@ -1,0 +1,41 @@
+// What is to be known of the surface that a pixel sees, whether a rasteriser or a ray has found it.
+#include "push.glsl"
+#include "common/hit.glsl"
+#include "common/above.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+// ANCHOR: seen
+// What was found: four numbers of 32 bits, the texel of the G-buffer.
+struct Seen {
+    uint instance;        // NOTHING for the sky
+    uint triangle;        // of the model
+    vec2 weights;         // the second and the third barycentric coordinate
+};
+
+const uint NOTHING = 0xffffffff;
+// ANCHOR_END: seen
+
+// The surface that was seen, and where: of the ray through the pixel's middle.
+void report(inout Hit hit, Seen seen, vec3 ray) {
+    mat4x3 to_world = push.placed.at[seen.instance].to_world;
+    mat4x3 to_object = push.placed.at[seen.instance].to_object;
+    InstanceRecord instance = push.scene.instances.at[seen.instance];
+    Surface surface = surface_at(instance, seen.triangle, seen.weights);
+    MaterialRecord material = push.scene.materials.at[instance.material];
+    place(hit, instance, seen.triangle, seen.weights, to_world, to_object, ray);
+    hit.t = dot(hit.position - push.camera.origin, ray);
+    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
+    vec3 normal = normalize(vec3(surface.normal * to_object));
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+    hit.lift = lift_to_smooth(hit.face, instance, seen.triangle, seen.weights, to_world);
+
+    hit.color = material.base_color;
+    if (material.base_texture >= 0) {
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+    }
+    hit.material = instance.material;
+    hit.triangle = seen.triangle;
+    hit.instance = seen.instance;
+}

@@ -1,0 +1,126 @@
+//! The hard cases: every top rung is right on all of them, and the simplest rungs fail.
+
+use run::figures;
+use serde_json::{Value, json};
+
+use crate::cases;
+use crate::tables::{Table, ladders, text};
+
+#[test]
+fn every_top_rung_is_right_on_every_hard_case() {
+    let report = cases("tests/data/hard_cases.json");
+    hold(&report);
+    assert_eq!((&report["cases"], &report["skipped"]), (&114.into(), &0.into()));
+    let rungs = report["rungs"].as_array().unwrap();
+    // 43 rungs: the device's triangles have no direct way, the sums no traced one.
+    assert_eq!(rungs.len(), 2 * 43 - 1 - 4);
+    let mut tops = 0;
+    for row in rungs {
+        let number = |key: &str| row[key].as_u64().unwrap();
+        if row.get("unavailable").is_some() {
+            continue;
+        }
+        let verdicts = ["right", "inexact", "false_hits", "false_misses", "never_offered"];
+        let told: u64 = verdicts.iter().map(|key| number(key)).sum();
+        assert_eq!(told + number("not_finite"), number("run"), "{row}");
+        // No rung, however simple, lets infinity or NaN out.
+        assert_eq!(number("not_finite"), 0, "{row}");
+        if row["top"] == true {
+            assert_eq!(number("right"), number("cases"), "{row}");
+            tops += 1;
+        }
+    }
+    // The simplest rungs fail: or the cases are not hard.
+    let wrong = |rung: &str| -> u64 {
+        let rows = rungs.iter().filter(|row| row["rung"] == rung && row["way"] == "direct");
+        rows.map(|row| row["run"].as_u64().unwrap() - row["right"].as_u64().unwrap()).sum()
+    };
+    for rung in ["S0", "B0", "P0", "C0", "I0", "H0", "O0", "A0"] {
+        assert!(wrong(rung) > 0, "{rung} fails nothing");
+    }
+    // Direct and traced: S4, S5, B3, B4, P3, P4, T3, C2, C3, I2, H3 and O5, and A3 one way. Of these every
+    // device has H3 and A3.
+    let all_are_there = rungs.iter().all(|row| row.get("unavailable").is_none());
+    let least = if all_are_there { 2 * 12 + 1 } else { 3 };
+    assert!(tops >= least, "only {tops} top rungs, direct and traced");
+}
+
+/// Holds what the pages say of the cases.
+fn hold(report: &Value) {
+    figures::hold_exact("README/hard_cases", json!({ "cases": report["cases"] }));
+    let (mut table, mut rungs) = (Table::new(), 0);
+    for (shape, rows) in ladders(report) {
+        table.insert(format!("{shape}.cases"), rows[0]["cases"].clone());
+        for row in rows.iter().filter(|row| is_own(row)) {
+            table.insert(text(row, "rung").to_owned(), row["right"].clone());
+            rungs += 1;
+        }
+    }
+    figures::hold("24_accuracy/hard_cases", table.into());
+    let cases = &report["cases"];
+    figures::hold_exact("24_accuracy/ladders", json!({ "rungs": rungs, "cases": cases }));
+    figures::hold("24_accuracy/traced", traced(report).into());
+}
+
+/// The device's own triangles can only be traced; what is asked directly tells of a rung.
+pub fn is_own(row: &Value) -> bool {
+    row["way"] == if row["rung"] == "T0" { "traced" } else { "direct" }
+}
+
+/// How many answers there are both ways, how many are not the same, and how many cases are never offered.
+fn traced(report: &Value) -> Table {
+    let answers = report["answers"].as_array().expect("answers");
+    let of = |way: &'static str| answers.iter().filter(move |answer| answer["way"] == way);
+    let (mut both, mut differ) = (0, 0);
+    for answer in of("direct") {
+        let is_same = |key: &str, other: &Value| answer[key] == other[key];
+        let other = of("traced").find(|other| is_same("case", other) && is_same("rung", other));
+        let Some(other) = other else { continue };
+        both += 1;
+        differ += u32::from(!is_same("verdict", other) || !is_same("t", other));
+    }
+    let never = of("traced").filter(|answer| answer["verdict"] == "never-offered").count();
+    let counts = [("both", both), ("differ", differ), ("never_offered", never as u32)];
+    counts.into_iter().map(|(name, count)| (name.to_owned(), count.into())).collect()
+}
+
+/// The case that the page follows by hand: an eye 1 above a sphere of a million.
+#[test]
+fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
+    let file = "tests/data/hard_cases.json";
+    let text = std::fs::read_to_string(run::root().join(file)).expect("the cases");
+    let all: Value = serde_json::from_str(&text).expect("JSON");
+    let case = all["cases"].as_array().unwrap().iter().find(|case| case["id"] == CASE).unwrap();
+    let number = |of: &Value| of.as_f64().unwrap();
+    let (shape, ray) = (&case["shape"], &case["ray"]);
+    let distance = number(&ray["origin"][1]) - number(&shape["center"][1]);
+    let radius = number(&shape["radius"]);
+    let exact = distance * distance - radius * radius;
+    let rounded = (distance * distance) as f32 - (radius * radius) as f32;
+    let large = (radius * radius) as f32;
+    let step = large.next_up() - large;
+    let off = f64::from(rounded) / exact - 1.0;
+    let found = json!({ "exact": exact, "step": step, "rounded": rounded, "off": off });
+    figures::hold_exact("24_accuracy/by_hand", found);
+
+    let report = cases(file);
+    let answers = report["answers"].as_array().unwrap();
+    let answer = |rung: &str| {
+        let is_it = |answer: &&Value| {
+            answer["case"] == CASE && answer["rung"] == rung && answer["way"] == "direct"
+        };
+        answers.iter().find(is_it).unwrap()
+    };
+    let t: f64 = case["expect"]["t"].as_str().unwrap().parse().unwrap();
+    let mut table = Table::from_iter([("exact".to_owned(), t.into())]);
+    for rung in ["S0", "S2", "S0h", "S4"] {
+        table.insert(rung.to_owned(), answer(rung)["t"].clone());
+        table.insert(format!("{rung}.ulp"), answer(rung)["ulp"].clone());
+    }
+    figures::hold("24_accuracy/planet", table.into());
+    let ulp = |rung: &str| number(&answer(rung)["ulp"]);
+    assert!(ulp("S0") > 1e5 && ulp("S2") > 1e5, "the page says that the shader's c is noise");
+    assert!(ulp("S0h") <= 1.0 && ulp("S4") <= 1.0, "and that two rungs are right all the same");
+}
+
+const CASE: &str = "planet_6deg";

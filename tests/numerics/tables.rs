@@ -1,0 +1,195 @@
+//! The tables of the pages, from a report of the laboratory. A row's figures are called by its head on the
+//! page, with hyphens: `S0-textbook.home`.
+
+use run::figures;
+use serde_json::{Map, Value};
+
+use crate::bars::Row;
+
+/// A table's figures by name, in the order of the page.
+pub type Table = Map<String, Value>;
+
+/// Of a rung or a family what the page calls it.
+pub fn head(words: &[&str]) -> String {
+    words.join(" ").replace(' ', "-")
+}
+
+pub fn text<'a>(value: &'a Value, key: &str) -> &'a str {
+    value[key].as_str().unwrap_or_else(|| panic!("no {key} in {value}"))
+}
+
+/// The rungs of a report by ladder, each with the shape's name.
+pub fn ladders(report: &Value) -> Vec<(&str, &[Value])> {
+    let rungs = report["rungs"].as_array().expect("rungs");
+    let ladders = rungs.chunk_by(|a, b| a["primitive"] == b["primitive"]);
+    ladders.map(|ladder| (text(&ladder[0], "primitive"), ladder)).collect()
+}
+
+fn rows(rung: &Value) -> impl Iterator<Item = Row> {
+    rung["errors"].as_array().into_iter().flatten().map(|row| Row(row.clone()))
+}
+
+/// Holds all errors that the pages print.
+pub fn hold_errors(report: &Value) {
+    let mut rungs = Table::new();
+    let is_of_page = is_of_page(report);
+    for (shape, ladder) in ladders(report) {
+        for rung in ladder.iter().filter(|rung| rows(rung).next().is_some()) {
+            rungs.extend(home_and_hardest(rung, is_of_page));
+        }
+        match shape {
+            "secondary origin" => {
+                figures::hold("24_accuracy/departures", departures(ladder).into())
+            }
+            _ => {
+                let name = format!("24_accuracy/{shape}_errors");
+                figures::hold(&name, errors(ladder).into());
+            }
+        }
+    }
+    rungs.insert("planet.gain".to_owned(), gain(report).into());
+    figures::hold("24_accuracy/rungs", rungs.into());
+    let mut forms = Table::new();
+    for form in report["forms"].as_array().expect("forms") {
+        let head = head(&[text(form, "name")]);
+        let keys = ["lost", "depth", "p99", "bytes"];
+        forms.extend(keys.map(|key| (format!("{head}.{key}"), form[key].clone())));
+    }
+    figures::hold("24_accuracy/forms", forms.into());
+}
+
+/// A rung at home, and on the family that is hardest for it: where most rays are wrong, then where p99 is
+/// largest. There is no error where no ray hits.
+fn home_and_hardest(rung: &Value, is_of_page: bool) -> Table {
+    let asked: Vec<Row> = rows(rung).filter(|row| is_own(rung, row)).collect();
+    let part = |row: &Row| row.wrong() / row.number("rays");
+    let hardness = |row: &Row| (part(row), row.number("p99"));
+    let hardest = asked.iter().max_by(|a, b| {
+        let ((a, b), (c, d)) = (hardness(a), hardness(b));
+        a.total_cmp(&c).then(b.total_cmp(&d))
+    });
+    let (home, hardest) = (&asked[0], hardest.expect("a family"));
+    let head = head(&[text(rung, "rung"), text(rung, "name")]);
+    let mut table = Table::new();
+    let mut add = |key: &str, value: f64| table.insert(format!("{head}.{key}"), value.into());
+    add("p50", home.number("p50"));
+    add("p99", home.number("p99"));
+    add("wrong", home.wrong());
+    if part(hardest) < 1.0 {
+        add("there", hardest.number("p99"));
+    }
+    add("part", part(hardest));
+    if is_of_page {
+        let none = part(hardest) == 0.0 && hardest.number("p99") < 0.505;
+        page_names(rung, if none { "none" } else { text(&hardest.0, "family") });
+    }
+    table
+}
+
+/// The device's own triangles can only be traced; what is asked directly tells of a rung.
+fn is_own(rung: &Value, row: &Row) -> bool {
+    let way = if text(rung, "rung") == "T0" { "traced" } else { "direct" };
+    row.0["way"] == way
+}
+
+/// How many times smaller the p99 of the textbook's sphere is on a planet, if c comes from the host.
+fn gain(report: &Value) -> f64 {
+    let [textbook, host] = ["S0", "S0h"].map(|label| {
+        let mut rungs = report["rungs"].as_array().expect("rungs").iter();
+        let rung = rungs.find(|rung| rung["rung"] == label).expect("a rung of spheres");
+        let mut asked = rows(rung).filter(|row| is_own(rung, row));
+        let planet = asked.find(|row| row.0["family"] == "planet of 1e6 from 1 above");
+        planet.expect("the planet").number("p99")
+    });
+    textbook / host
+}
+
+/// Whether the page's figures are of this device.
+fn is_of_page(report: &Value) -> bool {
+    let file = run::root().join("docs/figures/24_accuracy/rungs.json");
+    let stored = std::fs::read(file).unwrap_or_default();
+    serde_json::from_slice(&stored).is_ok_and(|stored: Value| stored["device"] == report["device"])
+}
+
+/// The page's table names a rung's hardest family, or none where it has half an ULP everywhere.
+fn page_names(rung: &Value, family: &str) {
+    let page = std::fs::read_to_string(run::root().join("docs/24_accuracy.md")).expect("a page");
+    let start = format!("| {} {} |", text(rung, "rung"), text(rung, "name"));
+    let mut rows = page.lines().filter(|line| line.starts_with(&start));
+    // The table of origins has all families.
+    let is_named = rows.any(|row| row.contains(&format!(" | {family} | ")));
+    assert!(is_named || text(rung, "primitive") == "secondary origin", "{start} … | {family} |");
+}
+
+/// Every family by every rung; traced rays where they are not as direct ones.
+fn errors(ladder: &[Value]) -> Table {
+    let mut families = Vec::new();
+    for row in ladder.iter().flat_map(rows) {
+        let family = text(&row.0, "family").to_owned();
+        if !families.contains(&family) {
+            families.push(family);
+        }
+    }
+    let keys = ["p50", "p99", "max", "false_misses", "false_hits", "never_offered"];
+    let found = |row: &Row| keys.map(|key| row.number(key));
+    let mut table = Table::new();
+    for (family, rung) in families.iter().flat_map(|f| ladder.iter().map(move |rung| (f, rung))) {
+        let rows: Vec<Row> = rows(rung).filter(|row| row.0["family"] == **family).collect();
+        for row in &rows {
+            let is_direct = |row: &Row| row.0["way"] == "direct";
+            let same = |other: &Row| is_direct(other) && found(other) == found(row);
+            if !is_direct(row) && rows.iter().any(same) {
+                continue;
+            }
+            let head = head(&[family, text(rung, "rung"), text(&row.0, "way")]);
+            table.extend(keys.map(|key| (format!("{head}.{key}"), row.0[key].clone())));
+        }
+    }
+    table
+}
+
+/// How many rays met their sphere again, or passed the plane in the gap.
+fn departures(ladder: &[Value]) -> Table {
+    let mut table = Table::new();
+    for (number, family) in rows(&ladder[0]).enumerate() {
+        let head = head(&[text(&family.0, "family")]);
+        table.insert(format!("{head}.rays"), family.0["rays"].clone());
+        for rung in ladder {
+            let Some(row) = rows(rung).nth(number) else { continue };
+            table.insert(format!("{head}.{}", text(rung, "rung")), (row.wrong() as u64).into());
+        }
+    }
+    table
+}
+
+/// Holds a GPU compiler's estimates.
+pub fn hold_estimates(report: &Value) {
+    let compiler = text(report, "compiler");
+    let mut table = Table::new();
+    for rung in report["rungs"].as_array().expect("rungs") {
+        let head = head(&[text(rung, "rung"), text(rung, "name")]);
+        for family in rung["compiled_for"].as_array().expect("families") {
+            let name = text(family, "family");
+            for key in ["ratio", "inverse_throughput", "instructions", "registers"] {
+                table.insert(format!("{head}.{name}.{key}"), family[key].clone());
+            }
+        }
+    }
+    for (kind, [least, most]) in span(&table, ".navi31.ratio") {
+        table.insert(format!("{kind}.least"), least.into());
+        table.insert(format!("{kind}.most"), most.into());
+    }
+    let generations = "RDNA2, RDNA3, RDNA4";
+    figures::hold_compiled("24_accuracy/estimates", compiler, generations, table.into());
+}
+
+/// The least and the most that rungs of two floats, and of 64 bits, cost.
+pub fn span(table: &Table, key: &str) -> [(&'static str, [f64; 2]); 2] {
+    ["two-float", "64-bits"].map(|kind| {
+        let end = format!("-{kind}{key}");
+        let own = table.iter().filter(|(name, _)| name.ends_with(&end));
+        let values: Vec<f64> = own.map(|(_, value)| value.as_f64().expect("a number")).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        (kind, [least, values.into_iter().fold(0.0, f64::max)])
+    })
+}

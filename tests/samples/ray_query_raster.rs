@@ -1,0 +1,55 @@
+//! 17_ray_query_raster: what the rasteriser sees held to the reference, and occlusion to its closed form.
+
+mod occlusion;
+mod visibility;
+
+use common::app::Picture;
+use run::{Run, bits, flip, golden, refused, render};
+
+const NAME: &str = "17_ray_query_raster";
+const SIZE: &str = "240x150";
+
+/// A run with these controls set.
+fn run_of(size: &str, sets: &[&str]) -> Run {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    render(NAME, size, &arguments)
+}
+
+fn picture(size: &str, sets: &[&str]) -> Picture {
+    run_of(size, sets).picture
+}
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &picture(SIZE, &[]), 0.002);
+}
+
+/// Without occlusion it is the picture of 16: what differs is a few pixels at edges.
+#[test]
+fn raster_and_rays_give_the_picture_of_16() {
+    let of_16 = render("16_ray_query", SIZE, &[]).picture;
+    for primary in ["primary=rays", "primary=raster"] {
+        let (mean, outliers) = flip(&of_16, &picture(SIZE, &["occlusion rays=0", primary]));
+        println!("{primary}: mean FLIP {mean:.6}, {outliers:.6} of the pixels are far off");
+        assert!(mean < 0.001 && outliers < 0.002, "{primary}: {mean}, {outliers}");
+    }
+}
+
+/// What a compute shader reads was drawn in the same frame: not in the last one, of another view.
+#[test]
+fn a_frame_from_elsewhere_is_drawn_anew() {
+    // The first value is shown again at the end.
+    let views = "camera eye=5,3,6|-5.6,4.8,9.2";
+    let arguments = ["--compare", views, "--frames", "1", "--set", "occlusion rays=0"];
+    let after = render(NAME, "64x40", &arguments).picture;
+    let alone = picture("64x40", &["camera eye=5,3,6", "occlusion rays=0"]);
+    assert!(bits(&after) == bits(&alone));
+}
+
+#[test]
+fn a_picture_larger_than_a_device_draws_is_refused_in_one_line() {
+    let (code, line) = refused(NAME, &["--headless", "--size", "100000x4"]);
+    assert_eq!(code, 2);
+    assert!(line.contains("100000x4 is too large"), "{line}");
+}

@@ -1,0 +1,217 @@
+//! Who sees what: every pixel of the rasteriser and of the rays, the reference deciding.
+
+use std::sync::LazyLock;
+
+use common::app::Picture;
+use common::scene::{Camera, Scene};
+use glam::{DVec2, DVec3};
+use reference::Ray;
+use reference::scene::Scene as Exact;
+use serde_json::json;
+
+use run::primary_hits::{answer, rays, reference};
+use run::{figures, render};
+
+use super::NAME;
+
+/// Width and height.
+type Size = (u32, u32);
+
+/// A pixel's fraction that a vertex is rounded to: of 8 bits on llvmpipe. It moves by half of that each way,
+/// and so an edge by at most √2/2 of it; what the vertex shader rounds in 32 bits comes on top.
+const SNAP: f64 = std::f64::consts::FRAC_1_SQRT_2 / 256.0 + 0.0002;
+
+/// How the answers of a picture compare with the reference.
+#[derive(Debug, Default)]
+struct Count {
+    agree: usize,
+    /// Another answer, as the pixel's centre is nearer to an edge than vertices are rounded.
+    edges: usize,
+    /// Of those, other instances: a reader sees them.
+    other_instances: usize,
+    /// The nearest of the edges' distances that would have explained all of those, in pixels.
+    reach: f64,
+    /// A surface farther away than another that covers the pixel too.
+    farther: usize,
+    /// How much farther the farthest is.
+    depth: f64,
+    /// Nothing, where something covers the pixel.
+    lost: usize,
+    /// Nothing explains it.
+    wrong: Vec<String>,
+}
+
+/// A camera in f64, which finds the place of a point in the picture.
+struct Projection {
+    camera: Camera,
+    size: Size,
+}
+
+impl Projection {
+    /// In pixels from the top left corner.
+    fn place(&self, point: DVec3) -> DVec2 {
+        let [right, up, forward] = self.camera.axes();
+        let way = point - self.camera.eye;
+        let (width, height) = (f64::from(self.size.0), f64::from(self.size.1));
+        let half = (self.camera.fov_y.to_radians() / 2.0).tan() * way.dot(forward);
+        let (x, y) = (way.dot(right) / (half * width / height), way.dot(up) / half);
+        DVec2::new((x + 1.0) * width / 2.0, (1.0 - y) * height / 2.0)
+    }
+
+    /// How far inside a triangle the middle of a pixel is: negative outside.
+    fn margin(&self, pixel: usize, triangle: &[DVec3; 3]) -> f64 {
+        let width = self.size.0 as usize;
+        let middle = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+        let [a, b, c] = triangle.map(|corner| self.place(corner));
+        let around = (b - a).perp_dot(c - a).signum();
+        let inside = |from: DVec2, to: DVec2| {
+            around * (to - from).perp_dot(middle - from) / (to - from).length()
+        };
+        inside(a, b).min(inside(b, c)).min(inside(c, a))
+    }
+}
+
+fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray], snap: f64) -> Count {
+    let mut count = Count::default();
+    for (pixel, (hit, ray)) in hits.pixels.iter().zip(rays).enumerate() {
+        let expected = exact.closest_hit(ray, |_| true).map(|hit| (hit.instance, hit.primitive));
+        let found = answer(hit).map(|found| (found.instance, found.primitive));
+        if found == expected {
+            count.agree += 1;
+            continue;
+        }
+        let margin = |(instance, primitive): (u32, u32)| {
+            projection.margin(pixel, exact.triangle(instance, primitive).expect("a triangle"))
+        };
+        let t = |(instance, primitive): (u32, u32)| {
+            exact.candidate_at(ray, instance, primitive).expect("a triangle").hit.t
+        };
+        // The answer covers the pixel only if an edge moves, or what should cover it does not.
+        let needed = found.map_or(0.0, |found| -margin(found)).max(0.0);
+        let missed = expected.map_or(f64::INFINITY, margin);
+        let reach = if needed > 0.0 { needed } else { missed };
+        if reach <= snap {
+            count.edges += 1;
+            let instance = |of: Option<(u32, u32)>| of.map(|(instance, _)| instance);
+            count.other_instances += usize::from(instance(found) != instance(expected));
+            count.reach = count.reach.max(reach);
+        } else if let (Some(found), Some(expected)) = (found, expected)
+            && needed == 0.0
+        {
+            count.farther += 1;
+            count.depth = count.depth.max(t(found) - t(expected));
+        } else if found.is_none() {
+            count.lost += 1;
+        } else {
+            count.wrong.push(format!("{pixel}: {found:?}, not {expected:?}; {needed}, {missed}"));
+        }
+    }
+    count
+}
+
+/// What is looked at, and how it is drawn.
+struct View<'a> {
+    size: Size,
+    camera: Camera,
+    sets: &'a [&'a str],
+    arithmetic: &'a str,
+    /// How far an edge may move, in pixels.
+    snap: f64,
+}
+
+impl View<'_> {
+    fn of(size: Size) -> Self {
+        let camera = Scene::chess().unwrap().camera;
+        Self { size, camera, sets: &[], arithmetic: "driver", snap: SNAP }
+    }
+
+    /// How the answers of `primary`, raster or rays, compare with the reference.
+    fn count(&self, primary: &str) -> Count {
+        static EXACT: LazyLock<Exact> = LazyLock::new(|| reference(&Scene::chess().unwrap()));
+        let Camera { eye, target, fov_y, .. } = self.camera;
+        let settings = [
+            format!("camera eye={},{},{}", eye.x, eye.y, eye.z),
+            format!("camera target={},{},{}", target.x, target.y, target.z),
+            format!("field of view={fov_y}"),
+            format!("primary={primary}"),
+            "occlusion rays=0".to_owned(),
+        ];
+        let size = format!("{}x{}", self.size.0, self.size.1);
+        let shown = |view: &str| {
+            let sets = settings.iter().map(String::as_str).chain(self.sets.iter().copied());
+            let sets = sets.chain([view]).flat_map(|set| ["--set", set]);
+            let arithmetic = ["--arithmetic", self.arithmetic];
+            render(NAME, &size, &arithmetic.into_iter().chain(sets).collect::<Vec<_>>()).picture
+        };
+        let rays: Vec<Ray> = rays(&self.camera, &shown("show=ray direction")).collect();
+        let projection = Projection { camera: self.camera, size: self.size };
+        count(&EXACT, &projection, &shown("show=hit"), &rays, self.snap)
+    }
+}
+
+#[test]
+fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
+    let view = View::of((480, 300));
+    let [raster, rays] = ["raster", "rays"].map(|primary| view.count(primary));
+    println!("{raster:?}\n{rays:?}");
+    for found in [&raster, &rays] {
+        assert!(found.wrong.is_empty(), "{:?}", found.wrong);
+        assert_eq!((found.farther, found.lost), (0, 0), "{found:?}");
+    }
+    // A ray's edges are off by its roundings alone.
+    assert!(rays.edges < raster.edges && rays.reach < 0.0002, "{rays:?}");
+    assert!(raster.edges > 30, "{raster:?}");
+    figures::hold(
+        "17_ray_query_raster/visibility",
+        json!({
+            "pixels": 480 * 300,
+            "raster_edges": raster.edges,
+            "raster_instances": raster.other_instances,
+            "raster_reach": raster.reach,
+            "rays_edges": rays.edges,
+            "rays_instances": rays.other_instances,
+            "rays_reach": rays.reach,
+        }),
+    );
+}
+
+/// All triangles at a corner compute its place alike, however inexactly: edges move, and no crack opens.
+#[test]
+fn no_crack_opens_in_the_worst_arithmetic() {
+    // A corner is some 40 roundings of 12 units off, of which a pixel is 0.08.
+    let snap = SNAP + 40.0 * 12.0 * f64::from(f32::EPSILON) / 0.08;
+    for arithmetic in ["worst", "worst-by-place"] {
+        let raster = View { arithmetic, snap, ..View::of((160, 100)) }.count("raster");
+        println!("{arithmetic}: {raster:?}");
+        assert!(raster.wrong.is_empty(), "{:?}", raster.wrong);
+        assert_eq!((raster.farther, raster.lost), (0, 0), "{raster:?}");
+    }
+}
+
+/// The same view from farther and farther away, by a telescope: what the depth test mistakes.
+#[test]
+fn reversed_floats_tell_near_from_far_where_others_do_not() {
+    let here = View::of((120, 75));
+    let mut found = serde_json::Map::new();
+    let mut mistaken = |times: f64, name: &str, depth: &str| {
+        let Camera { eye, target, fov_y, .. } = here.camera;
+        let half = (fov_y.to_radians() / 2.0).tan() / times;
+        let (eye, fov_y) = (target + times * (eye - target), 2.0 * half.atan().to_degrees());
+        let camera = Camera { eye, fov_y, ..here.camera };
+        let set = format!("depth={depth}");
+        let raster = View { camera, sets: &[&set], ..here }.count("raster");
+        println!("{times} {depth}: {raster:?}");
+        assert!(raster.wrong.is_empty(), "{:?}", raster.wrong);
+        assert_eq!(raster.lost, 0);
+        found.insert(format!("{name}_{times}"), raster.farther.into());
+        raster.farther
+    };
+    for (times, usual_most, short_least) in [(1.0, 0, 5), (10.0, 20, 500), (100.0, 9000, 500)] {
+        assert_eq!(mistaken(times, "reversed", "reversed float"), 0);
+        let usual = mistaken(times, "usual", "usual float");
+        let short = mistaken(times, "short", "usual 16 bits");
+        assert!(usual <= usual_most && short >= short_least, "{times}: {usual} {short}");
+        assert!(times < 100.0 || usual > 500, "{usual}");
+    }
+    figures::hold("17_ray_query_raster/depth", found.into());
+}
