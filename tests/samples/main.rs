@@ -6,6 +6,7 @@ mod bands;
 mod basic;
 mod callable_shader;
 mod foundation;
+mod glass;
 mod heightfield;
 mod infinite_plane;
 mod instancing;

@@ -39,6 +39,10 @@ impl Near {
             // roulette: 15 decisions. One that flips sends the rest of the path elsewhere, which can make five
             // pixels seem wholly others: 15 times 5 of 5,760.
             11 => Self { flips: 15, mean: 0.013 },
+            // Ten surfaces a path, each small and round: an error grows by the way over the radius at each of
+            // them, to more than a pixel in places, and each is a choice by chance as well. One pixel of a
+            // hundred sees another way.
+            27 => Self { flips: 90, mean: 0.02 },
             other => panic!("how near is a picture of {other}?"),
         }
     }

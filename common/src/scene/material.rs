@@ -19,6 +19,10 @@ pub struct Material {
     pub opacity: f32,
     /// The number of the illumination model, 0 to 10 (`illum`).
     pub illumination: u32,
+    /// Index of refraction (`Ni`).
+    pub refraction: f32,
+    /// What passes through, linear RGB (`Tf`).
+    pub transmission: Vec3,
     /// The texture whose RGB multiplies `base_color`, by position in the model (`map_Kd`).
     pub base_texture: Option<usize>,
     /// The texture whose alpha multiplies `opacity`, by position in the model (`map_d`).
@@ -49,6 +53,8 @@ impl Default for Material {
             emission: Vec3::ZERO,
             opacity: 1.0,
             illumination: 1,
+            refraction: 1.0,
+            transmission: Vec3::ONE,
             base_texture: None,
             opacity_texture: None,
         }

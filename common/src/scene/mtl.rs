@@ -109,8 +109,9 @@ impl MaterialLibrary {
         if keyword == "newmtl" {
             return self.start(material_name(keyword, rest)?, statement, warnings);
         }
-        if !matches!(keyword, "Kd" | "Ks" | "Ke" | "Ns" | "d" | "Tr" | "illum" | "map_Kd" | "map_d")
-        {
+        const READ: [&str; 11] =
+            ["Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
+        if !READ.contains(&keyword) {
             return Ok(());
         }
         ensure!(self.given.any, "{keyword} stands before the first newmtl");
@@ -125,7 +126,7 @@ impl MaterialLibrary {
         let position = self.materials.len().saturating_sub(1);
         let material = self.materials.last_mut().context("no material")?;
         match keyword {
-            "Kd" | "Ks" | "Ke" => {
+            "Kd" | "Ks" | "Ke" | "Tf" => {
                 let Some(color) = color(keyword, rest, &mut pass_over)? else { return Ok(()) };
                 match keyword {
                     "Kd" => {
@@ -133,10 +134,12 @@ impl MaterialLibrary {
                         self.colored.insert(position);
                     }
                     "Ks" => material.specular = color,
+                    "Tf" => material.transmission = color,
                     _ => material.emission = color,
                 }
             }
             "Ns" => material.shininess = number(keyword, rest, f32::MAX)?,
+            "Ni" => material.refraction = number(keyword, rest, f32::MAX)?,
             "d" => {
                 let value = rest.strip_prefix("-halo").inspect(|_| pass_over("the option -halo"));
                 material.opacity = number(keyword, value.unwrap_or(rest), 1.0)?;

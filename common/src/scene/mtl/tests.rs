@@ -21,7 +21,7 @@ fn line_refused(line: &str, message: &str) {
 #[test]
 fn every_statement_is_read() {
     let mtl = "# one\nnewmtl a\nKa 1 1 1\n Kd 0.1 0.2 0.3 # red\nKs 0.5\nKe 9 8 7\nNs 20\nNi 1.5\n\
-               d 0.25\nTr 0.1\nillum 2\nPr 0.3\nmap_Ks -s 1 1 1 nowhere.png\nmap_Bump ../x.png\n";
+               Tf 0.9 1 0.8\nd 0.25\nTr 0.1\nillum 2\nPr 0.3\nmap_Ks -s 1 1 1 nowhere.png\nmap_Bump ../x.png\n";
     let expected = Material {
         name: "a".to_owned(),
         base_color: Vec3::new(0.1, 0.2, 0.3),
@@ -30,6 +30,8 @@ fn every_statement_is_read() {
         emission: Vec3::new(9.0, 8.0, 7.0),
         opacity: 0.25,
         illumination: 2,
+        refraction: 1.5,
+        transmission: Vec3::new(0.9, 1.0, 0.8),
         ..Material::default()
     };
     assert_eq!(load_mtl(mtl).unwrap(), expected);
@@ -45,6 +47,8 @@ fn numbers_that_are_wrong() {
     line_refused("Kd 0 -0.5 0", "Kd has a negative number; a colour has none");
     line_refused("Ks 0 1", "Ks has 2 numbers; a colour has 3, or 1 for a grey");
     line_refused("Ks", "Ks has 0 numbers; a colour has 3, or 1 for a grey");
+    line_refused("Ni -1", "Ni is -1; it cannot be negative");
+    line_refused("Tf 1 1", "Tf has 2 numbers; a colour has 3, or 1 for a grey");
     line_refused("Ns -1", "Ns is -1; it cannot be negative");
     line_refused("Ns", "Ns is not followed by a number");
     line_refused("d 1.5", "d is 1.5; it cannot be more than 1");

@@ -1,0 +1,153 @@
+// A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+#include "media.glsl"
+#include "light_disk.glsl"
+
+// ANCHOR: path
+struct Path {
+    uvec2 pixel;       // whose colour it makes
+    vec3 color;        // what the eye sees so far
+    vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
+    uint bounce;       // the next ray's number: 0 comes from the camera
+    bool asked;        // whether the next ray leaves a surface that a shadow ray has asked for the light
+    uvec4 media;       // the bodies that the next ray is in
+};
+// ANCHOR_END: path
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;
+};
+
+vec2 numbers(Path path, uint dimension) {
+    return numbers(path.pixel, push.sample_index, path.bounce, dimension, push.seed);
+}
+
+// Adds what a ray meets.
+void gather(inout Path path, vec3 seen) {
+    vec3 light = path.throughput * seen;
+    if (path.bounce > 0 && push.most > 0.0) {
+        light *= push.most / max(largest(light), push.most);
+    }
+    path.color += light;
+}
+
+// ANCHOR: roulette
+// Whether the next ray is worth tracing. Clear glass takes nothing, and ends no path by chance: the depth does.
+bool goes_on(inout Path path) {
+    float contribution = largest(path.throughput);
+    if (path.bounce > push.depth || contribution <= 0.0 || contribution < push.minimum_contribution) {
+        return false;
+    }
+    if (path.bounce > 1 && contribution < 1.0) {
+        // Who survives stands for those who do not.
+        path.throughput /= contribution;
+        return numbers(path, DIMENSION_ROULETTE).x < contribution;
+    }
+    return true;
+}
+// ANCHOR_END: roulette
+
+// A ray met glass, and goes one of two ways.
+void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
+    // ANCHOR: between
+    uvec4 beyond = path.media;
+    if (glass.kind == GLASS_THICK) {
+        beyond = hit.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
+    }
+    uint inner = glass.kind == GLASS_THIN ? hit.material : beyond.x;
+    bool is_real = inner != path.media.x;
+    float from = path.media.x == AIR ? 1.0 : push.world.glasses.at[path.media.x].index;
+    float to = inner == AIR ? 1.0 : push.world.glasses.at[inner].index;
+    // ANCHOR_END: between
+    // ANCHOR: choice
+    // Near an outline the ray may come from behind the smooth normal; it never does so from behind the face.
+    vec3 normal = dot(ray.direction, hit.normal) < 0.0 ? hit.normal : hit.face;
+    Split split = Split(0.0, 1.0);
+    if (is_real) {
+        split = fresnel_exact(min(dot(-ray.direction, normal), 1.0), from, to);
+    }
+    if (glass.kind == GLASS_THIN) {
+        split = of_sheet(split);
+    }
+    float chance = SHOW == SHOW_PICTURE ? numbers(path, DIMENSION_CHOICE).x : 0.9999999;
+    float side = 1.0;
+    if (chance < split.reflected) {
+        ray.direction = mirrored(ray.direction, normal, hit.face);
+    } else {
+        if (glass.kind == GLASS_THIN) {
+            path.throughput *= left_after(glass.absorption);
+        } else if (is_real) {
+            ray.direction = kept_above(refracted(ray.direction, normal, from, to), -hit.face);
+        }
+        path.media = beyond;
+        side = -1.0;
+    }
+    ray.origin = hit.position + side * hit.height * hit.face;
+    // ANCHOR_END: choice
+    // A shadow ray does not see through glass: the light behind it is met by chance.
+    path.asked = false;
+}
+
+// What a ray has met is lit and gathered, and says which ray comes next.
+void advance(inout Path path, inout Ray ray, Hit hit) {
+    // ANCHOR: absorb
+    if (path.media.x != AIR && hit.t >= 0.0) {
+        path.throughput *= left_after(hit.t * push.world.glasses.at[path.media.x].absorption);
+    }
+    // ANCHOR_END: absorb
+    // ANCHOR: chance
+    if (!path.asked) {
+        gather(path, seen_of_light(push.world.light, ray.origin, ray.direction, hit.t));
+    }
+    // ANCHOR_END: chance
+    if (hit.t < 0.0) {
+        gather(path, hit.color);
+        path.throughput = vec3(0.0);
+        path.bounce++;
+        return;
+    }
+    Glass glass = push.world.glasses.at[hit.material];
+    if (glass.kind != GLASS_NONE) {
+        pass(path, ray, hit, glass);
+        path.bounce++;
+        return;
+    }
+    MaterialRecord material = push.world.scene.materials.at[hit.material];
+    vec3 color = hit.color;
+    float to_eye = max(dot(hit.normal, -ray.direction), 0.0);
+    bool polished = material.illumination >= ILLUMINATION_MIRROR;
+    // ANCHOR: light
+    gather(path, material.emission);
+    // From within glass, a shadow ray would only find glass.
+    bool asks = path.media.x == AIR;
+    if (asks) {
+        Start start = shadow_start(hit);
+        float visible = visibility(push.world.light, start, numbers(path, DIMENSION_LIGHT));
+        vec3 to_light = normalize(towards_light(push.world.light, start.origin, vec2(0.0)));
+        hit.color = scattered(material, color, to_eye, max(dot(hit.normal, to_light), 0.0));
+        MaterialRecord lit = material;
+        // A mirror meets the light by chance: its image is the highlight.
+        lit.specular *= polished ? 0.0 : kept_of_highlight(material.shininess);
+        gather(path, lit_by(push.world.light, hit, lit, start, -ray.direction, visible));
+    }
+    // ANCHOR_END: light
+    // ANCHOR: next
+    vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
+    vec3 rest = color * (1.0 - (polished ? mirror : material.specular));
+    // One of the two ways, and the likelier the more light comes along it.
+    float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
+    if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
+        path.throughput *= mirror / mirrors;
+        ray.direction = mirrored(ray.direction, hit.normal, hit.face);
+        path.asked = false;
+    } else {
+        vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
+        ray.direction = kept_above(on, hit.face);
+        float to_next = max(dot(hit.normal, ray.direction), 0.0);
+        path.throughput *= scattered(material, color, to_eye, to_next) / (1.0 - mirrors);
+        path.asked = asks;
+    }
+    path.bounce++;
+    ray.origin = hit.position + hit.height * hit.face;
+    // ANCHOR_END: next
+}

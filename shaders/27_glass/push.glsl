@@ -1,0 +1,39 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/light.glsl"
+#include "common/pixel_sum.glsl"
+#include "glass.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
+
+// What stays as it is while samples are added up.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
+    SceneAddresses scene;
+    Glasses glasses;      // one for each material
+    Sums sums;
+    Light light;
+    uint media[4];        // the bodies that the camera is in
+};
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    World world;
+    uint depth;           // how many surfaces a path may leave
+    float minimum_contribution;
+    float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
+    uint seed;
+    uint sample_index;    // which of a pixel's samples
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_ORIGIN = 1;
+const uint SHOW_DIRECTION = 2;
+
+layout(constant_id = 1) const uint SKY = 0;
+const uint SKY_EVENING = 0;
+const uint SKY_DAY = 1;
+const uint SKY_WHITE = 2;

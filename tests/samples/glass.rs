@@ -1,0 +1,136 @@
+//! 27_glass: rays and light through glass are those of closed forms, and a body that takes nothing cannot be
+//! seen in a sky that is the same everywhere.
+
+mod closed_forms;
+mod equations;
+
+use common::app::Picture;
+use serde_json::{Map, json};
+
+use run::{bits, compiled_for, figures, golden, render};
+
+const NAME: &str = "27_glass";
+/// The relative error of one rounding to f32.
+const U: f64 = 1.0 / 16_777_216.0;
+
+fn picture(size: &str, frames: u32, sets: &[&str]) -> Picture {
+    let frames = frames.to_string();
+    let mut arguments = vec!["--frames", &frames];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    render(NAME, size, &arguments).picture
+}
+
+/// The mean of all colours of all pixels.
+fn mean(picture: &Picture) -> f64 {
+    let sum = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>();
+    picture.pixels.iter().map(sum).sum::<f64>() / (3 * picture.pixels.len()) as f64
+}
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| picture("160x100", 8, &[]));
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &first, 0.002);
+}
+
+#[test]
+fn clear_glass_cannot_be_seen_in_a_white_sky() {
+    // From outside, and from within the ball.
+    let mut lost = [0.0; 2];
+    for (i, (eye, target)) in [("0,0,5", "0,0,0"), ("0.3,0.1,-1.2", "0,0,0")].iter().enumerate() {
+        let (eye, target) = (format!("camera eye={eye}"), format!("camera target={target}"));
+        let shown = picture("96x60", 4, &["scene=furnace", "depth=256", &eye, &target]);
+        // Each path brings 1, whatever ways it takes, or it is caught and brings nothing.
+        for [r, g, b, _] in &shown.pixels {
+            let paths = 4.0 * f64::from(*r);
+            assert!(paths.fract() == 0.0 && paths <= 4.0 && r == g && g == b, "{r} {g} {b}");
+            lost[i] += 4.0 - paths;
+        }
+        // Half as many are left of them for each doubling of the depth: one in a thousand at 16.
+        assert!(lost[i] <= 4.0, "{} paths are lost from {eye}", lost[i]);
+    }
+    figures::hold(
+        "27_glass/furnace",
+        json!({ "paths": 4 * 96 * 60, "outside": lost[0], "inside": lost[1] }),
+    );
+}
+
+#[test]
+fn a_depth_only_takes_light_away() {
+    let of = |depth: &str| picture("48x30", 4, &["scene=furnace", depth]);
+    let shown = ["depth=1", "depth=2", "depth=4", "depth=16", "depth=256"].map(of);
+    for pair in shown.windows(2) {
+        let mut values = pair[0].pixels.iter().flatten().zip(pair[1].pixels.iter().flatten());
+        assert!(values.all(|(less, more)| less <= more));
+        assert!(mean(&pair[0]) < mean(&pair[1]) || mean(&pair[1]) == 1.0);
+    }
+}
+
+/// What is missing of the light that the deepest path brings, by the same random numbers.
+#[test]
+fn what_depth_and_minimum_contribution_leave_out() {
+    let of = |set: &str| mean(&picture("96x60", 16, &["clamp=20", set]));
+    let all = of("depth=128");
+    let mut table = Map::new();
+    let mut last = 1.0;
+    for depth in [2, 4, 8, 16, 32] {
+        let missing = 1.0 - of(&format!("depth={depth}")) / all;
+        println!("depth {depth}: {missing:.6}");
+        assert!(missing < last && missing >= 0.0, "{depth}: {missing}");
+        last = missing;
+        table.insert(format!("depth_{depth}"), json!(missing));
+    }
+    assert!(last < 1e-3, "depth 32 leaves out {last}");
+    last = 0.0;
+    for part in ["0.001", "0.01", "0.1"] {
+        let missing = 1.0
+            - mean(&picture(
+                "96x60",
+                16,
+                &["clamp=20", "depth=128", &format!("minimum contribution={part}")],
+            )) / all;
+        println!("minimum contribution {part}: {missing:.6}");
+        assert!(missing >= last, "{part}: {missing}");
+        last = missing;
+        table.insert(format!("part_{part}"), json!(missing));
+    }
+    figures::hold("27_glass/left_out", table.into());
+}
+
+/// The brightest pixel falls, and so does the light.
+#[test]
+fn a_clamp_takes_fireflies_and_light() {
+    let mut table = Map::new();
+    let mut last = (f32::INFINITY, f64::INFINITY);
+    for clamp in [0, 20, 6, 2] {
+        let shown = picture("96x60", 16, &[&format!("clamp={clamp}")]);
+        let values = shown.pixels.iter().flat_map(|pixel| pixel[..3].iter().copied());
+        let (brightest, light) = (values.fold(0.0, f32::max), mean(&shown));
+        println!("clamp {clamp}: brightest {brightest}, mean {light}");
+        assert!(brightest <= last.0 && light < last.1, "{clamp}");
+        last = (brightest, light);
+        table.insert(format!("brightest_{clamp}"), json!(brightest));
+        table.insert(format!("mean_{clamp}"), json!(light));
+    }
+    figures::hold("27_glass/fireflies", table.into());
+}
+
+#[test]
+fn a_drink_that_overlaps_its_glass_differs_from_one_apart() {
+    let of = |scene: &str| picture("96x60", 8, &[&format!("scene={scene}")]);
+    let [over, apart] = ["drink", "drink apart"].map(of);
+    let differ = over.pixels.iter().zip(&apart.pixels).filter(|(a, b)| a != b).count();
+    // The drink fills a twentieth of the picture at least.
+    assert!(differ > over.pixels.len() / 20, "{differ} pixels");
+    // With one surface for both the ways are arbitrary, and yet each is a way of light: none is lost or made.
+    let flush = of("drink flush");
+    assert!(flush.pixels.iter().flatten().all(|value| value.is_finite() && *value >= 0.0));
+}
+
+#[test]
+fn its_programs_spill_no_register() {
+    let Some(programs) = compiled_for(NAME, "navi31", &[]) else { return };
+    assert_eq!(programs.len(), 1, "rays do not nest: one program");
+    assert_eq!(programs[0]["spilled_registers"], 0, "{}", programs[0]);
+}
