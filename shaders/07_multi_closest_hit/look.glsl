@@ -34,7 +34,7 @@ float pixel_width(vec3 normal) {
 }
 
 // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
-// Which side is seen, the triangle says: near an outline its smooth normal may look away.
+// The flat triangle decides which side the ray sees: near an outline the smooth normal may look away.
 vec3 world_normal(Surface surface) {
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     vec3 face = vec3(surface.face * gl_WorldToObjectEXT);

@@ -35,7 +35,7 @@ void main() {
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     vec3 view = -gl_WorldRayDirectionEXT;
-    // Which side is seen, the triangle says: near an outline its smooth normal may look away.
+    // The flat triangle decides which side the ray sees: near an outline the smooth normal may look away.
     vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
     normal = faceforward(normal, -faceforward(face, -view, face), normal);
     // ANCHOR_END: normal
