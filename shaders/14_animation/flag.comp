@@ -26,7 +26,7 @@ layout(push_constant, scalar) uniform Cloth {
 const float WAVES = 2.5;    // along the cloth
 const float LAG = 0.3;      // of a wave: the lower edge follows the upper one
 const float SAG = 0.12;     // of the height: how far the free end hangs
-const float TURN = 6.2831853;
+const float TURN = 6.283185;    // no more than 2 pi
 
 // ANCHOR: main
 // Along the cloth its direction swings from side to side, as a river's does: then it is nowhere longer or
