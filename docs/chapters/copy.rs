@@ -9,7 +9,8 @@ use anyhow::{Context, Result};
 use crate::project::Project;
 
 /// The folders of which a copy that can be built and tested is made, and the files beside them.
-const FOLDERS: [&str; 5] = ["common", "docs/chapters", "samples", "shaders", "tests"];
+const FOLDERS: [&str; 6] =
+    ["common", "docs/chapters", "docs/drawings", "samples", "shaders", "tests"];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 
 /// What some files of a copy hold in place of the project's, by their path from its root.

@@ -5,6 +5,7 @@
 
 use std::fs;
 
+use common::app::Picture;
 use common::gpu::shader::compile_with;
 use common::gpu::{Arithmetic, Gpu, GpuOptions, Requirements};
 
@@ -96,29 +97,78 @@ fn eye_and_light_on_opposite_sides_have_a_finite_middle() {
     assert!(red.is_finite() && least > 0.0, "{red} of a vector whose square is {least}");
 }
 
+/// What makes `sin` and `cos` tell `widest` of their angles.
+const NOTING_ANGLES: &str = "float widest = 0.0;\n\
+                             float noted(float angle) { widest = max(widest, abs(angle)); return angle; }\n\
+                             #define cos(angle) cos(noted(angle))\n\
+                             #define sin(angle) sin(noted(angle))\n";
+
+/// Holds that angles come near π and are never beyond; `picture` has the widest of each pixel in red.
+fn reaches_pi_at_most(picture: &Picture) {
+    let widest = picture.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
+    println!("widest angle: {widest}");
+    assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{widest}");
+}
+
 #[test]
 fn no_angle_is_beyond_pi() {
     // Beyond, Vulkan promises nothing of sin() and cos(). Whoever calls them is tried below.
+    let known = [
+        "05_shadow_miss/light.glsl",
+        "11_path_tracing/surface.glsl",
+        "14_animation/flag.comp",
+        "common/light.glsl",
+        "common/surface.glsl",
+    ];
     for function in ["sin", "cos"] {
-        assert_eq!(callers(function), ["05_shadow_miss/light.glsl", "common/light.glsl"]);
+        assert_eq!(callers(function), known);
     }
     for function in ["tan", "asin", "acos", "atan"] {
         assert_eq!(callers(function), [""; 0]);
     }
-    let noting = "float widest = 0.0;\n\
-                  float noted(float angle) { widest = max(widest, abs(angle)); return angle; }\n\
-                  #define cos(angle) cos(noted(angle))\n\
-                  #define sin(angle) sin(noted(angle))\n\
-                  #include \"common/light.glsl\"\n";
+    let noting = format!("{NOTING_ANGLES}#include \"common/light.glsl\"\n");
     // All starts that end a turn, and some between; of 64 points, every one.
     let body = "float start = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
                 vec2 point = disk_point(at.x, 64, vec2(0.5, start));\n\
                 answer = vec4(widest, point, 0.0);";
-    let picture = run::evaluate(noting, body, "64x128");
-    let widest = picture.pixels.iter().map(|pixel| f64::from(pixel[0])).fold(0.0, f64::max);
-    println!("widest angle: {widest}");
-    assert!(widest > 3.0 && widest <= std::f64::consts::PI, "{widest}");
+    let picture = run::evaluate(&noting, body, "64x128");
+    reaches_pi_at_most(&picture);
     assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.0));
+}
+
+#[test]
+fn no_direction_by_chance_has_an_angle_beyond_pi() {
+    // Materials are none of the matter, and come with what is included later.
+    let noting = format!(
+        "{NOTING_ANGLES}struct Other {{ uint illumination; vec3 specular; }};\n\
+         #define MaterialRecord Other\n\
+         #include \"common/surface.glsl\"\n\
+         #undef MaterialRecord\n"
+    );
+    // The numbers that end a turn, and some between.
+    let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
+                vec3 way = cosine_direction(vec2(float(at.x) / 64.0, u), vec3(0.0, 0.0, 1.0));\n\
+                answer = vec4(widest, way);";
+    let picture = run::evaluate(&noting, body, "64x128");
+    reaches_pi_at_most(&picture);
+    assert!(picture.pixels.iter().all(|[_, _, _, z]| *z >= 0.0));
+}
+
+#[test]
+fn no_wave_of_the_flag_has_an_angle_beyond_pi() {
+    // Its shader is one function. Half a turn there is the widest angle of a wave, in 32 bits.
+    let text = std::fs::read_to_string(run::root().join("shaders/14_animation/flag.comp")).unwrap();
+    let (_, rest) = text.split_once("const float TURN = ").expect("the flag knows a turn");
+    let turn: f32 = rest.split(';').next().and_then(|number| number.parse().ok()).unwrap();
+    assert!(f64::from(turn) / 2.0 <= std::f64::consts::PI && turn > 6.28, "{turn}");
+    assert!(text.contains("float wave = TURN * (fract(") && text.contains(" + 0.5) - 0.5);"));
+    // The others are `swing` times a sine.
+    let swing = run::root().join("samples/14_animation/flag.rs");
+    let swing = std::fs::read_to_string(swing).unwrap();
+    assert!(
+        swing.contains("[(1.9 + (gust - 1.9) * open) as f32")
+            && text.contains("cloth.swing * sin(wave);")
+    );
 }
 
 #[test]
