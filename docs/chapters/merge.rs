@@ -3,19 +3,21 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use common::app::sums::{check_complete, merge};
 use common::app::{Format, output};
 use common::files::check_writable;
+use common::usage::Usage;
 
 /// Merges `files` and writes a picture if `out` is named as one, else a file of sums; returns the line that
 /// tells what it has.
 ///
 /// # Errors
 /// If the files do not fit together, have samples in common, or lack some of `whole`; if `out` cannot be
-/// written.
+/// written, or is a file of sums that is not among them: its samples would be lost.
 pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<String> {
     check_writable(out)?;
+    refuse_to_lose(out, files)?;
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
     let sums = merge(&files)?;
     let samples = &sums.header.samples;
@@ -34,4 +36,19 @@ pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<S
         _ => format!("; {gaps} are missing"),
     };
     Ok(format!("{}: {} samples, {samples}{gaps}\n", out.display(), samples.count()))
+}
+
+/// A name that is left out makes the first part the output: nothing but its samples would tell.
+fn refuse_to_lose(out: &Path, files: &[PathBuf]) -> Result<()> {
+    let same = |file: &PathBuf| match (file.canonicalize(), out.canonicalize()) {
+        (Ok(file), Ok(out)) => file == out,
+        _ => false,
+    };
+    if Format::of(out).is_err() && out.exists() && !files.iter().any(same) {
+        let name = out.display();
+        bail!(Usage(format!(
+            "'{name}' is there already: name it among the files, too, or give the output another name"
+        )));
+    }
+    Ok(())
 }

@@ -169,7 +169,7 @@ impl<'a> Workbench<'a> {
     /// takes only looking one in the usual size. `None` where only tests run.
     pub fn render(&self) -> Option<String> {
         let look = self.exercise.takes == Takes::Look;
-        let mut words = if look { self.settings() } else { self.first_run()?.to_vec() };
+        let mut words = if look { self.look() } else { self.first_run()?.to_vec() };
         words.extend(["--headless".to_owned(), "--out".to_owned(), self.own_picture()]);
         let shaders = match self.exercise.takes {
             Takes::Shader => format!("SHADERS={} ", quoted(&[self.shown.clone()])),
@@ -276,6 +276,15 @@ impl<'a> Workbench<'a> {
             }
         }
         settings
+    }
+
+    /// The arguments of the first run, in the usual size.
+    fn look(&self) -> Vec<String> {
+        let mut words = self.first_run().unwrap_or_default().to_vec();
+        if let Some(at) = words.iter().position(|word| word == "--size") {
+            words.drain(at..at + 2);
+        }
+        words
     }
 
     /// The arguments of the first run of the program.

@@ -46,6 +46,7 @@ fn what_cannot_be_merged_is_refused_by_name_and_nothing_is_written() {
     for (arguments, code, words) in [
         (&[&out, &a, &b][..], 1, "samples 3..4 are in "),
         (&[&out, &a, &a], 1, "a.sums, too"),
+        (&[&a, &b], 2, "a.sums' is there already: name it among the files, too"),
         (&[&out, &a, &text], 1, "text: is no file of sums that --save has written"),
         (&[&out, &gone], 1, "gone.sums: there is no such file"),
         (&[&out], 2, "<FILE>..."),
