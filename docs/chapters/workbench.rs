@@ -172,7 +172,7 @@ impl<'a> Workbench<'a> {
         let mut words = if look { self.look() } else { self.first_run()?.to_vec() };
         words.extend(["--headless".to_owned(), "--out".to_owned(), self.own_picture()]);
         let shaders = match self.exercise.takes {
-            Takes::Shader => format!("SHADERS={} ", quoted(&[self.shown.clone()])),
+            Takes::Shader => format!("SHADERS={} ", quoted(std::slice::from_ref(&self.shown))),
             _ => String::new(),
         };
         let chapter = &self.exercise.chapter;

@@ -45,7 +45,9 @@ pub fn address_chain() -> String {
         "2: position, normal, uv",
         "3: position, normal, uv",
     ];
-    let columns: [(f64, &str, &[&str], &[usize], [&str; 2]); 3] = [
+    // Of each its place, name and rows, which of them are chosen, and by what.
+    type Column<'a> = (f64, &'a str, &'a [&'a str], &'a [usize], [&'a str; 2]);
+    let columns: [Column; 3] = [
         (
             232.0,
             "instance records",

@@ -128,17 +128,13 @@ impl Position {
         let arrives = man.kind == Kind::Pawn && (to.rank == 0 || to.rank == 7);
         match becomes {
             None if arrives => {
-                return Err(format!("a pawn that arrives at {to} becomes a piece: {from}-{to}=Q"));
+                Err(format!("a pawn that arrives at {to} becomes a piece: {from}-{to}=Q"))
             }
             Some(Kind::Pawn | Kind::King) => {
-                return Err(
-                    "a pawn becomes a queen, rook, bishop or knight: =Q, =R, =B or =N".into()
-                );
+                Err("a pawn becomes a queen, rook, bishop or knight: =Q, =R, =B or =N".into())
             }
             Some(_) if !arrives => {
-                return Err(format!(
-                    "only a pawn at the last rank becomes something; write {from}-{to}"
-                ));
+                Err(format!("only a pawn at the last rank becomes something; write {from}-{to}"))
             }
             _ => Ok(self.make(man, by)),
         }

@@ -152,7 +152,7 @@ mod tests {
     fn ranges_that_meet_are_one() {
         assert_eq!(of(&[4..8, 0..4, 10..12]).to_string(), "0..8, 10..12");
         assert_eq!(of(&[4..8, 0..4, 10..12]).count(), 10);
-        assert_eq!(of(&[0..1, 2..3, 1..2]), of(&[0..3]));
+        assert_eq!(of(&[0..1, 2..3, 1..2]), (0..3).into());
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(samples.missing(20..22).to_string(), "20..22");
         assert_eq!(samples.missing(0..1).to_string(), "0..1");
         assert_eq!(samples.gaps().to_string(), "4..8");
-        assert!(samples.contain(&of(&[2..3, 9..12])) && !samples.contain(&of(&[3..5])));
+        assert!(samples.contain(&of(&[2..3, 9..12])) && !samples.contain(&(3..5).into()));
     }
 
     #[test]
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn a_file_with_ranges_out_of_order_is_refused() {
         let read = |text: &str| serde_json::from_str::<Samples>(text);
-        assert_eq!(read("[[0,4],[4,8]]").unwrap(), of(&[0..8]));
+        assert_eq!(read("[[0,4],[4,8]]").unwrap(), (0..8).into());
         for wrong in ["[[4,4]]", "[[5,4]]", "[[0,4],[3,8]]", "[[4,8],[0,2]]"] {
             assert!(read(wrong).is_err(), "{wrong}");
         }

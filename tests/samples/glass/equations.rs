@@ -191,7 +191,7 @@ fn media_are_those_of_a_sorted_list() {
         for step in 0..8 {
             let bits = hash([(i % 64) as u32, (i / 64) as u32, step, 7])[0];
             let material = (bits >> 8) % 5;
-            if bits % 3 > 0 {
+            if !bits.is_multiple_of(3) {
                 media.push(material);
                 media.sort_unstable();
                 // The fifth body is forgotten: that which counts least.

@@ -108,7 +108,8 @@ fn what_does_not_fit_is_named() {
     };
     assert_eq!(line(&|_| {}), None);
     assert_eq!(line(&|o| o.shaders = None), None, "not compiled yet");
-    let cases: [(&dyn Fn(&mut Origin), &str); 9] = [
+    type Case<'a> = (&'a dyn Fn(&mut Origin), &'a str);
+    let cases: [Case; 9] = [
         (&|o| o.chapter = "11".into(), "the chapter is '04_jitter_camera' in it and '11' here"),
         (&|o| o.version = "0.2.0".into(), "the version is '0.1.0' in it and '0.2.0' here"),
         (&|o| o.size = [4, 1], "the size is 2x1 in it and 4x1 here"),
