@@ -63,6 +63,11 @@ impl Levels {
         Ok(Self { tlas, flag: bottom, instances, scratch, order, shown, built, costs, gpu })
     }
 
+    /// Whether they are at a frame, as the plan has it.
+    pub fn are_at(&self, frame: u32, plan: Plan) -> bool {
+        self.shown == Some((frame, plan))
+    }
+
     // ANCHOR: reach
     /// Records what takes the levels to a frame. What they are there follows from the frame and the plan alone: built
     /// at the last frame that `every` divides, and updated once from there.
@@ -72,7 +77,7 @@ impl Levels {
         (world, flag): (&World, &Flag),
         (frame, plan): (u32, Plan),
     ) -> Result<()> {
-        if self.shown == Some((frame, plan)) {
+        if self.are_at(frame, plan) {
             return Ok(());
         }
         self.costs.settle()?;

@@ -24,7 +24,7 @@ impl Near {
     /// # Panics
     /// If nothing is said of the chapter.
     fn of(chapter: &str) -> Self {
-        match chapter[..2].parse().expect("a chapter begins with its number") {
+        match number(chapter) {
             // The nearest hit decides, and nothing else; lines fade out within a pixel (20).
             2 | 7 | 9 | 10 | 20 | 24 => Self { flips: 1, mean: 0.00125 },
             // A second decision: a hole or a random number (03), what a shadow ray meets (04 and later),
@@ -35,14 +35,6 @@ impl Near {
             // surfaces and more make a colour. Most of what they decide is dimmed by the mirrors' Fresnel
             // factor.
             6 | 12 | 25 | 26 => Self { flips: 2, mean: 0.0025 },
-            // At each of some four turns of a path there is a ray, one to the light, the choice of a way and
-            // roulette: 15 decisions. One that flips sends the rest of the path elsewhere, which can make five
-            // pixels seem wholly others: 15 times 5 of 5,760.
-            11 => Self { flips: 15, mean: 0.013 },
-            // Ten surfaces a path, each small and round: an error grows by the way over the radius at each of
-            // them, to more than a pixel in places, and each is a choice by chance as well. One pixel of a
-            // hundred sees another way.
-            27 => Self { flips: 90, mean: 0.02 },
             other => panic!("how near is a picture of {other}?"),
         }
     }
@@ -54,6 +46,23 @@ impl Near {
         let flipped = outliers * one.pixels.len() as f32 / 5.0;
         mean <= self.mean && flipped <= self.flips as f32
     }
+}
+
+fn number(chapter: &str) -> u32 {
+    chapter[..2].parse().expect("a chapter begins with its number")
+}
+
+/// Whether a picture of paths that chance sends on is the driver's, but for one path of a hundred at each of
+/// the surfaces that a path meets.
+///
+/// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on, and is as far from
+/// what it was as another draw of its numbers: how far that is, a picture of another seed tells. So many
+/// paths are others as the mean FLIP is of that one's. With more than that, errors would have taken the lead over chance.
+fn paths_are_the_same(chapter: &str, surfaces: f32, driver: &Picture, worst: &Picture) -> bool {
+    let other = rendered(chapter, "driver", &["--set", "seed=1"]).picture;
+    let (mean, drawn_anew) = (flip(driver, worst).0, flip(driver, &other).0);
+    println!("{chapter}: another seed has a mean FLIP of {drawn_anew:.5}");
+    mean <= 0.01 * surfaces * drawn_anew
 }
 
 fn chapters() -> Vec<String> {
@@ -88,7 +97,13 @@ fn every_picture_is_finite_and_near(arithmetic: &str) {
         let (mean, outliers) = flip(&driver, &worst);
         println!("{name} {arithmetic}: mean FLIP {mean:.5}, {:.2} % outliers", 100.0 * outliers);
         assert_ne!(bits(&driver), bits(&worst), "{name}: nothing was rewritten");
-        if !Near::of(&name).holds(&driver, &worst) {
+        let is_near = match number(&name) {
+            // Some four turns between pieces; or twenty walls of glass, most of them round.
+            11 => paths_are_the_same(&name, 5.0, &driver, &worst),
+            27 => paths_are_the_same(&name, 20.0, &driver, &worst),
+            _ => Near::of(&name).holds(&driver, &worst),
+        };
+        if !is_near {
             wrong.push(format!("{name}: mean {mean}, outliers {outliers}"));
         }
     }
