@@ -108,7 +108,7 @@ impl Sample for Demo {
         let kind = LightKind::Point;
         let lighting =
             Lighting { lamp, kind, size: 1.0, samples: 1, ..Lighting::new(Sun::default()) };
-        let buffer = |name| Buffer::new(gpu, name, 0, input_usage());
+        let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         Ok(Self {
             source,
             camera: scene.camera,
@@ -124,8 +124,8 @@ impl Sample for Demo {
             clamp: 0.0,
             seed: 0,
             constants: Constants { show: Show::Picture, sky },
-            sums: buffer("sums")?,
-            world: buffer("world")?,
+            sums: Buffer::new(gpu, "sums", 0, usage)?,
+            world: Buffer::new(gpu, "world", size_of::<World>() as u64, usage)?,
         })
     }
 
@@ -181,7 +181,7 @@ impl Sample for Demo {
                 light: self.lighting.shader(),
                 media: media_at(&self.scene, self.camera.eye),
             };
-            self.world = Buffer::with_data(frame.gpu, "world", &[world], input_usage())?;
+            self.world.update(frame.cmd, &[world])?;
         }
         // ANCHOR_END: world
         // ANCHOR: trace
