@@ -66,7 +66,7 @@ pub struct Args {
     pub compare: Option<String>,
 
     /// Print the controls: name, kind, possible values, value
-    #[arg(long)]
+    #[arg(long, conflicts_with = "compare")]
     pub list_controls: bool,
 
     /// Use this device: a number of --list-devices or a part of its name
@@ -81,8 +81,8 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model instead of the chapter's own; chapter 25 also takes scene files (.toml)
-    #[arg(long, value_name = "FILE.obj")]
+    /// Open this model (.obj) instead of the chapter's own; 14 takes a game's moves instead (.txt), 25 also scene files (.toml)
+    #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 
     /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
@@ -132,6 +132,19 @@ impl Args {
         }
     }
 
+    /// Fails if the sums are to go where one would look for a picture: no viewer opens them.
+    fn sums_are_no_picture(&self) -> Result<(), Usage> {
+        let Some(path) = &self.save else { return Ok(()) };
+        let ends = |end| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+        match ends("png") || ends("exr") {
+            true => Err(Usage(format!(
+                "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
+                path.display()
+            ))),
+            false => Ok(()),
+        }
+    }
+
     /// Parses the process's arguments.
     ///
     /// Prints the help and ends the process if that is asked for.
@@ -168,6 +181,7 @@ impl Args {
             Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
         })?;
         args.one_scene()?;
+        args.sums_are_no_picture()?;
         Ok((args, more))
     }
 }
