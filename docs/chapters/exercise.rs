@@ -87,11 +87,18 @@ impl Exercise {
     /// The exercises that `05.2` or, all of a chapter, `05` means.
     ///
     /// # Errors
-    /// If a file is wrong, or there is none of this name; the line lists those that there are.
+    /// If the file of one of these is wrong, or there is none of this name; the line lists those that there are.
     pub fn named(project: &Project, name: &str) -> Result<Vec<Self>> {
         let (chapter, number) = name.split_once('.').unwrap_or((name, ""));
         let chapter = project.chapter(chapter)?;
-        let mut found = Self::whole(project)?;
+        let (mut found, faults) = Self::all(project);
+        let files = match number {
+            "" => format!("{FOLDER}/{}.", chapter.number()),
+            _ => format!("{FOLDER}/{}.{number}.diff", chapter.number()),
+        };
+        if let Some(fault) = faults.into_iter().find(|fault| fault.file.starts_with(&files)) {
+            return Err(fault.error());
+        }
         found.retain(|exercise| exercise.chapter == chapter.name);
         if !name.contains('.') {
             return Ok(found);

@@ -156,6 +156,19 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
 }
 
 #[test]
+fn a_wrong_file_stops_its_own_exercise_alone() {
+    let fixture = Fixture::new();
+    let file = "docs/exercises/02.2.diff";
+    fixture.write(file, &fixture.read(file).replace("Takes: look", "Takes: time"));
+    let hint = fixture.run(&["exercise", "02.1", "--hint"]);
+    assert_eq!(hint.code, 0, "{}", hint.err);
+    for name in ["02.2", "02"] {
+        let outcome = fixture.run(&["exercise", name, "--hint"]);
+        assert!(outcome.err.starts_with(&format!("error: {file}:")), "{name}: {}", outcome.err);
+    }
+}
+
+#[test]
 fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
     let fixture = Fixture::new();
     let file = "docs/exercises/02.1.diff";

@@ -105,10 +105,11 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     render_by(command("02_basic").env("SHADERS", folder.path()), size, &[]).picture
 }
 
-/// A copy of `shaders/` that a test may change.
+/// A copy of the shaders, which are a reader's own if `SHADERS` names a folder, that a test may change.
 pub fn copy_of_shaders() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    copy(&root().join("shaders"), folder.path());
+    let shaders = std::env::var_os("SHADERS").map_or_else(|| root().join("shaders"), PathBuf::from);
+    copy(&shaders, folder.path());
     folder
 }
 

@@ -331,7 +331,11 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&picture, 2, &["--save part.PNG: sums of samples are no picture"]);
     refused(&["--samples", "0..4", "--frames", "4"], 2, &["cannot be used with"]);
     let off = ["--samples", "0..4", "--set", "accumulate=off"];
-    refused(&off, 2, &["04_jitter_camera takes no --samples: set like this, each of its frames is a picture"]);
+    refused(
+        &off,
+        2,
+        &["04_jitter_camera takes no --samples: set like this, each of its frames is a picture"],
+    );
     let (code, line) = run::refused("02_basic", &["--samples", "0..4"]);
     assert!(code == 2 && line.contains("02_basic takes no --samples"), "{line}");
 }

@@ -79,7 +79,8 @@ impl Gather {
         resumed: Option<Sums>,
     ) -> Result<Self> {
         if !sample.gathers() {
-            let why = "set like this, each of its frames is a picture of its own, not a sample of one";
+            let why =
+                "set like this, each of its frames is a picture of its own, not a sample of one";
             return Err(Usage(format!("{name} takes no --samples: {why}")).into());
         }
         let interrupt = args.save.as_ref().map(|_| Interrupt::listen()).transpose()?;

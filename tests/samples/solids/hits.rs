@@ -49,15 +49,20 @@ fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
 fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
     let all = all_shapes(&Stub::new(), &[]);
     println!("all: {all}");
-    let (near, wrong) = (all.near, all.wrong.len());
-    let counts = json!({ "hits": all.hits, "misses": all.misses, "near": near, "wrong": wrong });
-    held::hold("22_solids/hits", counts);
-    let errors = [figures("planes", &all.planes), figures("balls", &all.balls)];
-    held::hold("22_solids/errors", errors.into_iter().flatten().collect::<Map<_, _>>().into());
     assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
     assert!(all.hits > 12_000 && all.near * 2000 < all.hits, "{all}");
     // Three roundings that all add up: height, slope, quotient.
     assert!(!all.balls.is_empty() && at(&all.planes, 1.0) <= 3.0, "{all}");
+
+    // A solid of a reader's own is held to the exact one, too. The page counts the hits of the book's.
+    if SHAPES.last() == Some(&"sunk room") {
+        let (near, wrong) = (all.near, all.wrong.len());
+        let counts =
+            json!({ "hits": all.hits, "misses": all.misses, "near": near, "wrong": wrong });
+        held::hold("22_solids/hits", counts);
+        let errors = [figures("planes", &all.planes), figures("balls", &all.balls)];
+        held::hold("22_solids/errors", errors.into_iter().flatten().collect::<Map<_, _>>().into());
+    }
 }
 
 #[test]
