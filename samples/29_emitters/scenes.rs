@@ -1,5 +1,7 @@
 //! The scenes of this chapter: one to look at, two that must be white, and those whose light is known.
 
+use std::f32::consts::FRAC_PI_2;
+
 use anyhow::{Context, Result};
 use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
@@ -52,27 +54,29 @@ pub fn chess() -> Result<Staged> {
     let black = materials.iter_mut().find(|material| material.name == "black");
     black.context("the chess set has no material 'black'")?.base_color = Vec3::new(0.5, 0.035, 0.02);
     let first = materials.len();
-    materials.push(lamp("lamp", Vec3::new(30.0, 15.0, 5.0)));
-    materials.push(lamp("ember", Vec3::new(12.0, 3.0, 0.6)));
-    materials.push(lamp("paper", Vec3::new(0.5, 0.75, 1.3)));
+    materials.push(lamp("lamp", Vec3::new(5.4, 2.2, 0.62)));
+    materials.push(lamp("ember", Vec3::new(11.0, 3.2, 0.6)));
+    materials.push(lamp("paper", Vec3::new(0.2, 0.3, 0.52)));
     let screen = Affine3A::from_scale_rotation_translation(
-        Vec3::new(7.0, 2.4, 1.0),
-        Quat::IDENTITY,
-        Vec3::new(0.0, 1.5, -4.6),
+        Vec3::new(8.6, 2.3, 1.0),
+        Quat::from_rotation_y(FRAC_PI_2),
+        Vec3::new(-4.7, 1.35, -0.4),
     );
     meshes.push(square("paper", first + 2, Vec3::ZERO, Vec3::X, Vec3::Y));
     let (mesh, material) = (meshes.len() - 1, first + 2);
     scene.instances.push(Instance { mesh, transform: screen, material, record_offset: 0 });
     let ball = |x, y, z, radius, material| Sphere { center: Vec3::new(x, y, z), radius, material };
     let spheres = vec![
-        ball(-1.5, 0.16, 0.5, 0.16, first),
-        ball(1.5, 0.13, -0.5, 0.13, first),
-        ball(3.5, 0.18, 1.5, 0.18, first),
-        ball(-3.5, 0.15, -1.5, 0.15, first),
-        ball(0.5, 0.09, 1.5, 0.09, first + 1),
-        ball(-0.5, 0.08, -1.5, 0.08, first + 1),
+        ball(5.4, 3.6, 0.9, 1.15, first),
+        ball(4.2, 3.5, -5.2, 1.0, first),
+        ball(-1.2, 2.2, -0.5, 0.24, first),
+        ball(-2.6, 2.0, 1.9, 0.21, first),
+        ball(-2.4, 2.1, -2.6, 0.22, first),
+        ball(1.5, 0.13, -0.5, 0.13, first + 1),
+        ball(-0.5, 0.1, 1.5, 0.1, first + 1),
+        ball(2.5, 0.1, 1.5, 0.1, first + 1),
     ];
-    scene.camera = Camera::new(DVec3::new(-5.6, 2.6, 5.4), DVec3::new(0.1, 0.3, -0.3), 32.0);
+    scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.55, -1.1), 34.0);
     Ok(Staged { scene, spheres, sky: Sky::Night })
 }
 

@@ -15,8 +15,9 @@ struct Emitter {
 
 // Where a shadow ray goes.
 struct Aim {
-    vec3 to;        // from the point to one just above the emitter
-    float angle;    // the solid angle that the direction stands for: 1 over its density
+    vec3 direction;    // to a point of the emitter
+    float angle;       // the solid angle that the direction stands for: 1 over its density
+    vec3 to;           // as far as the ray goes: to just above that point
 };
 
 // A column of the table: what part of it is its own emitter's, and whose the rest is.

@@ -78,23 +78,22 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
 // ANCHOR: asked
 // What a surface scatters of the light that shadow rays ask for. `matte` is the probability that the path
 // scatters, too, and does not mirror.
-void ask(inout Path path, Hit hit, MaterialRecord material, Start start, float to_eye, float matte) {
+void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_eye, float matte) {
     for (uint i = 0; i < choices(); i++) {
         Choice chosen = choice(i, numbers(path, DIMENSION_EMITTER));
         Emitter emitter = push.emitters.emitters.at[chosen.emitter];
-        Aim aim = aim_at(emitter, start.origin, numbers(path, DIMENSION_POINT + i));
-        vec3 direction = normalize(aim.to);
-        float density = likelihood(direction, hit.normal, start.up);
+        Aim aim = aim_at(emitter, from, numbers(path, DIMENSION_POINT + i));
+        float density = likelihood(aim.direction, hit.normal, hit.face);
         if (aim.angle <= 0.0 || density <= 0.0) {
             continue;
         }
         path.rays++;
-        if (!is_lit(start.origin, aim.to, 1.0)) {
+        if (!is_lit(from, aim.to, 1.0)) {
             continue;
         }
         float chance = ESTIMATOR == ESTIMATOR_MIS ? matte * density * aim.angle : 0.0;
         vec3 radiance = push.scene.materials.at[emitter.material].emission;
-        float to_light = max(dot(direction, hit.normal), 0.0);
+        float to_light = max(dot(aim.direction, hit.normal), 0.0);
         gather(path, scattered(material, hit.color, to_eye, to_light) * radiance * density * aim.angle
             / (chosen.probability + chance));
     }
@@ -122,10 +121,11 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     vec3 rest = hit.color * (1.0 - (polished ? mirror : material.specular));
     // One of the two ways, and the likelier the more light comes along it.
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
-    // Shadow rays and the next ray start at one place, or their chances would not be those of one direction.
-    Start start = shadow_start(hit);
+    // Shadow rays and the next ray start at one place, or their chances would not be those of one direction:
+    // so there is no lift to the smooth surface, from where a path could end up within another.
+    vec3 from = hit.position + hit.height * hit.face;
     if (ESTIMATOR != ESTIMATOR_BSDF && path.bounce < push.depth && largest(rest) > 0.0) {
-        ask(path, hit, material, start, to_eye, 1.0 - mirrors);
+        ask(path, hit, material, from, to_eye, 1.0 - mirrors);
     }
     if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
         path.throughput *= mirror / mirrors;
@@ -133,12 +133,12 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         path.density = NO_OTHER;
     } else {
         vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
-        ray.direction = kept_above(on, start.up);
+        ray.direction = kept_above(on, hit.face);
         float to_next = max(dot(hit.normal, ray.direction), 0.0);
         path.throughput *= scattered(material, hit.color, to_eye, to_next) / (1.0 - mirrors);
-        path.density = (1.0 - mirrors) * likelihood(ray.direction, hit.normal, start.up);
+        path.density = (1.0 - mirrors) * likelihood(ray.direction, hit.normal, hit.face);
     }
     path.bounce++;
-    ray.origin = start.origin;
+    ray.origin = from;
     // ANCHOR_END: next
 }

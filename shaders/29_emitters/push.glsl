@@ -2,7 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
 #include "common/pixel_sum.glsl"
 #include "emitter.glsl"
 

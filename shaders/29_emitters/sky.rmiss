@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "common/hit.glsl"
+#include "hit.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 
@@ -12,5 +12,5 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 void main() {
     hit.t = -1.0;
     vec3 day = sky(gl_WorldRayDirectionEXT);
-    hit.color = SKY == SKY_DAY ? day : SKY == SKY_NIGHT ? 0.06 * day * day : vec3(0.0);
+    hit.color = SKY == SKY_DAY ? day : SKY == SKY_NIGHT ? vec3(0.02, 0.035, 0.08) * day : vec3(0.0);
 }

@@ -46,10 +46,11 @@ Aim aim_at_triangle(Emitter emitter, vec3 from, vec2 u) {
     Aim aim;
     aim.angle = whole_angle(emitter, to_corner);
     if (aim.angle > 0.0) {
-        vec3 direction = direction_to(to_corner, emitter.across, emitter.along, aim.angle, u);
-        aim.to = dot(to_corner, normal) / min(dot(direction, normal), -1e-30) * direction;
+        aim.direction = direction_to(to_corner, emitter.across, emitter.along, aim.angle, u);
+        aim.to = dot(to_corner, normal) / min(dot(aim.direction, normal), -1e-30) * aim.direction;
     } else {
         aim.to = point_by_area(emitter, to_corner, u);
+        aim.direction = normalize(aim.to);
         aim.angle = angle_by_area(emitter, aim.to);
     }
     aim.to += (emitter.height + emitter.slack * length(aim.to)) * normal;

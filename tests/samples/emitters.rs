@@ -158,7 +158,7 @@ fn light_that_is_cut_and_merged_is_the_light_in_one_piece() {
     let merged = merge(&parts.each_ref().map(|path| path.as_path())).expect("they fit");
     assert_eq!(merged.bytes().expect("they can be written"), whole);
     // One file that goes on, and not in the order of the samples.
-    ["7..9", "0..3", "0..12"].map(|samples| part(samples, "one"));
+    ["7..9", "0..3", "0..12"].into_iter().for_each(|samples| drop(part(samples, "one")));
     assert_eq!(std::fs::read(folder.path().join("one")).unwrap(), whole);
 }
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 use serde_json::json;
 
 use super::{NAME, U};
+use crate::glass::equations::hash;
 use run::{command, copy_of_shaders, figures, render_by};
 
 /// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
@@ -121,12 +122,17 @@ fn from_inside_a_ball_every_direction_is_as_likely() {
 
 /// A corner and two edges, all exact: sixteenths, and the edges up to 2^-11 of that.
 const TRIANGLE: &str = "
-    #define PICK(s) (float(int((at.x * 7919u + at.y * 104729u + uint(s) * 611953u) % 33u) - 16) / 16.0)
+    #define PICK(s) (float(int(hash(uvec4(at, s, 7)).x % 33u) - 16) / 16.0)
     float size = ldexp(1.0, -int(at.y % 12u));
     vec3 a = vec3(PICK(1), PICK(2), PICK(3));
     vec3 across = size * vec3(PICK(4), PICK(5), PICK(6));
     vec3 along = size * vec3(PICK(7), PICK(8), PICK(9));
 ";
+
+/// The same number: a multiple of 1/16 from -1 to 1.
+fn pick(x: u32, y: u32, salt: u32) -> f64 {
+    (f64::from(hash([x, y, salt, 7])[0] % 33) - 16.0) / 16.0
+}
 
 struct Triangle {
     corners: [DVec3; 3],
@@ -136,12 +142,7 @@ struct Triangle {
 impl Triangle {
     fn of(pixel: usize, width: usize) -> Self {
         let (x, y) = ((pixel % width) as u32, (pixel / width) as u32);
-        let pick = |s: u32| {
-            let sum = (x.wrapping_mul(7919))
-                .wrapping_add(y.wrapping_mul(104_729))
-                .wrapping_add(s.wrapping_mul(611_953));
-            (f64::from(sum % 33) - 16.0) / 16.0
-        };
+        let pick = |s: u32| pick(x, y, s);
         let size = 0.5f64.powi((y % 12) as i32);
         let of = |s: u32| DVec3::new(pick(s), pick(s + 1), pick(s + 2));
         let (a, across, along) = (of(1), size * of(4), size * of(7));
@@ -233,14 +234,7 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
             continue;
         }
         tried += 1;
-        let pick = |s: u32| {
-            let (x, y) = ((i % 96) as u32, (i / 96) as u32);
-            let sum = x
-                .wrapping_mul(7919)
-                .wrapping_add(y.wrapping_mul(104_729))
-                .wrapping_add(s.wrapping_mul(611_953));
-            ((f64::from(sum % 33) - 16.0) / 16.0 + 1.03125) / 2.0625
-        };
+        let pick = |s: u32| (pick((i % 96) as u32, (i / 96) as u32, s) + 1.03125) / 2.0625;
         let [a, b, c] = triangle.corners.map(DVec3::normalize);
         let p = vector(pixel).normalize();
         // Back to where the arc from b through p meets that from a to c.
