@@ -47,13 +47,13 @@ fn cone(s: &mut Sheet) {
     s.say([132.0, 168.0], Start, "d");
     s.say([222.0, 160.0], Start, "r");
     s.title([24.0, 292.0], Start, "A sphere fills a cone.");
-    s.note([24.0, 311.0], Start, "sin α = r/d; on the unit sphere 2π(1 − cos α)");
+    s.note([24.0, 311.0], Start, "sin α = r/d; its area is 2π(1 − cos α)");
 }
 
 fn panel(s: &mut Sheet) {
-    let from = DVec2::new(318.0, 250.0);
-    let (low, high) = (DVec2::new(336.0, 222.0), DVec2::new(528.0, 74.0));
-    s.line(&[[300.0, 250.0], [540.0, 250.0]], LINE, 1.6);
+    let from = DVec2::new(340.0, 250.0);
+    let (low, high) = (DVec2::new(390.0, 250.0), DVec2::new(390.0, 66.0));
+    s.line(&[[300.0, 250.0], [520.0, 250.0]], LINE, 1.6);
     s.line(&[point(low), point(high)], BROWN, 6.0);
     let angles = [low, high].map(|end| (end - from).to_angle());
     for i in 0..8 {
@@ -63,14 +63,17 @@ fn panel(s: &mut Sheet) {
         let edge = high - low;
         let t = edge.perp_dot(low - from) / edge.perp_dot(turned);
         s.line(&[point(from), point(from + t * turned)], LINE, 1.0);
-        let across = edge.perp().normalize() * 9.0;
+        let across = -edge.perp().normalize() * 12.0;
         let by_area = low + part * edge;
         s.dot(point(by_area + across), 3.4, "#b3261e");
         s.dot(point(by_area + across), 1.6, WHITE);
     }
     s.dot(point(from), 4.5, LINE);
     s.title([300.0, 292.0], Start, "A panel, seen from close by.");
-    s.note([300.0, 311.0], Start, "rings: even in area; rays: even in angle");
+    s.note([300.0, 311.0], Start, "Rings: even in area. Rays: even in angle.");
+    s.note([416.0, 110.0], Start, "by area, most points");
+    s.note([416.0, 128.0], Start, "are far from where");
+    s.note([416.0, 146.0], Start, "the light comes from");
 }
 
 fn balance(s: &mut Sheet) {
@@ -91,13 +94,20 @@ fn balance(s: &mut Sheet) {
     let surface: Vec<Point> = xs().map(|x| at(x, by_surface(x))).collect();
     s.line(&surface, "#3a7d44", 2.2);
     s.line(
-        &[at(0.0, 0.0), at(first, 0.0), at(first, 0.85), at(last, 0.85), at(last, 0.0), at(1.0, 0.0)],
+        &[
+            at(0.0, 0.0),
+            at(first, 0.0),
+            at(first, 0.85),
+            at(last, 0.85),
+            at(last, 0.0),
+            at(1.0, 0.0),
+        ],
         "#2f6f9f",
         2.2,
     );
     s.line(&[at(0.0, 0.0), at(1.0, 0.0)], LINE, 1.2);
     s.note(at(0.2, 0.6), Middle, "p of the surface");
-    s.say(at(0.65, 0.8), Middle, "light");
+    s.say(at(0.65, 0.6), Middle, "light");
     s.say(at(0.65, 0.12), Middle, "BSDF");
     s.note(at(0.65, 1.06), Middle, "p of the lamp");
     s.note(at(0.5, -0.11), Middle, "directions");

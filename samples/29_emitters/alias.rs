@@ -38,7 +38,10 @@ impl AliasTable {
         ensure!(weights.len() <= MOST, "{} emitters are more than {MOST}", weights.len());
         for (i, weight) in weights.iter().enumerate() {
             let is_weight = weight.is_finite() && *weight >= 0.0;
-            ensure!(is_weight, "emitter {i} has a power of {weight}; it must be finite, and not below 0");
+            ensure!(
+                is_weight,
+                "emitter {i} has a power of {weight}; it must be finite, and not below 0"
+            );
         }
         let most = weights.iter().copied().fold(0.0, f64::max);
         if most == 0.0 {
@@ -75,7 +78,8 @@ impl AliasTable {
 fn columns(shares: &[u64], count: usize) -> Vec<Column> {
     let mut left = shares.to_vec();
     left.resize(count, 0);
-    let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..count).partition(|&i| left[i] < UNITS);
+    let (mut small, mut large): (Vec<usize>, Vec<usize>) =
+        (0..count).partition(|&i| left[i] < UNITS);
     let mut columns: Vec<Column> =
         (0..count as u32).map(|other| Column { own: 1.0, other }).collect();
     while let (Some(low), Some(&high)) = (small.pop(), large.last()) {
@@ -109,7 +113,8 @@ mod tests {
     /// Weights over many orders of magnitude, some of them 0.
     fn weights(count: u32) -> Vec<f64> {
         let unit = |i: u32| f64::from(i.wrapping_mul(2_654_435_769) >> 8) / 16_777_216.0;
-        let weight = |i| if i % 7 == 3 { 0.0 } else { (60.0 * unit(i) - 30.0).exp2() * (1.0 + unit(i + 1)) };
+        let weight =
+            |i| if i % 7 == 3 { 0.0 } else { (60.0 * unit(i) - 30.0).exp2() * (1.0 + unit(i + 1)) };
         (0..count).map(weight).collect()
     }
 

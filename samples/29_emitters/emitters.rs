@@ -88,7 +88,8 @@ impl Emitters {
             }
         }
         first.push(0);
-        let powers = list.iter().map(|emitter| emitter.power(&materials[emitter.material as usize]));
+        let powers =
+            list.iter().map(|emitter| emitter.power(&materials[emitter.material as usize]));
         let table = AliasTable::new(&powers.collect::<Vec<_>>()).context("choosing by power")?;
         for (i, emitter) in list.iter_mut().enumerate() {
             emitter.probability = table.probability(i) as f32;

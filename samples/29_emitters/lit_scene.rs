@@ -1,9 +1,7 @@
 //! A scene on the device with its emitters: the spheres beside the meshes in one top level, and the list.
 
 use anyhow::Result;
-use common::gpu::{
-    AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded,
-};
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
 use common::scene::{
     SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_on_gpu,
 };
@@ -62,7 +60,8 @@ impl LitScene {
             })
             .collect();
         let ids = order::for_build(gpu, &bounds, on_gpu.options.ordering);
-        let boxes: Vec<[Vec3; 2]> = ids.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
+        let boxes: Vec<[Vec3; 2]> =
+            ids.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
         let input = boxes_on_gpu(gpu, "spheres", &boxes)?;
         let geometry =
             Geometry::Aabbs { boxes: input.address, count: boxes.len() as u32, opaque: true };
@@ -82,9 +81,11 @@ impl LitScene {
         if let Some(level) = &level {
             // One more instance for all spheres; hit group 1 is theirs.
             placed.push(instance_on_gpu(&Affine3A::IDENTITY, scene.instances.len(), 1, level));
-            around.push(bounds.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), b| {
-                (low.min(b.0), high.max(b.1))
-            }));
+            around.push(
+                bounds.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), b| {
+                    (low.min(b.0), high.max(b.1))
+                }),
+            );
         }
         let order = order::for_build(gpu, &around, on_gpu.options.ordering);
         let placed: Vec<_> = order.iter().map(|&i| placed[i as usize]).collect();

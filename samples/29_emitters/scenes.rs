@@ -52,7 +52,8 @@ pub fn chess() -> Result<Staged> {
     let names: Vec<String> = meshes.iter().map(|mesh| mesh.name.clone()).collect();
     scene.instances.retain(|instance| !names[instance.mesh].starts_with("screen"));
     let black = materials.iter_mut().find(|material| material.name == "black");
-    black.context("the chess set has no material 'black'")?.base_color = Vec3::new(0.5, 0.035, 0.02);
+    black.context("the chess set has no material 'black'")?.base_color =
+        Vec3::new(0.5, 0.035, 0.02);
     let first = materials.len();
     materials.push(lamp("lamp", Vec3::new(5.4, 2.2, 0.62)));
     materials.push(lamp("ember", Vec3::new(11.0, 3.2, 0.6)));
@@ -182,8 +183,10 @@ fn above_square(balls: &[(Vec3, f32, f32)]) -> (Scene, Vec<Sphere>) {
     let meshes = vec![square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y)];
     let mut materials = vec![white()];
     materials.extend(balls.iter().map(|ball| lamp("ball", Vec3::splat(ball.2))));
-    let place = |(i, &(center, radius, _)): (usize, &(Vec3, f32, f32))| {
-        Sphere { center, radius, material: i + 1 }
+    let place = |(i, &(center, radius, _)): (usize, &(Vec3, f32, f32))| Sphere {
+        center,
+        radius,
+        material: i + 1,
     };
     let spheres = balls.iter().enumerate().map(place).collect();
     (scene(meshes, materials, vec![as_it_is(0)], camera_on_square(0.75)), spheres)

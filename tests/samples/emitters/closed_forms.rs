@@ -5,10 +5,10 @@ use std::fs;
 
 use common::app::Picture;
 use glam::DVec3;
-use serde_json::{Map, json};
+use serde_json::Map;
 
-use crate::path_tracing::closed_forms::{SQUARES, form_factors};
 use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
+use crate::path_tracing::closed_forms::{SQUARES, form_factors};
 use run::{figures, render};
 
 /// The balls of the scenes: centre, radius, radiance.
@@ -135,7 +135,7 @@ fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
         println!("{choice}: one sample is off by {deviation:.4}");
         held.insert(format!("{choice}.mean"), estimate.mean.into());
         held.insert(format!("{choice}.confidence"), estimate.confidence.into());
-        held.insert(format!("{choice}.single"), deviation.into());
+        held.insert(format!("{}.single", choice.replace(' ', "-")), deviation.into());
     }
     let closed = expected.iter().sum::<f64>() / expected.len() as f64;
     held.insert("closed".to_owned(), closed.into());
@@ -236,7 +236,8 @@ fn covered(gap: f64, shift: f64) -> (tempfile::TempDir, String) {
         text += &format!("f {first} {} {}\n", first + 2, first + 3);
     }
     fs::write(folder.path().join("a.obj"), text).unwrap();
-    let materials = "newmtl white\nKd 1 1 1\nnewmtl shining\nKd 0 0 0\nKe 1 1 1\nnewmtl black\nKd 0 0 0\n";
+    let materials =
+        "newmtl white\nKd 1 1 1\nnewmtl shining\nKd 0 0 0\nKe 1 1 1\nnewmtl black\nKd 0 0 0\n";
     fs::write(folder.path().join("a.mtl"), materials).unwrap();
     let file = folder.path().join("a.obj").to_str().unwrap().to_owned();
     (folder, file)
@@ -271,7 +272,6 @@ fn no_light_leaks_through_what_lies_close_before_an_emitter() {
 
 #[test]
 fn a_furnace_is_white_whoever_finds_its_light() {
-    let mut held = Map::new();
     for name in ESTIMATORS {
         let sets = ["scene=furnace", "depth=256", &estimator(name)];
         let shown = picture("96x60", 16, &sets);
@@ -283,10 +283,7 @@ fn a_furnace_is_white_whoever_finds_its_light() {
             let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
         }
-        held.insert(name.to_owned(), json!(estimate.mean));
-        held.insert(format!("{name}.confidence"), json!(estimate.confidence));
     }
-    figures::hold("29_emitters/furnace", held.into());
 }
 
 #[test]
