@@ -43,11 +43,7 @@ fn errors() {
         ("many balls", lit_by_balls("many balls", side)),
         ("perpendicular squares", form_factors(side, &SQUARES[1].1)),
     ];
-    let x = Axis {
-        label: "rays a pixel",
-        ticks: &[1.0, 10.0, 100.0, 1000.0, 10_000.0],
-        logarithmic: true,
-    };
+    let x = Axis { label: "rays a pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
     let y = Axis { label: "error, relative", ticks: ERRORS, logarithmic: true };
     let mut held = Map::new();
     let mut charts = Vec::new();
