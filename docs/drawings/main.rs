@@ -3,6 +3,7 @@
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
 mod calls;
+mod lights;
 mod march;
 mod rays;
 mod shapes;
@@ -29,6 +30,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),
     ("slabs", shapes::slabs),
+    ("solid_angles", lights::solid_angles),
     ("solid_intervals", shapes::intervals),
 ];
 

@@ -2,7 +2,7 @@
 //! seen in a sky that is the same everywhere.
 
 mod closed_forms;
-mod equations;
+pub mod equations;
 
 use common::app::Picture;
 use serde_json::{Map, json};

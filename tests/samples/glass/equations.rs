@@ -207,7 +207,7 @@ fn media_are_those_of_a_sorted_list() {
 }
 
 /// pcg4d, as in `shaders/common/random.glsl`.
-fn hash(v: [u32; 4]) -> [u32; 4] {
+pub fn hash(v: [u32; 4]) -> [u32; 4] {
     let [mut x, mut y, mut z, mut w] =
         v.map(|v| v.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
     let mut mix = || {

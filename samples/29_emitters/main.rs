@@ -1,0 +1,227 @@
+//! 29 · Emitters: spheres and meshes that shine are met by chance, asked by shadow rays, or both.
+//!
+//! New since 11_path_tracing: directions to what shines, chosen within the solid angle that it fills; a table
+//! that chooses one of many; and the balance of two ways to find the same light.
+
+mod alias;
+mod emitters;
+mod lit_scene;
+mod scenes;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{
+    Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
+    TextureTable, Variant, Variants, barrier,
+};
+use common::scene::{Camera, CameraBasis, SceneAddresses, input_usage};
+use common::{Controls, Frame, Sample, Setup};
+use emitters::EmitterAddresses;
+use glam::UVec3;
+use lit_scene::LitScene;
+use scenes::{SceneName, Sky, Staged};
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+/// How often light may be reflected at most.
+const MAX_DEPTH: u32 = 256;
+
+struct Demo {
+    source: Staged,
+    staged: Staged,
+    lit: LitScene,
+    pipelines: Variants<Constants>,
+    camera: Camera,
+    name: SceneName,
+    /// The scene that was built.
+    built: SceneName,
+    depth: u32,
+    clamp: f32,
+    seed: u32,
+    constants: Constants,
+    sums: Buffer,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Rays }
+    /// Who finds the light of an emitter: the rays of the path, shadow rays, or both.
+    enum Estimator: ESTIMATOR { Bsdf = "BSDF", Light, Mis = "MIS" }
+    /// Which emitters are asked by shadow rays.
+    enum Choice: CHOICE { One, All, Power = "by power" }
+    /// How a point of a triangle is chosen.
+    enum Triangles: TRIANGLES { Area, SolidAngle }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    sky: Sky,
+    estimator: Estimator,
+    choice: Choice,
+    triangles: Triangles,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        emitters: Address<EmitterAddresses>,
+        sums: Address<PixelSum>,
+        depth: u32,
+        most: f32,
+        seed: u32,
+        sample_index: u32,
+    }
+}
+
+common::shader_struct! {
+    /// The samples of a pixel, added up.
+    struct PixelSum {
+        whole: UVec3,
+        part: UVec3,
+        count: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let source = match setup.scene() {
+            Some(_) => Staged::from_file(setup.scene_or(|| unreachable!("there is a file"))?),
+            None => scenes::chess()?,
+        };
+        let staged = Staged::new(SceneName::Chess, &source);
+        let camera = staged.scene.camera;
+        let lit = LitScene::new(gpu, &staged, setup.options, camera.eye.as_vec3())?;
+        Ok(Self {
+            source,
+            constants: Constants {
+                show: Show::Picture,
+                sky: staged.sky,
+                estimator: Estimator::Mis,
+                choice: Choice::Power,
+                triangles: Triangles::SolidAngle,
+            },
+            staged,
+            lit,
+            pipelines: Variants::default(),
+            camera,
+            name: SceneName::Chess,
+            built: SceneName::Chess,
+            depth: 16,
+            clamp: 0.0,
+            seed: 0,
+            sums: Buffer::new(gpu, "sums", 0, input_usage())?,
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        if c.choice("scene", &mut self.name) {
+            let Staged { scene, sky, .. } = Staged::new(self.name, &self.source);
+            (self.camera, self.constants.sky) = (scene.camera, sky);
+        }
+        c.choice("show", &mut self.constants.show);
+        c.choice("sky", &mut self.constants.sky);
+        c.choice("estimator", &mut self.constants.estimator);
+        c.choice("emitters", &mut self.constants.choice);
+        c.choice("triangles", &mut self.constants.triangles);
+        c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
+        c.slider("clamp", &mut self.clamp, 0.0..=100.0);
+        c.integer("seed", &mut self.seed, 0..=1000);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        let eye = self.camera.eye.as_vec3();
+        if self.name != self.built {
+            self.staged = Staged::new(self.name, &self.source);
+            self.built = self.name;
+            self.lit.rebuild(gpu, &self.staged, eye)?;
+        } else if self.lit.is_outdated(&self.staged, eye) {
+            self.lit.rebuild(gpu, &self.staged, eye)?;
+        }
+        Ok(())
+    }
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: sums
+        let extent = frame.image.extent;
+        let size =
+            u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
+        if self.sums.size != size {
+            let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
+            self.sums = Buffer::new(frame.gpu, "sums", size, usage)?;
+        }
+        if frame.accumulated == 0 && frame.is_first_band() {
+            self.sums.clear(frame.cmd);
+        }
+        // The frame before may still write its sums when this one begins to read them.
+        barrier::trace_to_trace(frame.gpu, frame.cmd);
+        // ANCHOR_END: sums
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.lit.on_gpu.addresses,
+            emitters: self.lit.emitters.address.into(),
+            sums: self.sums.address.into(),
+            depth: self.depth,
+            most: self.clamp,
+            seed: self.seed,
+            sample_index: frame.index,
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.lit.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        let textures = &self.lit.on_gpu.textures;
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+
+    fn accumulates(&self) -> bool {
+        true
+    }
+}
+
+// ANCHOR: pipeline
+/// Raygen traces every ray of a path: however long that is, rays do not nest.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .hit(HitGroup::procedural("sphere.rint").closest_hit("sphere.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.sky)
+        .constant(2, constants.estimator)
+        .constant(3, constants.choice)
+        .constant(4, constants.triangles)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

@@ -1,0 +1,253 @@
+//! The scenes of this chapter: one to look at, two that must be white, and those whose light is known.
+
+use std::f32::consts::FRAC_PI_2;
+
+use anyhow::{Context, Result};
+use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
+use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
+
+use super::emitters::Sphere;
+
+common::shader_enum! {
+    /// The names of the scenes.
+    pub enum SceneName {
+        /// A game by night, between lamps.
+        Chess,
+        /// The same in white that swallows nothing, in a ball that shines.
+        Furnace,
+        /// A room whose surfaces all shine and reflect alike.
+        ClosedRoom,
+        /// A ball that shines above a square.
+        Ball,
+        /// One beside a square, half of it below the square's plane.
+        LowBall,
+        /// 64 small balls of very different power.
+        ManyBalls,
+        /// A square that shines, a unit away from one that does not.
+        ParallelSquares,
+        /// A square that shines at a right angle to one that does not.
+        PerpendicularSquares,
+    }
+    /// What a ray sees that meets nothing.
+    pub enum Sky: SKY { Night, Day, Black }
+}
+
+/// What stands where, and how it is looked at.
+#[derive(Clone)]
+pub struct Staged {
+    /// The meshes, and the view.
+    pub scene: Scene,
+    /// The spheres.
+    pub spheres: Vec<Sphere>,
+    /// The sky.
+    pub sky: Sky,
+}
+
+// ANCHOR: chess
+/// The chess set of gold and silver, ivory and red stone, among lamps and before a screen of paper.
+pub fn chess() -> Result<Staged> {
+    let mut scene = Scene::chess_of_metal()?;
+    let Model { meshes, materials, .. } = &mut scene.model;
+    // The fretwork makes way for the screen, which shines.
+    let names: Vec<String> = meshes.iter().map(|mesh| mesh.name.clone()).collect();
+    scene.instances.retain(|instance| !names[instance.mesh].starts_with("screen"));
+    let black = materials.iter_mut().find(|material| material.name == "black");
+    black.context("the chess set has no material 'black'")?.base_color =
+        Vec3::new(0.5, 0.035, 0.02);
+    let first = materials.len();
+    materials.push(lamp("lamp", Vec3::new(5.4, 2.2, 0.62)));
+    materials.push(lamp("ember", Vec3::new(11.0, 3.2, 0.6)));
+    materials.push(lamp("paper", Vec3::new(0.2, 0.3, 0.52)));
+    let screen = Affine3A::from_scale_rotation_translation(
+        Vec3::new(8.6, 2.3, 1.0),
+        Quat::from_rotation_y(FRAC_PI_2),
+        Vec3::new(-4.7, 1.35, -0.4),
+    );
+    meshes.push(square("paper", first + 2, Vec3::ZERO, Vec3::X, Vec3::Y));
+    let (mesh, material) = (meshes.len() - 1, first + 2);
+    scene.instances.push(Instance { mesh, transform: screen, material, record_offset: 0 });
+    let ball = |x, y, z, radius, material| Sphere { center: Vec3::new(x, y, z), radius, material };
+    let spheres = vec![
+        ball(5.4, 3.6, 0.9, 1.15, first),
+        ball(4.2, 3.5, -5.2, 1.0, first),
+        ball(-1.2, 2.2, -0.5, 0.24, first),
+        ball(-2.6, 2.0, 1.9, 0.21, first),
+        ball(-2.4, 2.1, -2.6, 0.22, first),
+        ball(1.5, 0.13, -0.5, 0.13, first + 1),
+        ball(-0.5, 0.1, 1.5, 0.1, first + 1),
+        ball(2.5, 0.1, 1.5, 0.1, first + 1),
+    ];
+    scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.55, -1.1), 34.0);
+    Ok(Staged { scene, spheres, sky: Sky::Night })
+}
+
+/// What shines and reflects nothing.
+fn lamp(name: &str, emission: Vec3) -> Material {
+    Material { name: name.to_owned(), base_color: Vec3::ZERO, emission, ..Material::default() }
+}
+// ANCHOR_END: chess
+
+impl Staged {
+    /// A scene from a file: what shines in it is all the light, or else it is day.
+    pub fn from_file(scene: Scene) -> Self {
+        let shines = |instance: &Instance| {
+            scene.model.materials[instance.material].emission.max_element() > 0.0
+        };
+        let sky = if scene.instances.iter().any(shines) { Sky::Night } else { Sky::Day };
+        Self { scene, spheres: vec![], sky }
+    }
+
+    /// The scene of a name; `source` is what those of chess are made from.
+    pub fn new(name: SceneName, source: &Self) -> Self {
+        let (scene, spheres) = match name {
+            SceneName::Chess => return source.clone(),
+            SceneName::Furnace => furnace(source),
+            SceneName::ClosedRoom => (room(), vec![]),
+            SceneName::Ball => above_square(&[(Vec3::new(0.2, 0.1, 1.25), 0.4, 1.0)]),
+            SceneName::LowBall => above_square(&[(Vec3::new(0.9, 0.1, 0.1), 0.3, 1.0)]),
+            SceneName::ManyBalls => above_square(&many()),
+            SceneName::ParallelSquares => (squares(Vec3::Z, Vec3::X, Vec3::Y, 0.75), vec![]),
+            SceneName::PerpendicularSquares => {
+                (squares(Vec3::new(0.0, -0.5, 0.5), Vec3::X, Vec3::Z, 2.0), vec![])
+            }
+        };
+        Self { scene, spheres, sky: Sky::Black }
+    }
+
+    /// Corners of the box around everything.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        self.spheres.iter().fold(self.scene.bounds(), |(low, high), sphere| {
+            (low.min(sphere.center - sphere.radius), high.max(sphere.center + sphere.radius))
+        })
+    }
+}
+
+// ANCHOR: furnace
+/// A scene in white that scatters all light, in a ball that shines with 1: there is nothing to be seen.
+fn furnace(source: &Staged) -> (Scene, Vec<Sphere>) {
+    let mut scene = source.scene.clone();
+    for material in &mut scene.model.materials {
+        let name = material.name.clone();
+        *material = Material { name, base_color: Vec3::ONE, ..Material::default() };
+    }
+    let (low, high) = scene.bounds();
+    let eye = scene.camera.eye.as_vec3();
+    let center = 0.5 * (low + high);
+    let radius = 1.5 * (high - low).length().max((eye - center).length());
+    scene.model.materials.push(lamp("sky", Vec3::ONE));
+    let material = scene.model.materials.len() - 1;
+    (scene, vec![Sphere { center, radius, material }])
+}
+// ANCHOR_END: furnace
+
+/// 11's room: two boxes in a box, which shine with 1/2 and scatter 1/2, so that all is 1.
+fn room() -> Scene {
+    let half = Vec3::splat(0.5);
+    let material = Material { name: "half".to_owned(), base_color: half, ..lamp("", half) };
+    let placed = |size: f32, turn: f32, at: Vec3| Instance {
+        mesh: 0,
+        transform: Affine3A::from_scale_rotation_translation(
+            Vec3::splat(size),
+            Quat::from_rotation_y(turn),
+            at,
+        ),
+        material: 0,
+        record_offset: 0,
+    };
+    let instances = vec![
+        placed(4.0, 0.0, Vec3::ZERO),
+        placed(1.0, 0.4, Vec3::new(-0.6, -1.5, -0.5)),
+        placed(0.7, 1.0, Vec3::new(0.7, -0.9, 0.2)),
+    ];
+    let camera = Camera::new(DVec3::new(0.2, 0.3, 1.9), DVec3::new(0.0, -0.6, 0.0), 70.0);
+    scene(vec![cube()], vec![material], instances, camera)
+}
+
+fn white() -> Material {
+    Material { name: "white".to_owned(), base_color: Vec3::ONE, ..Material::default() }
+}
+
+/// 11's squares: a white unit square around the origin, which faces +z and is seen whole, and one that shines.
+fn squares(middle: Vec3, right: Vec3, up: Vec3, distance: f64) -> Scene {
+    let meshes = vec![
+        square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y),
+        square("shining", 1, middle, right, up),
+    ];
+    let materials = vec![white(), lamp("shining", Vec3::ONE)];
+    scene(meshes, materials, vec![as_it_is(0), as_it_is(1)], camera_on_square(distance))
+}
+
+// ANCHOR: above
+/// The white square alone, and balls that shine: centre, radius and radiance.
+fn above_square(balls: &[(Vec3, f32, f32)]) -> (Scene, Vec<Sphere>) {
+    let meshes = vec![square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y)];
+    let mut materials = vec![white()];
+    materials.extend(balls.iter().map(|ball| lamp("ball", Vec3::splat(ball.2))));
+    let place = |(i, &(center, radius, _)): (usize, &(Vec3, f32, f32))| Sphere {
+        center,
+        radius,
+        material: i + 1,
+    };
+    let spheres = balls.iter().enumerate().map(place).collect();
+    (scene(meshes, materials, vec![as_it_is(0)], camera_on_square(0.75)), spheres)
+}
+
+/// 64 balls in a plane, none of which hides another from the square. The brightest has 55,000 times the
+/// radiance of the faintest.
+pub fn many() -> Vec<(Vec3, f32, f32)> {
+    let ball = |i: u8| {
+        let at = |k: u8| (f32::from(k) - 3.5) * 0.14;
+        // 37 has no factor in common with 64: strong ones stand everywhere.
+        let radiance = 4000.0 * (-f32::from(i.wrapping_mul(37) % 64) / 4.0).exp2();
+        (Vec3::new(at(i % 8), at(i / 8), 1.0), 0.01, radiance)
+    };
+    (0..64).map(ball).collect()
+}
+// ANCHOR_END: above
+
+fn as_it_is(mesh: usize) -> Instance {
+    Instance { mesh, transform: Affine3A::IDENTITY, material: mesh, record_offset: 0 }
+}
+
+/// From so far above the square that it fills the picture.
+fn camera_on_square(distance: f64) -> Camera {
+    let field_of_view = 2.0 * (0.5 / distance).atan().to_degrees();
+    Camera::new(DVec3::new(0.0, 0.0, distance), DVec3::ZERO, field_of_view)
+}
+
+fn scene(
+    meshes: Vec<Mesh>,
+    materials: Vec<Material>,
+    instances: Vec<Instance>,
+    camera: Camera,
+) -> Scene {
+    Scene { model: Model { meshes, materials, ..Model::default() }, instances, camera }
+}
+
+/// A unit square, seen from where `right` × `up` points to.
+fn square(name: &str, material: usize, middle: Vec3, right: Vec3, up: Vec3) -> Mesh {
+    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+    let vertex = |(x, y): (f32, f32)| Vertex {
+        position: middle + x * right + y * up,
+        normal: right.cross(up),
+        uv: Vec2::ZERO,
+    };
+    let triangles = vec![[0, 1, 2], [0, 2, 3]];
+    Mesh { name: name.to_owned(), vertices: corners.map(vertex).into(), triangles, material }
+}
+
+/// The unit cube around the origin.
+fn cube() -> Mesh {
+    let mut cube =
+        Mesh { name: "cube".to_owned(), vertices: vec![], triangles: vec![], material: 0 };
+    for (out, right) in [Vec3::X, Vec3::Y, Vec3::Z]
+        .into_iter()
+        .flat_map(|axis| [(axis, axis.zxy()), (-axis, axis.zxy())])
+    {
+        let first = cube.vertices.len() as u32;
+        let side = square("side", 0, 0.5 * out, right, out.cross(right));
+        cube.vertices.extend(side.vertices);
+        cube.triangles.extend(side.triangles.iter().map(|t| t.map(|corner| corner + first)));
+    }
+    cube
+}

@@ -1,0 +1,28 @@
+// The shadow ray.
+
+layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
+
+layout(location = 1) rayPayloadEXT bool lit;
+
+// ANCHOR: shadow
+bool is_lit(vec3 origin, vec3 to_light, float end) {
+    // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
+    uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT
+        | gl_RayFlagsTerminateOnFirstHitEXT;
+    lit = false;
+    traceRayEXT(
+        tlas,
+        flags,
+        0xff,                       // cull mask: every instance
+        0,                          // sbtRecordOffset: no hit shader runs
+        1,                          // sbtRecordStride: one record a geometry
+        1,                          // missIndex: shadow.rmiss
+        origin,
+        0.0,                        // tmin: the origin lies off the surface
+        to_light,
+        end,                        // tmax
+        1                           // payload location
+    );
+    return lit;
+}
+// ANCHOR_END: shadow

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "hit.glsl"
+#include "common/above.glsl"
+
+layout(location = 0) rayPayloadInEXT Hit hit;
+hitAttributeEXT vec3 outward;
+
+// The nearest hit is a sphere. The point is taken from the sphere and not from the ray, and 08 says how far
+// above it a ray must start; the spheres' instance is placed nowhere else.
+void main() {
+    uint id = push.emitters.sphere_ids.at[gl_PrimitiveID];
+    Emitter sphere = push.emitters.emitters.at[id];
+    precise vec3 point = sphere.corner + sphere.radius * outward;
+    hit.position = point;
+    hit.face = faceforward(outward, gl_WorldRayDirectionEXT, outward);
+    hit.height = ROUNDING * dot(abs(outward), 31.0 * abs(point) + vec3(46.0 * sphere.radius));
+    hit.t = gl_HitTEXT;
+    // A sphere has one normal, and is as round as it looks.
+    hit.normal = hit.face;
+    hit.color = push.scene.materials.at[sphere.material].base_color;
+    hit.material = sphere.material;
+    hit.triangle = id;
+    hit.instance = gl_InstanceCustomIndexEXT;
+}

@@ -1,0 +1,175 @@
+//! 29_emitters: three ways to find the light of what shines agree with each other, and with closed forms.
+
+mod closed_forms;
+mod directions;
+mod plots;
+
+use common::app::Picture;
+use common::app::sums::merge;
+use serde_json::{Map, json};
+
+use run::{bits, command, compiled_for, figures, golden, render};
+
+const NAME: &str = "29_emitters";
+/// The relative error of one rounding to f32.
+const U: f64 = 1.0 / 16_777_216.0;
+const ESTIMATORS: [&str; 3] = ["BSDF", "light", "MIS"];
+
+fn picture(size: &str, frames: u32, sets: &[&str]) -> Picture {
+    let frames = frames.to_string();
+    let mut arguments = vec!["--frames", &frames];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    render(NAME, size, &arguments).picture
+}
+
+fn estimator(name: &str) -> String {
+    format!("estimator={name}")
+}
+
+/// One number a pixel: the mean of its colours.
+fn brightness(picture: &Picture) -> Vec<f64> {
+    let mean = |pixel: &[f32; 4]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
+    picture.pixels.iter().map(mean).collect()
+}
+
+/// The mean of independent values, and how far it may be off by chance: four standard errors, which chance
+/// exceeds once in 16,000 times.
+struct Estimate {
+    mean: f64,
+    deviation: f64,
+    confidence: f64,
+}
+
+impl Estimate {
+    fn of(values: &[f64]) -> Self {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let deviation = (squares / (count - 1.0)).sqrt();
+        Self { mean, deviation, confidence: 4.0 * deviation / count.sqrt() }
+    }
+
+    #[track_caller]
+    fn is(&self, expected: f64, what: &str) {
+        let Self { mean, confidence, .. } = self;
+        println!("{what}: {mean:.6} ± {confidence:.6}, not {expected:.6}?");
+        assert!((mean - expected).abs() <= *confidence, "{what}: {mean} is not {expected}");
+    }
+}
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| picture("160x100", 8, &[]));
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &first, 0.002);
+}
+
+/// Surfaces of all kinds, mirrors among them, lit by spheres and by a mesh.
+#[test]
+fn three_estimators_make_one_picture() {
+    let [bsdf, light, mis] = [0, 1, 2].map(|i| {
+        let sets = [&estimator(ESTIMATORS[i])[..], &format!("seed={i}"), "depth=3"];
+        brightness(&picture("64x40", 256, &sets))
+    });
+    let mut held = Map::new();
+    let whole = Estimate::of(&mis).mean;
+    for (name, other) in [("BSDF", &bsdf), ("light", &light)] {
+        let differences: Vec<f64> = mis.iter().zip(other).map(|(mis, other)| mis - other).collect();
+        let estimate = Estimate::of(&differences);
+        estimate.is(0.0, &format!("MIS - {name}"));
+        // It would be seen if light were counted twice, or a tenth of it not at all.
+        assert!(estimate.confidence < 0.1 * whole, "{name}: {} of {whole}", estimate.confidence);
+        held.insert(format!("{name}.off"), json!((estimate.mean / whole).abs()));
+        held.insert(format!("{name}.confidence"), json!(estimate.confidence / whole));
+    }
+    figures::hold("29_emitters/one_picture", held.into());
+}
+
+#[test]
+fn one_emitter_all_and_those_by_power_make_one_picture() {
+    let choices = ["one", "all", "by power"];
+    let shown = [0, 1, 2].map(|i| {
+        let sets = [&format!("emitters={}", choices[i])[..], &format!("seed={i}"), "depth=2"];
+        brightness(&picture("64x40", 64, &sets))
+    });
+    for (name, other) in choices.iter().zip(&shown).take(2) {
+        let differences: Vec<f64> = shown[2].iter().zip(other).map(|(a, b)| a - b).collect();
+        let estimate = Estimate::of(&differences);
+        estimate.is(0.0, &format!("by power - {name}"));
+        let whole = Estimate::of(&shown[2]).mean;
+        assert!(estimate.confidence < 0.1 * whole, "{name}: {} of {whole}", estimate.confidence);
+    }
+}
+
+/// Emission that is seen, and no bounce: nobody asks, and nothing is left to chance.
+#[test]
+fn what_is_seen_straight_is_the_same_by_all() {
+    let of = |name| bits(&picture("64x40", 2, &[&estimator(name), "depth=0"]));
+    let seen = ESTIMATORS.map(of);
+    assert!(seen[0] == seen[1] && seen[1] == seen[2]);
+}
+
+/// A sample of each estimator: the brightest pixel, and how many are ten times as bright as the mean.
+#[test]
+fn fireflies_are_those_of_chance_and_of_area() {
+    let mut held = Map::new();
+    let mut brightest = Vec::new();
+    for (name, sets) in [
+        ("BSDF", ["estimator=BSDF", "triangles=solid angle"]),
+        ("area", ["estimator=light", "triangles=area"]),
+        ("solid_angle", ["estimator=light", "triangles=solid angle"]),
+        ("MIS", ["estimator=MIS", "triangles=solid angle"]),
+    ] {
+        let sets = [&sets[..], &["scene=perpendicular squares"]].concat();
+        let shown = brightness(&picture("96x96", 16, &sets));
+        let Estimate { mean, deviation, .. } = Estimate::of(&shown);
+        let most = shown.iter().copied().fold(0.0, f64::max);
+        println!("{name}: mean {mean:.4}, deviation {deviation:.4}, brightest {most:.3}");
+        held.insert(format!("{name}.brightest"), most.into());
+        brightest.push(most);
+    }
+    // White, beside what shines with 1, is 1/2 at most; by area a point of it may stand for any multiple.
+    assert!(brightest[1] > 2.0 && brightest[2] < 1.01 && brightest[3] < 1.01, "{brightest:?}");
+    figures::hold("29_emitters/fireflies", held.into());
+}
+
+#[test]
+fn a_clamp_takes_light_and_adds_none() {
+    let [all, clamped] = ["clamp=0", "clamp=0.5"].map(|clamp| picture("64x40", 8, &[clamp]));
+    let mut colors = all.pixels.iter().flatten().zip(clamped.pixels.iter().flatten());
+    assert!(colors.all(|(all, clamped)| clamped <= all) && bits(&all) != bits(&clamped));
+}
+
+#[test]
+fn light_that_is_cut_and_merged_is_the_light_in_one_piece() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let part = |samples: &str, file: &str| {
+        let file = folder.path().join(file);
+        let mut task = command(NAME);
+        task.args(["--size", "24x16", "--samples", samples, "--save"]).arg(&file);
+        let output = task.arg("--resume").arg(&file).output().expect("the sample starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && errors.is_empty(), "{samples}: {errors}");
+        file
+    };
+    let whole = std::fs::read(part("0..12", "whole")).unwrap();
+    let parts = [part("0..5", "a"), part("5..6", "b"), part("6..12", "c")];
+    let merged = merge(&parts.each_ref().map(|path| path.as_path())).expect("they fit");
+    assert_eq!(merged.bytes().expect("they can be written"), whole);
+    // One file that goes on, and not in the order of the samples.
+    ["7..9", "0..3", "0..12"].into_iter().for_each(|samples| drop(part(samples, "one")));
+    assert_eq!(std::fs::read(folder.path().join("one")).unwrap(), whole);
+}
+
+#[test]
+fn its_programs_spill_no_register() {
+    for estimator in ["estimator=MIS", "estimator=BSDF"] {
+        for choice in ["emitters=by power", "emitters=all"] {
+            let sets = ["--set", estimator, "--set", choice];
+            let Some(programs) = compiled_for(NAME, "navi31", &sets) else { return };
+            assert_eq!(programs.len(), 1, "rays do not nest: one program");
+            assert_eq!(programs[0]["spilled_registers"], 0, "{}", programs[0]);
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! Scenes whose light is known without a path.
+
+use std::f64::consts::PI;
+use std::fs;
+
+use common::app::Picture;
+use glam::DVec3;
+use serde_json::Map;
+
+use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
+use crate::path_tracing::closed_forms::{SQUARES, form_factors};
+use run::{figures, render};
+
+/// The balls of the scenes: centre, radius, radiance.
+pub fn balls(scene: &str) -> Vec<(DVec3, f64, f64)> {
+    let wide = |x: f32| f64::from(x);
+    match scene {
+        "ball" => vec![(DVec3::new(wide(0.2), wide(0.1), 1.25), wide(0.4), 1.0)],
+        "low ball" => vec![(DVec3::new(wide(0.9), wide(0.1), wide(0.1)), wide(0.3), 1.0)],
+        "many balls" => {
+            let at = |k: u32| (f64::from(k) - 3.5) * 0.14;
+            let radiance = |i: u32| 4000.0 * (-f64::from(i * 37 % 64) / 4.0).exp2();
+            let ball = |i: u32| (DVec3::new(at(i % 8), at(i / 8), 1.0), 0.01, radiance(i));
+            (0..64).map(ball).collect()
+        }
+        other => panic!("no balls in {other}"),
+    }
+}
+
+/// What of the half-space above a point of the plane z = 0, weighed by the cosine, a ball fills that may be
+/// partly below the plane. By Stokes' theorem it is half the integral of r × dr along the rim of what is seen
+/// of the ball: an arc of its outline, and an arc of the horizon.
+pub fn part_of_ball(point: DVec3, center: DVec3, radius: f64) -> f64 {
+    let to = center - point;
+    let sine = radius / to.length();
+    let cosine = (1.0 - sine * sine).sqrt();
+    // Of the angle between the centre and the normal.
+    let (up, aside) = (to.z / to.length(), to.truncate().length() / to.length());
+    if cosine * up >= sine * aside {
+        return up * sine * sine;
+    }
+    if -cosine * up >= sine * aside {
+        return 0.0;
+    }
+    let end = (-cosine * up / (sine * aside)).clamp(-1.0, 1.0).acos();
+    let outline = end * sine * sine * up - sine * cosine * aside * end.sin();
+    let horizon = (sine * end.sin()).atan2(cosine * aside - sine * end.cos() * up);
+    (outline + horizon) / PI
+}
+
+/// What each pixel of a picture `side` wide is, which shows the white square whole.
+pub fn lit_by_balls(scene: &str, side: u32) -> Vec<f64> {
+    let balls = balls(scene);
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
+    let pixels = (0..side * side).map(|i| DVec3::new(place(i % side), -place(i / side), 0.0));
+    let lit = |point| {
+        balls.iter().map(|&(at, radius, light)| light * part_of_ball(point, at, radius)).sum()
+    };
+    pixels.map(lit).collect()
+}
+
+#[test]
+fn the_closed_form_is_the_integral() {
+    // The cosine's integral over the ball's cone, by midpoints.
+    let by_points = |to: DVec3, radius: f64| {
+        let whole = 1.0 - (1.0 - radius * radius / to.length_squared()).sqrt();
+        let axis = to.normalize();
+        let right = axis.any_orthonormal_vector();
+        let up = axis.cross(right);
+        let (rows, columns) = (1000, 1000);
+        let mut sum = 0.0;
+        for row in 0..rows {
+            let w = whole * (f64::from(row) + 0.5) / f64::from(rows);
+            let sine = (w * (2.0 - w)).sqrt();
+            for column in 0..columns {
+                let turn = 2.0 * PI * (f64::from(column) + 0.5) / f64::from(columns);
+                let side = turn.cos() * right + turn.sin() * up;
+                sum += ((1.0 - w) * axis + sine * side).z.max(0.0);
+            }
+        }
+        2.0 * whole * sum / f64::from(rows * columns)
+    };
+    for (x, z, radius) in [(0.3, 1.0, 0.4), (1.0, 0.2, 0.5), (1.0, 0.0, 0.7), (1.0, -0.2, 0.5)] {
+        let to = DVec3::new(x, 0.1, z);
+        let (closed, points) = (part_of_ball(DVec3::ZERO, to, radius), by_points(to, radius));
+        assert!((closed - points).abs() < 1e-5, "{to} {radius}: {closed} {points}");
+        assert!(closed > 0.001, "{to} {radius}: {closed}");
+    }
+    assert_eq!(part_of_ball(DVec3::ZERO, DVec3::new(1.0, 0.0, -0.6), 0.5), 0.0);
+}
+
+/// The difference of each pixel from what is expected there is chance alone, and is 0 in the mean.
+#[track_caller]
+fn is_lit_as(expected: &[f64], sets: &[&str], frames: u32) -> Estimate {
+    let side = (expected.len() as f64).sqrt() as u32;
+    let shown = brightness(&picture(&format!("{side}x{side}"), frames, sets));
+    let off: Vec<f64> = shown.iter().zip(expected).map(|(shown, e)| shown - e).collect();
+    let estimate = Estimate::of(&off);
+    estimate.is(0.0, &format!("{sets:?}"));
+    let mean = expected.iter().sum::<f64>() / expected.len() as f64;
+    assert!(estimate.confidence < 0.1 * mean, "{sets:?}: {} of {mean}", estimate.confidence);
+    Estimate { mean: mean + estimate.mean, ..estimate }
+}
+
+#[test]
+fn a_ball_lights_a_plane_as_its_closed_form_says() {
+    let mut held = Map::new();
+    for scene in ["ball", "low ball"] {
+        let expected = lit_by_balls(scene, 64);
+        let closed = expected.iter().sum::<f64>() / expected.len() as f64;
+        let key = scene.replace(' ', "_");
+        held.insert(format!("{key}.closed"), closed.into());
+        for name in ESTIMATORS {
+            let set = format!("scene={scene}");
+            let estimate = is_lit_as(&expected, &[&set, &estimator(name), "depth=1"], 64);
+            held.insert(format!("{key}.{name}"), estimate.mean.into());
+            held.insert(format!("{key}.{name}.confidence"), estimate.confidence.into());
+        }
+    }
+    figures::hold("29_emitters/balls", held.into());
+}
+
+#[test]
+fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
+    let expected = lit_by_balls("many balls", 64);
+    let mut held = Map::new();
+    for (choice, frames) in [("one", 256), ("all", 4), ("by power", 64)] {
+        let set = format!("emitters={choice}");
+        let sets = ["scene=many balls", "estimator=light", "depth=1", &set];
+        let estimate = is_lit_as(&expected, &sets, frames);
+        // The deviation of a single shadow ray; of Sobol's points it falls faster than that of chance.
+        let single = brightness(&picture("64x64", 1, &sets));
+        let squares = single.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)).sum::<f64>();
+        let deviation = (squares / expected.len() as f64).sqrt();
+        println!("{choice}: one sample is off by {deviation:.4}");
+        held.insert(format!("{choice}.mean"), estimate.mean.into());
+        held.insert(format!("{choice}.confidence"), estimate.confidence.into());
+        held.insert(format!("{}.single", choice.replace(' ', "-")), deviation.into());
+    }
+    let closed = expected.iter().sum::<f64>() / expected.len() as f64;
+    held.insert("closed".to_owned(), closed.into());
+    figures::hold("29_emitters/many", held.into());
+}
+
+#[test]
+fn squares_light_each_other_as_their_form_factors_say() {
+    for (scene, square) in &SQUARES {
+        let expected = form_factors(64, square);
+        let set = format!("scene={scene}");
+        is_lit_as(&expected, &[&set, "estimator=BSDF", "depth=1"], 64);
+        for name in ["light", "MIS"] {
+            for points in ["triangles=area", "triangles=solid angle"] {
+                is_lit_as(&expected, &[&set, &estimator(name), points, "depth=1"], 64);
+            }
+        }
+    }
+}
+
+/// One sample's variance, for light of 1: a path meets the ball or not; and a shadow ray brings the cosine
+/// of its direction, which is uniform in the cone, times the solid angle over pi.
+pub fn variances_of_ball(point: DVec3, center: DVec3, radius: f64) -> [f64; 2] {
+    let to = center - point;
+    let part = part_of_ball(point, center, radius);
+    let cosine = (1.0 - radius * radius / to.length_squared()).sqrt();
+    let along = (1.0 + cosine + cosine * cosine) / 3.0;
+    let up = (to.z / to.length()).powi(2);
+    let squares = up * along + (1.0 - up) * 0.5 * (1.0 - along);
+    [part * (1.0 - part), (2.0 * (1.0 - cosine)).powi(2) * squares - part * part]
+}
+
+/// The mean of the variances over the picture of the ball.
+pub fn mean_variances(side: u32) -> [f64; 2] {
+    let (center, radius, _) = balls("ball")[0];
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
+    let mut sums = [0.0; 2];
+    for i in 0..side * side {
+        let point = DVec3::new(place(i % side), -place(i / side), 0.0);
+        let variances = variances_of_ball(point, center, radius);
+        (0..2).for_each(|k| sums[k] += variances[k] / f64::from(side * side));
+    }
+    sums
+}
+
+#[test]
+fn the_noise_of_one_sample_is_that_of_theory() {
+    let expected = lit_by_balls("ball", 64);
+    for (name, theory) in ["BSDF", "light"].iter().zip(mean_variances(64)) {
+        let mut squares = Vec::new();
+        for seed in 0..4 {
+            let sets = ["scene=ball", &estimator(name), "depth=1", &format!("seed={seed}")];
+            let shown = brightness(&picture("64x64", 1, &sets));
+            squares.extend(shown.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)));
+        }
+        Estimate::of(&squares).is(theory, &format!("variance of {name}"));
+    }
+}
+
+/// Nothing lies between: a shadow ray that met the emitter itself would leave a black pixel.
+#[test]
+fn no_shadow_ray_meets_what_it_asks_for() {
+    let dark = |sets: &[&str], arithmetic: &str| {
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        let mut arguments = vec!["--arithmetic", arithmetic, "--frames", "1"];
+        arguments.extend(sets);
+        let shown = render(NAME, "96x96", &arguments).picture;
+        shown.pixels.iter().filter(|pixel| pixel[..3] == [0.0; 3]).count()
+    };
+    for arithmetic in ["driver", "worst", "worst-by-place"] {
+        for (scene, points) in [
+            ("scene=ball", "triangles=area"),
+            ("scene=many balls", "triangles=area"),
+            ("scene=parallel squares", "triangles=area"),
+            ("scene=parallel squares", "triangles=solid angle"),
+        ] {
+            let sets = [scene, points, "estimator=light", "depth=1"];
+            assert_eq!(dark(&sets, arithmetic), 0, "{arithmetic} {sets:?}");
+        }
+    }
+}
+
+/// A scene file: a white square, a square above it that shines, and one that covers it from below.
+fn covered(gap: f64, shift: f64) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let square = |z: f64, half: f64| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| format!("v {} {} {}\n", shift + half * x, half * y, z))
+            .concat()
+    };
+    let names = ["white", "shining", "black"];
+    let squares = [square(0.0, 0.5), square(1.0, 0.5), square(1.0 - gap, 0.6)];
+    let mut text = "mtllib a.mtl\n".to_owned();
+    for (i, (name, square)) in names.iter().zip(squares).enumerate() {
+        let first = 4 * i + 1;
+        text += &format!("o {name}\n{square}usemtl {name}\n");
+        text += &format!("f {first} {} {}\n", first + 1, first + 2);
+        text += &format!("f {first} {} {}\n", first + 2, first + 3);
+    }
+    fs::write(folder.path().join("a.obj"), text).unwrap();
+    let materials =
+        "newmtl white\nKd 1 1 1\nnewmtl shining\nKd 0 0 0\nKe 1 1 1\nnewmtl black\nKd 0 0 0\n";
+    fs::write(folder.path().join("a.mtl"), materials).unwrap();
+    let file = folder.path().join("a.obj").to_str().unwrap().to_owned();
+    (folder, file)
+}
+
+fn of_file(file: &str, shift: f64, frames: &str) -> Picture {
+    let eye = format!("camera eye={shift},0,0.75");
+    let target = format!("camera target={shift},0,0");
+    let angle = format!("field of view={}", 2.0 * (0.5f64 / 0.75).atan().to_degrees());
+    let sets = ["sky=black", "estimator=light", "depth=1", &eye, &target, &angle];
+    let mut arguments = vec!["--scene", file, "--frames", frames];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    render(NAME, "64x64", &arguments).picture
+}
+
+/// Where a ray ends short of an emitter, what is nearer to it than that would not hide it.
+#[test]
+fn no_light_leaks_through_what_lies_close_before_an_emitter() {
+    for (shift, gap) in [(0.0, 4e-5), (16.0, 4e-4)] {
+        let (_folder, file) = covered(gap, shift);
+        let lit = of_file(&file, shift, "16");
+        let leaks = lit.pixels.iter().filter(|pixel| pixel[..3] != [0.0; 3]).count();
+        assert_eq!(leaks, 0, "pixels get light through a cover {gap} before the emitter");
+    }
+    // Without the cover, the file shines by its Ke.
+    let (_folder, file) = covered(-0.5, 0.0);
+    let lit = brightness(&of_file(&file, 0.0, "16"));
+    let expected = form_factors(64, &SQUARES[0].1);
+    let off: Vec<f64> = lit.iter().zip(&expected).map(|(lit, e)| lit - e).collect();
+    Estimate::of(&off).is(0.0, "a square from a file");
+}
+
+#[test]
+fn a_furnace_is_white_whoever_finds_its_light() {
+    for name in ESTIMATORS {
+        let sets = ["scene=furnace", "depth=256", &estimator(name)];
+        let shown = picture("96x60", 16, &sets);
+        let estimate = Estimate::of(&brightness(&shown));
+        estimate.is(1.0, &format!("furnace, {name}"));
+        assert!(estimate.confidence < 0.03, "{name}");
+        if name == "BSDF" {
+            // What a path brings is 1, whatever way it takes: no chance, no rounding.
+            let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
+            assert_eq!(grey, 0, "pixels of the furnace that are not white");
+        }
+    }
+}
+
+#[test]
+fn a_room_that_shines_is_as_bright_as_its_series() {
+    for name in ESTIMATORS {
+        for depth in [0, 1, 2, 256] {
+            let set = format!("depth={depth}");
+            let sets = ["scene=closed room", &set, &estimator(name)];
+            let estimate = Estimate::of(&brightness(&picture("96x60", 16, &sets)));
+            // 1/2 + 1/4 + … + 1/2^(depth + 1): each depth is what it is for all three.
+            let expected = 1.0 - 0.5f64.powi(depth + 1);
+            if depth == 0 {
+                assert_eq!(estimate.mean, 0.5, "{name}");
+            } else {
+                estimate.is(expected, &format!("room of depth {depth}, {name}"));
+                assert!(estimate.confidence < 0.02 + 8.0 * U, "{name} {depth}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_in_which_nothing_shines_is_seen_by_day() {
+    let file = "samples/assets/box_on_plane.obj";
+    let shown = render(NAME, "32x20", &["--scene", file, "--frames", "1"]).picture;
+    let bright = brightness(&shown).iter().filter(|value| **value > 0.05).count();
+    assert!(bright > 600, "{bright} of 640 pixels are to be seen");
+}

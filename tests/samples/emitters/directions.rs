@@ -1,0 +1,286 @@
+//! Directions and solid angles, from the shader's own functions, held to 64 bits.
+
+use std::f64::consts::PI;
+
+use common::app::Picture;
+use glam::DVec3;
+use serde_json::json;
+
+use super::{NAME, U};
+use crate::glass::equations::hash;
+use run::{command, copy_of_shaders, figures, render_by};
+
+/// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
+/// `vec4 answer`.
+fn evaluate(body: &str, size: &str) -> Picture {
+    let folder = copy_of_shaders();
+    let file = folder.path().join(NAME).join("camera.rgen");
+    let text = std::fs::read_to_string(&file).expect("it is there");
+    let (head, _) = text.split_once("void main() {").expect("a main");
+    let text = format!(
+        "{head}void main() {{ uvec2 at = pixel_id(); vec4 answer = vec4(0.0);\n{body}\n\
+         imageStore(picture, ivec2(at), answer); }}"
+    );
+    std::fs::write(&file, text).expect("a copy can be written");
+    render_by(command(NAME).env("SHADERS", folder.path()), size, &[]).picture
+}
+
+fn vector(pixel: &[f32; 4]) -> DVec3 {
+    DVec3::new(pixel[0].into(), pixel[1].into(), pixel[2].into())
+}
+
+/// Spheres 7 away, of radius 7·2^-k and 7·(1 - 2^-k) in turn, k from 1 to 20: exact numbers all.
+const SPHERE: &str = "
+    int k = int(at.x) / 2 + 1;
+    float small = ldexp(1.0, -k);
+    float radius = 7.0 * (at.x % 2 == 0 ? small : 1.0 - small);
+    vec2 u = vec2(at.y % 8 + 0.5, at.y / 8 + 0.5) / 8.0;
+    Emitter ball = Emitter(vec3(2.0, -3.0, 6.0), radius, vec3(0.0), 0.0, vec3(0.0), 0u, 0.0, 0.0);
+";
+
+fn radius(x: usize) -> f64 {
+    let small = 0.5f64.powi(x as i32 / 2 + 1);
+    7.0 * if x % 2 == 0 { small } else { 1.0 - small }
+}
+
+/// 1 - cosine of half the cone's opening, without cancellation in 64 bits either.
+fn exact_cone(radius: f64) -> f64 {
+    let cosine = ((7.0 - radius) * (7.0 + radius)).sqrt() / 7.0;
+    (radius / 7.0).powi(2) / (1.0 + cosine)
+}
+
+#[test]
+fn a_cone_keeps_its_digits_far_away_and_close_by() {
+    let body = "
+        float sine = radius / 7.0;
+        answer = vec4(cone(radius, 7.0), 1.0 - sqrt(1.0 - sine * sine), 0.0, 0.0);
+    ";
+    let shown = evaluate(&format!("{SPHERE}{body}"), "40x1");
+    let (mut here, mut by_the_book) = (0f64, 0f64);
+    for (x, pixel) in shown.pixels.iter().enumerate() {
+        let exact = exact_cone(radius(x));
+        here = here.max((f64::from(pixel[0]) / exact - 1.0).abs() / U);
+        by_the_book = by_the_book.max((f64::from(pixel[1]) / exact - 1.0).abs());
+    }
+    println!("1 - cosine: off by {here:.1} u, by the book by {by_the_book:.3} of it");
+    // Half a dozen roundings, of which Vulkan lets a division be 5 u.
+    assert!(here < 16.0, "{here}");
+    assert!(by_the_book > 0.5, "the textbook's form would do: {by_the_book}");
+    figures::hold("29_emitters/cone", json!({ "here": here, "textbook": by_the_book }));
+}
+
+#[test]
+fn directions_to_a_ball_are_uniform_in_its_cone_and_meet_it() {
+    let body = "Aim aim = aim_at(ball, vec3(0.0), u); answer = vec4(aim.to, aim.angle);";
+    let shown = evaluate(&format!("{SPHERE}{body}"), "40x64");
+    let center = DVec3::new(2.0, -3.0, 6.0);
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let (x, y) = (i % 40, i / 40);
+        let (radius, to) = (radius(x), vector(pixel));
+        let direction = to.normalize();
+        // Which part of the cone is nearer to the axis: the first number.
+        let u = ((y % 8) as f64 + 0.5) / 8.0;
+        let expected = (2.0 * u * exact_cone(radius)).sqrt();
+        let chord = (direction - center / 7.0).length();
+        assert!((chord - expected).abs() < 16.0 * U, "{x} {y}: {chord} {expected}");
+        let aside = center.cross(direction).length();
+        assert!(aside < radius + 7.0 * 16.0 * U, "{x} {y}: {aside} passes {radius}");
+        // And the point is where the ray meets the ball first.
+        let off = ((to - center).length() - radius).abs();
+        assert!(off < 7.0 * 32.0 * U, "{x} {y}: {off} off the ball");
+        assert!((to - center).dot(direction) < 7.0 * 32.0 * U, "{x} {y}: behind");
+        let angle = 2.0 * PI * exact_cone(radius);
+        assert!((f64::from(pixel[3]) / angle - 1.0).abs() < 20.0 * U, "{x} {y}");
+    }
+}
+
+#[test]
+fn from_inside_a_ball_every_direction_is_as_likely() {
+    // From the middle, from near the surface, and from the surface itself.
+    let body = "
+        float inside[4] = float[](7.0, 14.0, 7.0 + 7.0 / 1024.0, 700.0);
+        ball.radius = inside[at.x];
+        Aim aim = aim_at(ball, vec3(0.0), u);
+        answer = vec4(aim.to, aim.angle);
+    ";
+    let shown = evaluate(&format!("{SPHERE}{body}"), "4x64");
+    let center = DVec3::new(2.0, -3.0, 6.0);
+    let radii = [7.0, 14.0, 7.0 + 7.0 / 1024.0, 700.0];
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let (radius, y, to) = (radii[i % 4], i / 4, vector(pixel));
+        let u = ((y % 8) as f64 + 0.5) / 8.0;
+        let off = ((to - center).length() - radius).abs();
+        assert!(off < 32.0 * U * radius, "{radius} {y}: {off} off the ball");
+        assert_eq!(pixel[3], (4.0 * PI) as f32);
+        // Where the point is the ball's own, the direction is that of the chord, or there is none.
+        if radius > 7.0 {
+            let direction = to.normalize();
+            assert!((direction.z - (1.0 - 2.0 * u)).abs() < 1e-4, "{radius} {y}: {direction}");
+        }
+    }
+}
+
+/// A corner and two edges, all exact: sixteenths, and the edges up to 2^-11 of that.
+const TRIANGLE: &str = "
+    #define PICK(s) (float(int(hash(uvec4(at, s, 7)).x % 33u) - 16) / 16.0)
+    float size = ldexp(1.0, -int(at.y % 12u));
+    vec3 a = vec3(PICK(1), PICK(2), PICK(3));
+    vec3 across = size * vec3(PICK(4), PICK(5), PICK(6));
+    vec3 along = size * vec3(PICK(7), PICK(8), PICK(9));
+";
+
+/// The same number: a multiple of 1/16 from -1 to 1.
+fn pick(x: u32, y: u32, salt: u32) -> f64 {
+    (f64::from(hash([x, y, salt, 7])[0] % 33) - 16.0) / 16.0
+}
+
+struct Triangle {
+    corners: [DVec3; 3],
+    edges: [DVec3; 2],
+}
+
+impl Triangle {
+    fn of(pixel: usize, width: usize) -> Self {
+        let (x, y) = ((pixel % width) as u32, (pixel / width) as u32);
+        let pick = |s: u32| pick(x, y, s);
+        let size = 0.5f64.powi((y % 12) as i32);
+        let of = |s: u32| DVec3::new(pick(s), pick(s + 1), pick(s + 2));
+        let (a, across, along) = (of(1), size * of(4), size * of(7));
+        Self { corners: [a, a + across, a + along], edges: [across, along] }
+    }
+
+    fn angle(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        let (la, lb, lc) = (a.length(), b.length(), c.length());
+        let sum = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        2.0 * a.dot(self.edges[0].cross(self.edges[1])).abs().atan2(sum)
+    }
+
+    /// How much an error of a coordinate, relative to the distance, is enlarged: more, the flatter the triangle
+    /// is seen, and the nearer a corner is.
+    fn condition(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        let height = a.dot(self.edges[0].cross(self.edges[1])).abs();
+        let far = a.length().max(b.length()).max(c.length());
+        let near = a.length().min(b.length()).min(c.length());
+        (a.length() * self.edges[0].length() * self.edges[1].length() / height) * (far / near)
+    }
+}
+
+#[test]
+fn the_solid_angle_of_a_triangle_keeps_its_digits() {
+    let body = "
+        vec3 A = normalize(a), B = normalize(a + across), C = normalize(a + along);
+        float by_the_book = 2.0 * atan(abs(dot(A, cross(B, C))), 1.0 + dot(A, B) + dot(B, C) + dot(C, A));
+        answer = vec4(solid_angle(a, across, along), by_the_book, 0.0, 0.0);
+    ";
+    let shown = evaluate(&format!("{TRIANGLE}{body}"), "96x96");
+    let (mut here, mut by_the_book, mut tried) = (0f64, 0f64, 0);
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let triangle = Triangle::of(i, 96);
+        let condition = triangle.condition();
+        if !(condition < 1e3) {
+            continue;
+        }
+        tried += 1;
+        let exact = triangle.angle();
+        here = here.max((f64::from(pixel[0]) / exact - 1.0).abs() / U / condition);
+        by_the_book = by_the_book.max((f64::from(pixel[1]) / exact - 1.0).abs() / U / condition);
+    }
+    println!("{tried} triangles: off by {here:.1} u, by the book {by_the_book:.0} u");
+    assert!(tried > 5000, "{tried}");
+    assert!(here < 16.0, "{here}");
+    assert!(by_the_book > 100.0, "the textbook's form would do: {by_the_book}");
+    figures::hold(
+        "29_emitters/solid_angle",
+        json!({ "here": here, "textbook": by_the_book, "triangles": tried }),
+    );
+}
+
+#[test]
+fn the_sides_of_a_cube_fill_the_whole_sphere() {
+    let body = "
+        vec3 from = vec3(PICK(1), PICK(2), PICK(3)) * 0.4375;
+        answer.x = 0.0;
+        for (uint side = 0; side < 6; side++) {
+            vec3 outward = vec3(0.0);
+            outward[side / 2] = side % 2 == 0 ? 0.5 : -0.5;
+            vec3 right = outward.yzx * 2.0, up = outward.zxy * 2.0;
+            vec3 corner = outward - 0.5 * right - 0.5 * up - from;
+            answer.x += solid_angle(corner, right, right + up) + solid_angle(corner, right + up, up);
+        }
+    ";
+    let (picks, _) = TRIANGLE.split_once("float size").expect("the macro");
+    let shown = evaluate(&format!("{picks}{body}"), "32x32");
+    let most = shown.pixels.iter().map(|p| (f64::from(p[0]) - 4.0 * PI).abs()).fold(0.0, f64::max);
+    println!("twelve triangles around a point: off by {:.1} u of 4 pi", most / U / (4.0 * PI));
+    assert!(most < 32.0 * U * 4.0 * PI, "{most}");
+}
+
+#[test]
+fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
+    let body = "
+        vec2 u = vec2(PICK(11) + 1.03125, PICK(12) + 1.03125) / 2.0625;
+        float whole = solid_angle(a, across, along);
+        answer = vec4(direction_to(a, across, along, whole, u), whole);
+    ";
+    let shown = evaluate(&format!("{TRIANGLE}{body}"), "96x96");
+    let (mut worst, mut tried) = ([0f64; 2], 0);
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let triangle = Triangle::of(i, 96);
+        let condition = triangle.condition();
+        // As the shader: smaller ones are aimed at by area.
+        if !(condition < 1e2) || triangle.angle() < 1.0 / 4096.0 {
+            continue;
+        }
+        tried += 1;
+        let pick = |s: u32| (pick((i % 96) as u32, (i / 96) as u32, s) + 1.03125) / 2.0625;
+        let [a, b, c] = triangle.corners.map(DVec3::normalize);
+        let p = vector(pixel).normalize();
+        // Back to where the arc from b through p meets that from a to c.
+        let mut e = b.cross(p).cross(a.cross(c)).normalize();
+        if e.dot(a + c) < 0.0 {
+            e = -e;
+        }
+        let part = Triangle { corners: [a, b, e], edges: [b - a, e - a] };
+        let found =
+            [part.angle() / triangle.angle(), (p - b).length_squared() / (e - b).length_squared()];
+        // An error of a direction moves a point by so much of the triangle's width at least.
+        let width = triangle.angle().min(1.0);
+        for (k, salt) in [11, 12].into_iter().enumerate() {
+            worst[k] = worst[k].max((found[k] - pick(salt)).abs() * width / U / condition);
+        }
+    }
+    println!("{tried} directions: numbers come back but for {worst:.1?} u over the solid angle");
+    assert!(tried > 3000, "{tried}");
+    assert!(worst[0] < 16.0 && worst[1] < 16.0, "{worst:?}");
+}
+
+#[test]
+fn points_that_are_aimed_at_lie_above_their_triangle() {
+    let body = "
+        Emitter emitter = Emitter(a, 0.0, across, 0.0, along, 0u, 1e-4, 0.0);
+        Aim aim = aim_at(emitter, vec3(0.0), vec2(0.3, 0.6));
+        answer = vec4(aim.to, aim.angle);
+    ";
+    let shown = evaluate(&format!("{TRIANGLE}{body}"), "96x96");
+    let mut tried = 0;
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let triangle = Triangle::of(i, 96);
+        if !(triangle.condition() < 1e2) {
+            continue;
+        }
+        tried += 1;
+        let (a, [across, along]) = (triangle.corners[0], triangle.edges);
+        let normal = across.cross(along).normalize();
+        let normal = if normal.dot(a) > 0.0 { -normal } else { normal };
+        let height = (vector(pixel) - a).dot(normal);
+        assert!((height - 1e-4).abs() < 2e-6, "{i}: {height}");
+        // Its foot is within: weights from 0 to 1.
+        let foot = vector(pixel) - height * normal - a;
+        let area = across.cross(along).dot(normal);
+        let weights = [foot.cross(along).dot(normal) / area, across.cross(foot).dot(normal) / area];
+        assert!(weights[0] > -1e-3 && weights[1] > -1e-3 && weights[0] + weights[1] < 1.001, "{i}");
+    }
+    assert!(tried > 4000, "{tried}");
+}

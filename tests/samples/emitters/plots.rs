@@ -1,0 +1,156 @@
+//! What the page of 29_emitters shows beside its picture. Drawn when asked for:
+//! `cargo test --test samples emitters::plots -- --ignored --nocapture`.
+
+use serde_json::Map;
+
+use super::closed_forms::{lit_by_balls, mean_variances};
+use super::{ESTIMATORS, Estimate, NAME, brightness, estimator, picture};
+use crate::path_tracing::closed_forms::{SQUARES, form_factors};
+use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
+use run::{figures, render};
+
+#[test]
+#[ignore = "draws docs/images/29_estimators.png"]
+fn estimators() {
+    let names = ["BSDF: 64 samples", "light: 64 samples", "MIS: 64 samples"];
+    let show = |i: usize| {
+        let sets = [
+            &estimator(ESTIMATORS[i])[..],
+            "depth=2",
+            "camera target=1.1,0.35,-0.35",
+            "field of view=17",
+        ];
+        (names[i].to_owned(), picture("320x240", 64, &sets))
+    };
+    draw_panels("29_estimators.png", 1, &[Shown::row(&[0, 1, 2].map(show))]);
+}
+
+const FRAMES: [u32; 5] = [1, 4, 16, 64, 256];
+const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0];
+
+/// The root of the mean squared error over that of what is expected.
+fn relative(shown: &[f64], expected: &[f64]) -> f64 {
+    let squares: f64 = shown.iter().zip(expected).map(|(s, e)| (s - e).powi(2)).sum();
+    (squares / expected.iter().map(|e| e * e).sum::<f64>()).sqrt()
+}
+
+#[test]
+#[ignore = "draws docs/images/29_error.svg"]
+fn errors() {
+    let side = 32;
+    let scenes = [
+        ("ball", lit_by_balls("ball", side)),
+        ("many balls", lit_by_balls("many balls", side)),
+        ("perpendicular squares", form_factors(side, &SQUARES[1].1)),
+    ];
+    let x = Axis { label: "rays a pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
+    let y = Axis { label: "error, relative", ticks: ERRORS, logarithmic: true };
+    let mut held = Map::new();
+    let mut charts = Vec::new();
+    for (scene, expected) in &scenes {
+        let mut series = Vec::new();
+        let scale = (expected.iter().map(|e| e * e).sum::<f64>() / expected.len() as f64).sqrt();
+        let theories = if *scene == "ball" { mean_variances(side).to_vec() } else { vec![] };
+        let set = format!("scene={scene}");
+        for (i, name) in ESTIMATORS.iter().enumerate() {
+            let sets = [&set[..], &estimator(name), "depth=1"];
+            let rays = brightness(&picture("32x32", 4, &[&sets[..], &["show=rays"]].concat()));
+            let rays = Estimate::of(&rays).mean;
+            let mut points = Vec::new();
+            for frames in FRAMES {
+                let error = relative(&brightness(&picture("32x32", frames, &sets)), expected);
+                println!("{scene}, {name}, {frames} samples: {error:.5}");
+                points.push([rays * f64::from(frames), error]);
+                if frames == 64 {
+                    held.insert(format!("{scene}.{name}"), error.into());
+                }
+            }
+            held.insert(format!("{scene}.{name}.rays"), rays.into());
+            if let Some(variance) = theories.get(i) {
+                let of = |frames: u32| {
+                    [rays * f64::from(frames), (variance / f64::from(frames)).sqrt() / scale]
+                };
+                // A sample alone is as far off as theory says; Sobol's points are not worse.
+                assert!((points[0][1] / of(1)[1] - 1.0).abs() < 0.15, "{name}: {}", points[0][1]);
+                assert!(points.iter().zip(FRAMES).all(|(p, frames)| p[1] < 1.15 * of(frames)[1]));
+                series.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
+            }
+            series.push((name, points, true));
+        }
+        let series = series.into_iter().map(|(name, points, dots)| Series {
+            name,
+            points,
+            line: true,
+            dots,
+            names: vec![],
+        });
+        charts.push(Chart { title: scene, x, y, series: series.collect() });
+    }
+    draw("29_error.svg", (400, 380), &charts);
+    figures::hold("29_emitters/errors", held.into());
+}
+
+const SMALL: &str = "96x60";
+
+/// The set by lamp light: error against rays and against time, beside a picture of many more samples.
+#[test]
+#[ignore = "draws docs/images/29_price.svg; takes minutes"]
+fn price() {
+    let shared = ["depth=4", "clamp=0"];
+    let of = |sets: &[&str], frames: u32| {
+        let frames = frames.to_string();
+        let mut arguments = vec!["--frames", &frames];
+        arguments.extend(shared.iter().chain(sets).flat_map(|set| ["--set", set]));
+        render(NAME, SMALL, &arguments)
+    };
+    let reference = brightness(&of(&["seed=9"], 2048).picture);
+    let mut held = Map::new();
+    let mut charts: Vec<(&str, Vec<(&str, Vec<[f64; 2]>)>)> =
+        vec![("error against rays", vec![]), ("error against time", vec![])];
+    for name in ESTIMATORS {
+        let set = estimator(name);
+        let rays = Estimate::of(&brightness(&of(&[&set, "show=rays"], 4).picture)).mean;
+        let mut curves = [vec![], vec![]];
+        for frames in [1, 4, 16, 64] {
+            let run = of(&[&set], frames);
+            let error = relative(&brightness(&run.picture), &reference);
+            let milliseconds = run.report["gpu_milliseconds"]["median"].as_f64().expect("a time")
+                * f64::from(frames);
+            println!("{name}, {frames} samples: {error:.4}, {rays:.2} rays, {milliseconds:.0} ms");
+            curves[0].push([rays * f64::from(frames), error]);
+            curves[1].push([milliseconds / 1000.0, error]);
+            if frames == 64 {
+                held.insert(format!("{name}.error"), error.into());
+                held.insert(format!("{name}.rays"), rays.into());
+                held.insert(format!("{name}.milliseconds"), (milliseconds / 64.0).into());
+            }
+        }
+        for (chart, curve) in charts.iter_mut().zip(curves) {
+            chart.1.push((name, curve));
+        }
+    }
+    let rays =
+        Axis { label: "rays a pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
+    let time = Axis { label: "seconds", ticks: &[0.01, 0.1, 1.0, 10.0, 100.0], logarithmic: true };
+    let y = Axis {
+        label: "error, relative",
+        ticks: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0],
+        logarithmic: true,
+    };
+    let charts: Vec<Chart> = charts
+        .iter()
+        .zip([rays, time])
+        .map(|((title, curves), x)| {
+            let series = |(name, points): &(&'static str, Vec<[f64; 2]>)| Series {
+                name,
+                points: points.clone(),
+                line: true,
+                dots: true,
+                names: vec![],
+            };
+            Chart { title, x, y, series: curves.iter().map(series).collect() }
+        })
+        .collect();
+    draw("29_price.svg", (400, 380), &charts);
+    figures::give_timed("29_emitters/price", held.into());
+}
