@@ -3,6 +3,7 @@
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
 mod calls;
+mod lens;
 mod march;
 mod rays;
 mod shapes;
@@ -30,6 +31,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shader_calls", calls::shader_calls),
     ("slabs", shapes::slabs),
     ("solid_intervals", shapes::intervals),
+    ("thin_lens", lens::thin_lens),
 ];
 
 fn folder() -> std::path::PathBuf {
