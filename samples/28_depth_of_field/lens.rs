@@ -34,17 +34,17 @@ common::shader_struct! {
 const WIDEST: f32 = 100.0;
 
 impl ThinLens {
-    /// Focused on what the camera looks at, and a twentieth of that distance wide; six blades.
+    /// Focused on what the camera looks at, and a tenth of that distance wide; six blades.
     pub fn focused_on_target(camera: &Camera) -> Self {
         let focus = camera.eye.distance(camera.target) as f32;
-        Self { diameter: (focus / 20.0).min(WIDEST), focus, blades: 6, rotation: 0.0 }
+        Self { diameter: (focus / 10.0).min(WIDEST), focus, blades: 6, rotation: 0.0 }
     }
 
     // ANCHOR: controls
     /// Declares what may be set.
     pub fn controls(&mut self, c: &mut Controls) {
         c.slider("lens diameter", &mut self.diameter, 0.0..=WIDEST);
-        c.slider("focus distance", &mut self.focus, 0.01..=f32::INFINITY);
+        c.slider("focus distance", &mut self.focus, 0.001..=f32::INFINITY);
         c.integer("blades", &mut self.blades, 0..=12);
         c.slider("blade rotation", &mut self.rotation, 0.0..=360.0);
     }

@@ -4,11 +4,11 @@ use std::fmt::Write;
 use std::fs;
 
 use common::app::Picture;
-use serde_json::Map;
+use serde_json::{Map, json};
 use tempfile::TempDir;
 
 use super::{NAME, picture_of};
-use run::figures;
+use run::{command, figures};
 
 /// What the light sends out: the sky behind it sends a millionth of that.
 const RADIANCE: f64 = 1e6;
@@ -164,30 +164,54 @@ fn what_is_in_focus_stays_sharp_with_any_lens() {
     assert!(brightest < 0.2, "{brightest}");
 }
 
-/// A lamp in focus, so far from the world's origin that neighbouring floats are 1/16 apart.
-pub fn far_away() -> Lamps {
-    const EYE: [f64; 3] = [1e6, 0.0, 0.0];
-    // Corners that are floats: two of them from the middle.
-    let side = 0.25 / FOCUS * pixels();
-    Lamps::new(&[Lamp { at: 0.0, depth: FOCUS, side }], EYE)
+/// The lens that the chapter begins with, if a square of the board is 55 mm wide and the film 24 mm high.
+#[test]
+fn a_photographer_has_the_same_circle() {
+    let listed = command(NAME).arg("--list-controls").output().expect("the sample starts").stdout;
+    let listed = String::from_utf8(listed).expect("text");
+    let control = |name: &str| -> f64 {
+        let line = listed.lines().find(|line| line.split('\t').next() == Some(name));
+        let value = line.and_then(|line| line.split('\t').next_back());
+        value.expect("it is listed").parse().expect("a number")
+    };
+    let [square, film] = [55.0, 24.0];
+    let [diameter, focus] = ["lens diameter", "focus distance"].map(|name| square * control(name));
+    let half_view = (control("field of view").to_radians() / 2.0).tan();
+    // Rays from a point in focus meet at the film, which the field of view places.
+    let behind = film / 2.0 / half_view;
+    let focal_length = 1.0 / (1.0 / behind + 1.0 / focus);
+    for depth in [0.3, 0.9, 1.0, 1.7, 40.0].map(|part| part * focus) {
+        let before = diameter * (depth - focus).abs() / depth;
+        let on_film = before * focal_length / (focus - focal_length);
+        let by_inverses = diameter * (1.0 / focus - 1.0 / depth).abs() / (2.0 * half_view);
+        assert!((on_film / film - by_inverses).abs() < 1e-14, "{depth}: {on_film} mm");
+    }
+    let number = focal_length / diameter;
+    println!("{diameter} mm, f/{number}, {focal_length} mm");
+    figures::hold_exact(
+        "28_depth_of_field/photograph",
+        json!({ "square": square, "diameter": diameter, "number": number, "film": film }),
+    );
 }
 
+/// Neighbouring floats are 1/16 apart where the eye is, and the lamp in focus is as wide: its corners are
+/// floats, and four pixels of the picture apart.
 #[test]
 fn far_from_the_origin_it_stays_sharp_on_one_rung() {
-    let lamps = far_away();
-    let width = |rung: &str, diameter: &str| {
-        let shown = lamps.shown(64, &[rung, diameter]);
-        let Spread { square, .. } = spread(&shown, 0.0, 28.0);
-        square.sqrt()
+    let lamps = Lamps::new(&[Lamp { at: 2.0, depth: FOCUS, side: 4.0 }], [1e6, 0.0, 0.0]);
+    let pinhole = lamps.shown(64, &["lens diameter=0"]);
+    let light: f64 = pinhole.iter().sum();
+    assert!((light - 16.0).abs() < 1.0, "a lamp of {light} pixels");
+    // The part of the light that is elsewhere.
+    let astray = |rung: &str| {
+        let shown = lamps.shown(64, &["lens diameter=0.5", rung]);
+        let differences = shown.iter().zip(&pinhole).map(|(a, b)| (a - b).abs());
+        differences.sum::<f64>() / 2.0 / light
     };
-    let pinhole = width("rung=start", "lens diameter=0");
-    let [world, eye, start] =
-        ["rung=world", "rung=eye", "rung=start"].map(|rung| width(rung, "lens diameter=0.5"));
-    println!("{NAME}: {pinhole} pixels of a pinhole, {world} world, {eye} eye, {start} start");
-    assert!((start / pinhole - 1.0).abs() < 0.01, "{start} and {pinhole}");
-    for blurred in [world, eye] {
-        assert!(blurred > 1.05 * pinhole, "{blurred} and {pinhole}");
-    }
+    let [world, eye, start] = ["rung=world", "rung=eye", "rung=start"].map(astray);
+    println!("astray: {world:.3} world, {eye:.3} eye, {start:.3} start");
+    assert!(start < 0.02, "{start}");
+    assert!(world > 0.1 && eye > 0.1, "{world} and {eye}");
 }
 
 /// How uneven the disk of a blurred light is after some samples.
