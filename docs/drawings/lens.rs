@@ -11,7 +11,7 @@ const FOCUS: f64 = 150.0;
 pub fn thin_lens() -> String {
     let mut s = Sheet::new([840, 330], "How far a light is spread: the circle of confusion");
     let panels = [
-        ("behind the plane in focus", 224.0, "The rays to it cross the plane", "before they meet."),
+        ("behind the plane in focus", 212.0, "The rays to it cross the plane", "before they meet."),
         ("in focus", FOCUS, "All rays of one point", "meet in it."),
         ("before the plane in focus", 90.0, "The rays to it have met,", "and part again."),
     ];

@@ -61,7 +61,7 @@ pub fn chess() -> Result<Scene> {
     }
     let transform = Affine3A::from_scale(Vec3::splat(40.0));
     scene.instances.push(Instance { mesh: ball, transform, material: night, record_offset: 0 });
-    scene.camera = Camera::new(DVec3::new(5.5, 1.6, 6.8), DVec3::new(1.1, 0.8, 2.8), 29.0);
+    scene.camera = Camera::new(DVec3::new(5.5, 1.75, 6.8), DVec3::new(1.1, 0.95, 2.8), 29.0);
     Ok(scene)
 }
 

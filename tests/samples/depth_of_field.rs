@@ -5,6 +5,9 @@ mod circle;
 mod focus;
 mod mean;
 mod plots;
+#[allow(dead_code, reason = "04 has other sequences, too")]
+#[path = "jitter_camera/points.rs"]
+mod points;
 
 use common::app::Picture;
 

@@ -3,7 +3,7 @@
 mod converging;
 mod mean;
 mod plots;
-pub mod points;
+mod points;
 
 use common::app::Picture;
 use common::scene::Scene;

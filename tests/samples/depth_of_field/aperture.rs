@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 use serde_json::json;
 
+use super::points::{hash, mirrored, owen, sobol_second};
 use super::{AT_ORIGIN, SIZE, SMALL, picture};
-use crate::jitter_camera::points::{hash, mirrored, owen, sobol_second};
 use run::figures;
 
 /// What a random number is for, as in `shaders/common/random.glsl` and `sequence.glsl`.
