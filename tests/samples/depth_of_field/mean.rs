@@ -60,20 +60,21 @@ fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
 fn samples_buy_less_where_the_lens_blurs() {
     const COUNTS: [u32; 5] = [1, 4, 16, 64, 256];
     let mut table = Map::new();
-    let mut last = Vec::new();
+    let mut slopes = Vec::new();
     for (name, lens) in [("pinhole", "lens diameter=0"), ("lens", "lens diameter=0.6")] {
         let reference = picture(SIZE, 2048, &[lens, "seed=1"]);
         let errors = COUNTS.map(|frames| error(&picture(SIZE, frames, &[lens]), &reference));
         let slope = (errors[4] / errors[1]).log2() / 6.0;
         println!("{name}: {errors:.4?}, power {slope:.2}");
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{name}: {errors:?}");
-        assert!(slope < -0.5, "{name} is no better than chance: {slope}");
         for (frames, error) in COUNTS.iter().zip(errors) {
             table.insert(format!("{name}.{frames}"), error.into());
         }
         table.insert(format!("{name}.slope"), slope.into());
-        last.push(errors[4]);
+        slopes.push(slope);
     }
-    assert!(last[1] > last[0], "{last:?}");
+    // An edge leaves -3/4 of evenly placed points (04). Small lamps far out of focus are met by chance.
+    assert!(slopes[0] < -0.65, "a pinhole: {}", slopes[0]);
+    assert!((-0.65..-0.45).contains(&slopes[1]), "a lens: {}", slopes[1]);
     figures::hold("28_depth_of_field/errors", table.into());
 }
