@@ -9,7 +9,7 @@ vec2 disk_point(vec2 u) {
     float radius = is_wide ? place.x : place.y;
     float aside = is_wide ? place.y : place.x;
     // The four sides of a square ring are a quarter of a circle each.
-    float angle = radius == 0.0 ? 0.0 : 0.785398163 * aside / radius;
+    float angle = radius == 0.0 ? 0.0 : 0.7853981 * aside / radius;
     vec2 turned = radius * vec2(cos(angle), sin(angle));
     return is_wide ? turned : turned.yx;
 }
@@ -17,8 +17,9 @@ vec2 disk_point(vec2 u) {
 
 // ANCHOR: blades
 // A corner of the unit polygon. The angle is from -pi to pi: beyond, Vulkan says nothing of a sine's error.
+// So the whole turn is rounded down: half of the float that is nearest to it lies beyond pi.
 vec2 corner(float turn) {
-    float angle = 6.283185307 * (fract(turn + 0.5) - 0.5);
+    float angle = 6.283185 * (fract(turn + 0.5) - 0.5);
     return vec2(cos(angle), sin(angle));
 }
 
