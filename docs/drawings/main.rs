@@ -3,6 +3,7 @@
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
 mod calls;
+mod lens;
 mod lights;
 mod march;
 mod rays;
@@ -32,6 +33,7 @@ const DRAWINGS: &[Drawing] = &[
     ("slabs", shapes::slabs),
     ("solid_angles", lights::solid_angles),
     ("solid_intervals", shapes::intervals),
+    ("thin_lens", lens::thin_lens),
 ];
 
 fn folder() -> std::path::PathBuf {

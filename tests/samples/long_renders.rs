@@ -15,22 +15,29 @@ const NAME: &str = "04_jitter_camera";
 /// Small: what is tested is how it is cut.
 const SIZE: [&str; 2] = ["--size", "24x16"];
 
-/// A folder with files of sums.
-struct Parts(TempDir);
+/// A folder with files of sums of a chapter.
+struct Parts {
+    folder: TempDir,
+    chapter: &'static str,
+}
 
 impl Parts {
     fn new() -> Self {
-        Self(tempfile::tempdir().expect("a temporary folder"))
+        Self::of(NAME)
+    }
+
+    fn of(chapter: &'static str) -> Self {
+        Self { folder: tempfile::tempdir().expect("a temporary folder"), chapter }
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
+        self.folder.path().join(name)
     }
 
     /// The command that begins or goes on with a part.
     fn task(&self, samples: &str, file: &str) -> Command {
         let file = self.path(file);
-        let mut task = command(NAME);
+        let mut task = command(self.chapter);
         task.args(SIZE).args(["--samples", samples, "--save-every", "0", "--save"]);
         task.arg(&file).arg("--resume").arg(&file);
         task
@@ -95,6 +102,21 @@ fn a_render_cut_two_and_seven_ways_is_the_render_in_one_piece() {
         parts.done(samples, "one");
     }
     assert_eq!(fs::read(parts.path("one")).unwrap(), whole);
+}
+
+/// A sample must follow from its number alone, in every chapter that gathers.
+#[test]
+fn so_it_is_in_every_chapter_that_gathers() {
+    for chapter in ["11_path_tracing", "27_glass", "28_depth_of_field"] {
+        let parts = Parts::of(chapter);
+        let whole = parts.whole(7);
+        let files = ["4..7", "0..1", "1..4"].map(|samples| parts.done(samples, samples));
+        assert_eq!(merged(&files), whole, "{chapter}");
+        for samples in ["2..3", "0..5", "0..7"] {
+            parts.done(samples, "one");
+        }
+        assert_eq!(fs::read(parts.path("one")).unwrap(), whole, "{chapter}, in one file");
+    }
 }
 
 #[test]
@@ -165,7 +187,7 @@ fn sixty_four_tasks_through_gnu_parallel_give_the_same_bytes_though_some_are_kil
         .args(numbers)
         .env("PROGRAM", run::program(NAME))
         .env("SCRIPT", run::root().join("docs/render.sbatch"))
-        .current_dir(parts.0.path())
+        .current_dir(parts.folder.path())
         .output()
         .expect("parallel starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

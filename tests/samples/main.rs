@@ -5,6 +5,7 @@ mod any_hit;
 mod bands;
 mod basic;
 mod callable_shader;
+mod depth_of_field;
 mod emitters;
 mod foundation;
 mod glass;

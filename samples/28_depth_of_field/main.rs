@@ -1,0 +1,160 @@
+//! 28 · Depth of field: rays start all over a lens, and what is not in the plane in focus is blurred.
+//!
+//! New since 04_jitter_camera: the lens and its blades, a place on it for every ray, and a direction that
+//! keeps its digits far from the origin. Of 04's sequences, scramblings and filters one each is left.
+
+mod lamps;
+mod lens;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use ash::vk;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, Image, RayTracingPipeline, Requirements, TextureTable,
+    Variant, Variants, barrier,
+};
+use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOnGpu, Sun};
+use common::{Controls, Frame, Sample, Setup};
+use lens::{Lens, ThinLens};
+
+fn main() -> ExitCode {
+    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipelines: Variants<Constants>,
+    camera: Camera,
+    sun: Sun,
+    constants: Constants,
+    lens: ThinLens,
+    seed: u32,
+    accumulate: bool,
+    means: Image,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW { Picture, Normal, Triangle, Hit, Origin = "ray origin", Direction = "ray direction" }
+    /// From where a ray's point in focus is seen when its direction is computed: from the world's origin,
+    /// from the eye, or from where the ray starts.
+    enum Rung: RUNG { World, Eye, Start }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    rung: Rung,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DirectionalLight,
+        lens: Lens,
+        seed: u32,
+        frame: u32,
+        accumulated: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(lamps::chess)?;
+        let camera = scene.camera;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        Ok(Self {
+            scene,
+            pipelines: Variants::default(),
+            camera,
+            sun: Sun::default(),
+            constants: Constants { show: Show::Picture, rung: Rung::Start },
+            lens: ThinLens::focused_on_target(&camera),
+            seed: 0,
+            accumulate: true,
+            means: Image::storage(gpu, "means", vk::Extent2D { width: 1, height: 1 })?,
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.choice("show", &mut self.constants.show);
+        self.lens.controls(c);
+        c.choice("rung", &mut self.constants.rung);
+        c.integer("seed", &mut self.seed, 0..=1000);
+        c.checkbox("accumulate", &mut self.accumulate);
+        c.sun(&mut self.sun);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: means
+        if self.means.extent != frame.image.extent {
+            self.means = Image::storage(frame.gpu, "means", frame.image.extent)?;
+        }
+        // The frame before may still write its means when this one begins to read them.
+        barrier::trace_to_trace(frame.gpu, frame.cmd);
+        // ANCHOR_END: means
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: self.sun.light(),
+            lens: self.lens.shader(),
+            seed: self.seed,
+            frame: frame.index,
+            accumulated: if self.accumulates() { frame.accumulated } else { 0 },
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+            Descriptor::StorageImage(&self.means),
+        ];
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+
+    // ANCHOR: accumulates
+    fn accumulates(&self) -> bool {
+        // Data has no mean.
+        let is_data = [Show::Hit, Show::Origin, Show::Direction].contains(&self.constants.show);
+        self.accumulate && !is_data
+    }
+    // ANCHOR_END: accumulates
+}
+
+// ANCHOR: pipeline
+/// The pipeline for the shaders' constants.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.rung)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

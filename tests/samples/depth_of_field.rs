@@ -1,0 +1,87 @@
+//! 28_depth_of_field: where on the lens rays start, where they meet, and how far what is elsewhere is blurred.
+
+mod aperture;
+mod circle;
+mod focus;
+mod mean;
+mod plots;
+#[allow(dead_code, reason = "04 has other sequences, too")]
+#[path = "jitter_camera/points.rs"]
+mod points;
+
+use common::app::Picture;
+
+use run::{bits, compiled_for, golden, render};
+
+const NAME: &str = "28_depth_of_field";
+const SIZE: &str = "240x150";
+/// Enough pixels for many points, few enough for many frames.
+const SMALL: &str = "64x40";
+/// At the origin, looking along -z: what a ray's origin says is its place on the lens.
+const AT_ORIGIN: [&str; 2] = ["camera eye=0,0,0", "camera target=0,0,-1"];
+/// A model that every chapter shows alike.
+const MODEL: [&str; 2] = ["--scene", "samples/assets/chess.obj"];
+
+fn picture(size: &str, frames: u32, sets: &[&str]) -> Picture {
+    picture_of(&[], size, frames, sets)
+}
+
+fn picture_of(scene: &[&str], size: &str, frames: u32, sets: &[&str]) -> Picture {
+    render(NAME, size, &arguments(scene, frames, sets)).picture
+}
+
+fn arguments<'a>(scene: &[&'a str], frames: u32, sets: &[&'a str]) -> Vec<&'a str> {
+    let frames = ["--frames", frames.to_string().leak()];
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    scene.iter().copied().chain(frames).chain(sets).collect()
+}
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| picture(SIZE, 16, &[]));
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &first, 0.002);
+}
+
+#[test]
+fn a_lens_of_size_0_gives_the_picture_of_04() {
+    let both = ["camera eye=3,4,7", "camera target=0,0.5,0", "seed=5"];
+    let pinhole = |more: &[&'static str], frames: &[&str]| {
+        let sets = [&both[..], &["filter=tent"], more].concat();
+        let sets = sets.iter().flat_map(|set| ["--set", *set]);
+        let arguments: Vec<_> =
+            MODEL.into_iter().chain(frames.iter().copied()).chain(sets).collect();
+        bits(&render("04_jitter_camera", SIZE, &arguments).picture)
+    };
+    let lens = |more: &[&'static str], frames: &[&str]| {
+        let sets = [&both[..], &["lens diameter=0"], more].concat();
+        let sets = sets.iter().flat_map(|set| ["--set", *set]);
+        let arguments: Vec<_> =
+            MODEL.into_iter().chain(frames.iter().copied()).chain(sets).collect();
+        bits(&render(NAME, SIZE, &arguments).picture)
+    };
+    let (few, parts) = (["--frames", "3"], ["--samples", "2..5"]);
+    let picture = pinhole(&[], &few);
+    for focus in ["focus distance=0.01", "focus distance=7", "focus distance=inf"] {
+        assert!(lens(&[focus, "blades=0"], &few) == picture, "{focus}");
+        assert!(lens(&[focus, "blades=5"], &few) == picture, "{focus}, blades");
+    }
+    assert!(lens(&["rung=eye"], &few) == picture, "the rung of the eye");
+    assert!(lens(&[], &parts) == pinhole(&[], &parts), "samples");
+    for show in ["show=hit", "show=ray direction"] {
+        assert!(lens(&[show], &few) == pinhole(&[show], &few), "{show}");
+    }
+    // A lens that has a size gives another, or nothing was compared.
+    assert!(lens(&["lens diameter=0.2"], &few) != picture, "the lens does nothing");
+}
+
+#[test]
+fn its_program_spills_no_register() {
+    for rung in ["world", "eye", "start"] {
+        let set = format!("rung={rung}");
+        let Some(programs) = compiled_for(NAME, "navi31", &["--set", &set]) else { return };
+        assert_eq!(programs.len(), 1, "rays do not nest: one program");
+        assert_eq!(programs[0]["spilled_registers"], 0, "{}", programs[0]);
+    }
+}
