@@ -76,9 +76,10 @@ impl Composition {
         let is_in = |(low, high): (Vec3, Vec3)| {
             point.cmpge(low.as_dvec3()).all() && point.cmple(high.as_dvec3()).all()
         };
-        let spheres = self.spheres.iter().filter(|sphere| {
-            point.distance(sphere.center.as_dvec3()) < f64::from(sphere.radius)
-        });
+        let spheres = self
+            .spheres
+            .iter()
+            .filter(|sphere| point.distance(sphere.center.as_dvec3()) < f64::from(sphere.radius));
         let boxes = self.boxes.iter().filter(|b| is_in((b.low, b.high)));
         let solids = self.solids.iter().filter(|solid| {
             let from = point - solid.center.as_dvec3();

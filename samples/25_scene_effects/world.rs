@@ -4,9 +4,7 @@ use ash::vk;
 use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
 use common::scene::{Light, LightKind};
-use effects::{
-    BoardPlane, Composition, Face, Finish, Glass, Lens, MAX_LIGHTS, Solid, Sphere,
-};
+use effects::{BoardPlane, Composition, Face, Finish, Glass, Lens, MAX_LIGHTS, Solid, Sphere};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::ground::{Ground, HeightfieldShape};
@@ -108,7 +106,8 @@ impl World {
         };
         let board = scene.plane.unwrap_or(nowhere);
         let normal = board.normal.as_dvec3();
-        let plane = Plane::new((normal, f64::from(board.distance) * normal.length()), eye.as_vec3());
+        let plane =
+            Plane::new((normal, f64::from(board.distance) * normal.length()), eye.as_vec3());
         let mut lights = [Light {
             place: Vec3::Y,
             kind: LightKind::Directional.into(),

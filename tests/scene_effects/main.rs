@@ -74,7 +74,7 @@ const SCENES: [(&str, &[Effect], &[&str]); 17] = [
     ),
     (
         "painted room",
-        &[Triangles, Boxes, PointShadows, AreaLight, Bounces, AntiAliasing],
+        &[Triangles, Boxes, DirectionalShadows, AreaLight, Bounces, AntiAliasing],
         &["shadow.rmiss", "mesh.rchit", "box.rint", "shape.rchit"],
     ),
     (

@@ -164,7 +164,10 @@ fn times() {
         let range = axis.ticks[0]..=axis.ticks[axis.ticks.len() - 1];
         values.iter().all(|value| range.contains(value))
     };
-    assert!(inside(&time, &milliseconds) && inside(&ratio, &ratios), "{milliseconds:?}, {ratios:?}");
+    assert!(
+        inside(&time, &milliseconds) && inside(&ratio, &ratios),
+        "{milliseconds:?}, {ratios:?}"
+    );
     assert!(inside(&count, &stages) && inside(&compile, &compiles), "{stages:?}, {compiles:?}");
     let series =
         |points| vec![Series { points, names: names.clone(), dots: true, ..Default::default() }];

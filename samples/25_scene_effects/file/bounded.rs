@@ -2,6 +2,7 @@
 //!
 //! Each is a function for serde's `deserialize_with`, so that the error has the number's own line.
 
+use common::gpu::ShaderEnum;
 use common::scene::text::quoted;
 use glam::{DVec3, Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error};
@@ -36,7 +37,9 @@ fn within<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<f32
     let value = Value::deserialize(from)?;
     match value {
         Value::Float(_) | Value::Integer(_) => check(number(&value)?, low, high).map(|n| n as f32),
-        _ => Err(D::Error::custom(format!("{} is not a number from {low} to {high}", shown(&value)))),
+        _ => {
+            Err(D::Error::custom(format!("{} is not a number from {low} to {high}", shown(&value))))
+        }
     }
 }
 

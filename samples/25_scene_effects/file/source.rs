@@ -59,7 +59,8 @@ impl Source {
         toml::from_str(&self.text).map_err(|error| {
             let what = error.message();
             let what = what.replace("expected a boolean", "expected true or false");
-            let what = what.replace("expected a sequence", "expected tables, each under [[its name]]");
+            let what =
+                what.replace("expected a sequence", "expected tables, each under [[its name]]");
             self.error(error.span().map_or(0, |span| span.start), &what)
         })
     }

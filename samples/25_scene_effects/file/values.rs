@@ -80,7 +80,9 @@ impl Paint {
     pub(super) fn check_glass(&self) -> Result<(), &'static str> {
         let &Self { mirror, opacity, pattern, lines, .. } = self;
         match (mirror, opacity, pattern.is_some() || lines.is_some_and(|width| width > 0.0)) {
-            (Some(true), ..) => Err("a material is a mirror or glass; take `mirror` or `glass` out"),
+            (Some(true), ..) => {
+                Err("a material is a mirror or glass; take `mirror` or `glass` out")
+            }
             (_, Some(_), _) => Err("glass has `through` in place of `opacity`"),
             (.., true) => Err("glass shows neither a `pattern` nor `lines`; take them out"),
             _ => Ok(()),
