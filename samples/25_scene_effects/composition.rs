@@ -115,7 +115,7 @@ pub struct Composition {
 /// The most lights of a composition.
 pub const MAX_LIGHTS: usize = 4;
 /// How far away a lens may be in focus.
-pub const FOCUS: RangeInclusive<f32> = 0.01..=1000.0;
+pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 
 impl Composition {
     /// Meshes as they stand under a sun.
