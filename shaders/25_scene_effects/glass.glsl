@@ -2,13 +2,10 @@
 #include "common/mirror.glsl"
 #include "common/media.glsl"
 
-// What was met is for light that enters it. No ray goes on at depth 0: there glass is opaque.
-Glass glass_of(Hit hit) {
-    Glass glass = Glass(vec3(0.0), 1.0, GLASS_NONE);
-    if (hit.t >= 0.0 && hit.material < push.world.glass_count && push.world.depth != 0) {
-        glass = push.world.glasses.at[hit.material];
-    }
-    return glass;
+// Whether light enters what was met. No ray goes on at depth 0: there glass is opaque.
+bool is_glass(Hit hit) {
+    return hit.t >= 0.0 && hit.material < push.world.glass_count && push.world.depth != 0
+        && push.world.glasses.at[hit.material].kind != GLASS_NONE;
 }
 
 uvec4 media_of_camera() {
@@ -23,16 +20,16 @@ vec3 left_on_way(uvec4 media, Hit hit) {
 }
 
 // ANCHOR: pass
-// A ray met glass, and goes one of two ways: `chance`, from 0 to 1, says which. Returns what of the light is
-// left on it, and changes the media that it is in.
-vec3 pass(inout Ray ray, inout uvec4 media, Hit hit, Glass glass, float chance) {
-    uvec4 beyond = media;
+// A ray met glass, and goes one of two ways. Returns whether it goes through.
+bool pass(inout Path path, inout Ray ray, Hit hit) {
+    Glass glass = push.world.glasses.at[hit.material];
+    uvec4 beyond = path.media;
     if (glass.kind == GLASS_THICK) {
-        beyond = hit.entering ? entered(media, hit.material) : left(media, hit.material);
+        beyond = hit.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
     }
     uint inner = glass.kind == GLASS_THIN ? hit.material : beyond.x;
-    bool is_real = inner != media.x;
-    float from = media.x == AIR ? 1.0 : push.world.glasses.at[media.x].index;
+    bool is_real = inner != path.media.x;
+    float from = path.media.x == AIR ? 1.0 : push.world.glasses.at[path.media.x].index;
     float to = inner == AIR ? 1.0 : push.world.glasses.at[inner].index;
     // Near an outline the ray may come from behind the smooth normal; it never does so from behind the face.
     vec3 normal = dot(ray.direction, hit.normal) < 0.0 ? hit.normal : hit.face;
@@ -43,19 +40,19 @@ vec3 pass(inout Ray ray, inout uvec4 media, Hit hit, Glass glass, float chance) 
     if (glass.kind == GLASS_THIN) {
         split = of_sheet(split);
     }
-    if (chance < split.reflected) {
+    if (numbers(path, DIMENSION_CHOICE).x < split.reflected) {
         ray.direction = mirrored(ray.direction, normal, hit.face);
-        ray.origin = hit.position + hit.height * hit.face;
 #ifdef CURVES
         ray.spread += 2.0 * hit.curvature * ray.width;
 #endif
-        return vec3(1.0);
+        return false;
     }
-    if (glass.kind == GLASS_THICK && is_real) {
+    if (glass.kind == GLASS_THIN) {
+        path.throughput *= left_after(glass.absorption);
+    } else if (is_real) {
         ray.direction = kept_above(refracted(ray.direction, normal, from, to), -hit.face);
     }
-    ray.origin = hit.position - hit.height * hit.face;
-    media = beyond;
-    return glass.kind == GLASS_THIN ? left_after(glass.absorption) : vec3(1.0);
+    path.media = beyond;
+    return true;
 }
 // ANCHOR_END: pass
