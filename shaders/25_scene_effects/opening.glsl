@@ -2,9 +2,9 @@
 
 // A point of the opening, which reaches 1 from its middle: each as likely as any other. u is from 0 to 1.
 vec2 lens_point(vec2 u, uint blades) {
-    const float TURN = 6.283185;
+    // From -pi to pi, for beyond Vulkan says nothing of a sine's error; and a quotient may be off by 2.5 ULP.
+    const float TURN = 6.28318;
     if (blades < 3) {
-        // From -pi to pi: beyond, Vulkan says nothing of a sine's error.
         float angle = TURN * (u.y - 0.5);
         return sqrt(u.x) * vec2(cos(angle), sin(angle));
     }
