@@ -1,11 +1,12 @@
 //! A composition: everything that a picture is made from, meshes and what is no mesh.
 
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
-use common::scene::{Light, Material, Scene, Sun};
+use common::scene::{Camera, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
-use crate::{Box, Face, Finish, Solid, Sphere};
+use crate::{Box, Face, Finish, Solid, Sphere, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,11 +59,31 @@ pub struct BoardPlane {
     pub reflection: f32,
 }
 
+common::shader_struct! {
+    /// What the camera looks through.
+    #[derive(PartialEq)]
+    pub struct Lens {
+        /// 0 for a pinhole.
+        pub diameter: f32,
+        /// How far along the camera's axis things are sharp.
+        pub focus: f32,
+        /// Blades that make its opening a polygon; below 3 for a disk.
+        pub blades: u32,
+    }
+}
+
+impl Lens {
+    /// A hole, through which everything is sharp.
+    pub const PINHOLE: Self = Self { diameter: 0.0, focus: 1.0, blades: 0 };
+}
+
 /// Everything that a picture is made from.
 #[derive(Clone)]
 pub struct Composition {
     /// Meshes in use, materials, instances, the camera.
     pub scene: Scene,
+    /// What the camera looks through.
+    pub lens: Lens,
     /// A finish for each material; none for those that nothing wears.
     pub finishes: Vec<Finish>,
     /// At most [`MAX_LIGHTS`].
@@ -85,12 +106,16 @@ pub struct Composition {
     pub samples: u32,
     /// Shadow rays a hit, to a light that has a size.
     pub light_samples: u32,
-    /// How often a path may be reflected.
+    /// How often a path may be reflected or refracted.
     pub depth: u32,
+    /// How often it may be scattered.
+    pub bounces: u32,
 }
 
 /// The most lights of a composition.
 pub const MAX_LIGHTS: usize = 4;
+/// How far away a lens may be in focus.
+pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 
 impl Composition {
     /// Meshes as they stand under a sun.
@@ -98,6 +123,7 @@ impl Composition {
         let light = Light::directional(&Sun::default(), 0.0);
         let mut composition = Self {
             finishes: vec![Finish::NONE; scene.model.materials.len()],
+            lens: Lens { focus: focus_of(&scene.camera), ..Lens::PINHOLE },
             scene,
             lights: vec![SceneLight { light, shadows: true }],
             plane: None,
@@ -110,7 +136,9 @@ impl Composition {
             samples: 1,
             light_samples: 16,
             depth: 4,
+            bounces: 0,
         };
+        composition.scene.model.materials.iter_mut().for_each(close);
         composition.prune();
         composition
     }
@@ -162,6 +190,18 @@ impl Composition {
         }
     }
     // ANCHOR_END: prune
+}
+
+/// Glass has no holes: what comes through it is not what its opacity leaves.
+pub(crate) fn close(material: &mut Material) {
+    if is_glass(material) {
+        (material.opacity, material.opacity_texture) = (1.0, None);
+    }
+}
+
+/// How far away the camera's target is, as far as a lens can be focused.
+pub(crate) fn focus_of(camera: &Camera) -> f32 {
+    (camera.eye.distance(camera.target) as f32).clamp(*FOCUS.start(), *FOCUS.end())
 }
 
 /// Keeps the items at these positions.

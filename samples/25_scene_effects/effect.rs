@@ -33,17 +33,23 @@ pub enum Effect {
     AreaLight,
     /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
     Mirror,
+    /// Light that surfaces scatter onto others (11).
+    Bounces,
+    /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).
+    Glass,
     /// Marble, wood or a checker that a surface is cut from (13).
     Patterns,
     /// Lines along the edges of triangles (20).
     Wireframe,
     /// Several rays a pixel (04).
     AntiAliasing,
+    /// A lens with a diameter (28).
+    DepthOfField,
 }
 
 impl Effect {
     /// All effects, by number: that of an effect is its bit.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 18] = [
         Triangles,
         Textures,
         CutOut,
@@ -56,9 +62,12 @@ impl Effect {
         DirectionalShadows,
         AreaLight,
         Mirror,
+        Bounces,
+        Glass,
         Patterns,
         Wireframe,
         AntiAliasing,
+        DepthOfField,
     ];
 
     /// The name, as metadata, reports and controls have it.
@@ -76,9 +85,12 @@ impl Effect {
             DirectionalShadows => "directional shadows",
             AreaLight => "area light",
             Mirror => "mirror",
+            Bounces => "bounces",
+            Glass => "glass",
             Patterns => "patterns",
             Wireframe => "wireframe",
             AntiAliasing => "anti-aliasing",
+            DepthOfField => "depth of field",
         }
     }
 

@@ -3,7 +3,7 @@
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
-use crate::{Composition, Effects, Finish, SceneLight};
+use crate::{Composition, Effects, Finish, SceneLight, is_glass};
 
 /// Whether an effect is called for, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,15 +76,22 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
             "is directional, with shadows",
         ),
         AreaLight => light(&|l| l.shadows && l.light.size > 0.0, "casts shadows and has a size"),
-        // No ray goes on at depth 0.
-        Mirror if scene.depth == 0 => None,
-        Mirror => worn(&Material::is_mirror, "has illum 3 or more and Ks above 0").or_else(|| {
-            let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
-            mirrors.then(|| "the plane mirrors".to_owned())
-        }),
+        // At depth 0 no ray is reflected or refracted.
+        Mirror | Glass if scene.depth == 0 => None,
+        Mirror => {
+            let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m);
+            worn(&is_mirror, "has illum 3 or more and Ks above 0").or_else(|| {
+                let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
+                mirrors.then(|| "the plane mirrors".to_owned())
+            })
+        }
+        Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
+        Glass => worn(&is_glass, "has illum 4, 6, 7 or 9"),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
         Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
+        DepthOfField => (scene.lens.diameter > 0.0)
+            .then(|| format!("the camera has a lens of diameter {}", scene.lens.diameter)),
     }
 }
 // ANCHOR_END: found
@@ -103,8 +110,11 @@ fn why_not(effect: Effect) -> &'static str {
         DirectionalShadows => "no directional light casts shadows",
         AreaLight => "no light that casts shadows has a size",
         Mirror => "nothing in use mirrors, or paths end at once",
+        Bounces => "no bounces",
+        Glass => "no material in use is glass, or paths end at once",
         Patterns => "no material in use has a pattern",
         Wireframe => "no material in use has lines",
         AntiAliasing => "one ray a pixel",
+        DepthOfField => "the camera is a pinhole",
     }
 }

@@ -2,15 +2,11 @@
 
 use common::gpu::ShaderEnum;
 use glam::Vec3;
-use serde::Deserialize;
 
 common::shader_enum! {
     /// A pattern that fills space (13).
-    #[derive(Deserialize)]
-    #[serde(rename_all = "lowercase")]
     pub enum Pattern: PATTERN {
         /// None: the material's own colour.
-        #[serde(skip)]
         Plain,
         /// Veins.
         Marble,

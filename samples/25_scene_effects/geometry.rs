@@ -71,6 +71,10 @@ impl SceneGeometry {
         let finishes = from.finishes_to_read();
         let as_they_come: Vec<u32> = (0..finishes.len() as u32).collect();
         geometry.shapes.finishes = geometry.records(gpu, "finishes", finishes, &as_they_come)?;
+        let glasses = from.glasses_to_read();
+        let as_they_come: Vec<u32> = (0..glasses.len() as u32).collect();
+        geometry.shapes.glasses = geometry.records(gpu, "glasses", &glasses, &as_they_come)?;
+        geometry.shapes.glass_count = glasses.len() as u32;
         let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
         geometry.level(gpu, Kind::Ground, &bounds)?;
         Ok(geometry)
@@ -186,7 +190,8 @@ fn reach(scene: &Composition, eye: Vec3) -> f32 {
     let ground = scene.heightfield.iter().map(crate::ground::bounds);
     let solids = scene.solid_bounds.iter().copied();
     let all: Vec<_> = meshes.chain(spheres).chain(boxes).chain(ground).chain(solids).collect();
-    let (low, high) = around(&[around(&all), (eye, eye)]);
+    let lens = 0.5 * scene.lens.diameter;
+    let (low, high) = around(&[around(&all), (eye - lens, eye + lens)]);
     // A plane goes on beyond all that; a shadow's ray that begins ten times as far is a speck.
     let beyond = if scene.plane.is_some() { 10.0 } else { 1.0 };
     (beyond * (high - low).length().max(1.0)).log2().ceil().exp2()

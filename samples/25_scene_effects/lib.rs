@@ -8,11 +8,13 @@ mod effect;
 mod file;
 mod finding;
 mod finish;
+mod glass;
 mod shapes;
 
-pub use composition::{BoardPlane, Composition, Heightfield, MAX_LIGHTS, SceneLight};
+pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, Lens, MAX_LIGHTS, SceneLight};
 pub use effect::{Effect, Effects};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
 pub use finish::{Finish, Pattern};
+pub use glass::{Glass, GlassKind, is_glass};
 pub use shapes::{Box, Face, Solid, Sphere};

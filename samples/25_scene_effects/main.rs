@@ -113,7 +113,8 @@ impl Sample for Demo {
         c.one_of("without", &mut self.without, &names);
         c.checkbox("measure costs", &mut self.measure);
         c.integer("samples", &mut self.scene.samples, 1..=64);
-        c.integer("depth", &mut self.scene.depth, 0..=8);
+        c.integer("depth", &mut self.scene.depth, 0..=32);
+        c.integer("bounces", &mut self.scene.bounces, 0..=8);
         let lights = self.scene.lights.len() as u32;
         c.integer("light", &mut self.light, 1..=lights.max(1));
         if let Some(light) = self.scene.lights.get_mut(self.light as usize - 1) {
@@ -123,6 +124,8 @@ impl Sample for Demo {
         self.polish(c);
         self.tell(c);
         c.camera(&mut self.camera);
+        c.slider("lens diameter", &mut self.scene.lens.diameter, 0.0..=1.0);
+        c.slider("focus", &mut self.scene.lens.focus, effects::FOCUS);
     }
     // ANCHOR_END: controls
 
@@ -147,7 +150,7 @@ impl Sample for Demo {
         let shapes = self.geometry.as_ref().context("no scene")?.shapes;
         // With --samples, each frame has rays of its own.
         let first = frame.first().wrapping_mul(self.scene.samples);
-        let world = World::new(&self.scene, shapes, camera.origin, first);
+        let world = World::new(&self.scene, shapes, self.camera.eye, first);
         self.world.update(frame.cmd, &[world])?;
         let recipe = self.recipe();
         if !self.measure {

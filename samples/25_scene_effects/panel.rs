@@ -2,14 +2,14 @@
 
 use common::Controls;
 use common::gpu::Variant;
-use effects::Finding;
+use effects::{Finding, is_glass};
 use glam::Vec3;
 
 use crate::Demo;
 use crate::costs::Costs;
 
 impl Demo {
-    /// Makes a material a mirror, or no longer.
+    /// Makes a material a mirror or glass, or no longer.
     pub fn polish(&mut self, c: &mut Controls) {
         let names: Vec<String> =
             self.scene.materials_in_use().map(|material| material.name.clone()).collect();
@@ -21,7 +21,15 @@ impl Demo {
         let chosen = names[self.material as usize];
         let materials = &mut self.scene.scene.model.materials;
         let Some(material) = materials.iter_mut().find(|m| m.name == chosen) else { return };
-        let mut mirror = material.is_mirror();
+        let mut glass = is_glass(material);
+        if c.checkbox("glass", &mut glass) {
+            material.illumination = if glass { 7 } else { 2 };
+            if glass && material.refraction == 1.0 {
+                material.refraction = 1.5;
+            }
+            self.repainted = true;
+        }
+        let mut mirror = material.is_mirror() && !glass;
         if c.checkbox("mirror", &mut mirror) {
             material.illumination = if mirror { 3 } else { 2 };
             if mirror && material.specular == Vec3::ZERO {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 15] = [
+pub const SCENES: [&str; 18] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -19,14 +19,17 @@ pub const SCENES: [&str; 15] = [
     "solids",
     "lake",
     "colonnade",
+    "painted room",
+    "crystal",
+    "close up",
     "everything",
     "file",
 ];
 
 /// What the chapter begins with.
-pub const EVERYTHING: u32 = 13;
+pub const EVERYTHING: u32 = 16;
 /// Where `--scene` names a file.
-pub const FILE: u32 = 14;
+pub const FILE: u32 = 17;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

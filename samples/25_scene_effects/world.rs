@@ -4,7 +4,7 @@ use ash::vk;
 use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
 use common::scene::{Light, LightKind};
-use effects::{BoardPlane, Composition, Face, Finish, MAX_LIGHTS, Solid, Sphere};
+use effects::{BoardPlane, Composition, Face, Finish, Glass, Lens, MAX_LIGHTS, Solid, Sphere};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::ground::{Ground, HeightfieldShape};
@@ -22,6 +22,10 @@ pub struct Shapes {
     pub faces: vk::DeviceAddress,
     /// Of [`effects::Finish`].
     pub finishes: vk::DeviceAddress,
+    /// Of [`effects::Glass`].
+    pub glasses: vk::DeviceAddress,
+    /// How many of those.
+    pub glass_count: u32,
 }
 
 common::shader_struct! {
@@ -52,9 +56,12 @@ common::shader_struct! {
         pub solids: Address,
         pub faces: Address,
         pub finishes: Address,
+        pub glasses: Address,
         pub plane: Plane,
         pub board: Board,
         pub ground: Ground,
+        pub lens: Lens,
+        pub media: [u32; 4],
         pub lights: [Light; MAX_LIGHTS],
         pub light_count: u32,
         pub shadows: u32,
@@ -62,13 +69,15 @@ common::shader_struct! {
         pub samples: u32,
         pub first_sample: u32,
         pub depth: u32,
+        pub bounces: u32,
         pub plane_on: u32,
         pub finish_count: u32,
+        pub glass_count: u32,
     }
 }
 
 /// What lies behind the world's address.
-pub const LAYOUTS: [StructLayout; 11] = [
+pub const LAYOUTS: [StructLayout; 13] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -80,11 +89,13 @@ pub const LAYOUTS: [StructLayout; 11] = [
     Solid::LAYOUT,
     Face::LAYOUT,
     Finish::LAYOUT,
+    Glass::LAYOUT,
+    Lens::LAYOUT,
 ];
 
 impl World {
     /// The world of a scene, seen from `eye` by rays that are counted from `first_sample` on.
-    pub fn new(scene: &Composition, shapes: Shapes, eye: Vec3, first_sample: u32) -> Self {
+    pub fn new(scene: &Composition, shapes: Shapes, eye: DVec3, first_sample: u32) -> Self {
         let nowhere = BoardPlane {
             normal: Vec3::Y,
             distance: 0.0,
@@ -95,7 +106,8 @@ impl World {
         };
         let board = scene.plane.unwrap_or(nowhere);
         let normal = board.normal.as_dvec3();
-        let plane = Plane::new((normal, f64::from(board.distance) * normal.length()), eye);
+        let plane =
+            Plane::new((normal, f64::from(board.distance) * normal.length()), eye.as_vec3());
         let mut lights = [Light {
             place: Vec3::Y,
             kind: LightKind::Directional.into(),
@@ -114,9 +126,12 @@ impl World {
             solids: shapes.solids.into(),
             faces: shapes.faces.into(),
             finishes: shapes.finishes.into(),
+            glasses: shapes.glasses.into(),
             plane,
             board: Board::new(&board, &plane),
             ground: scene.heightfield.as_ref().map_or_else(Ground::none, Ground::new),
+            lens: scene.lens,
+            media: scene.media_at(eye),
             lights,
             light_count: scene.lights.len() as u32,
             shadows,
@@ -124,8 +139,10 @@ impl World {
             samples: scene.samples,
             first_sample,
             depth: scene.depth,
+            bounces: scene.bounces,
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,
+            glass_count: shapes.glass_count,
         }
     }
 }

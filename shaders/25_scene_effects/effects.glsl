@@ -16,9 +16,12 @@
 #define EFFECT_DIRECTIONAL_SHADOWS
 #define EFFECT_AREA_LIGHT
 #define EFFECT_MIRROR
+#define EFFECT_BOUNCES
+#define EFFECT_GLASS
 #define EFFECT_PATTERNS
 #define EFFECT_WIREFRAME
 #define EFFECT_ANTI_ALIASING
+#define EFFECT_DEPTH_OF_FIELD
 #endif
 // ANCHOR_END: everything
 
@@ -27,8 +30,12 @@
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
 #endif
+// Surfaces that send a ray on: a path has several.
+#if defined(EFFECT_MIRROR) || defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
+#define PATHS
+#endif
 // Surfaces that rays leave again: only there does it matter where exactly a ray starts.
-#if defined(SHADOWS) || defined(EFFECT_MIRROR)
+#if defined(SHADOWS) || defined(PATHS)
 #define DEPARTURES
 #endif
 // Triangles that stand for a round surface: a shadow ray leaves that.
@@ -39,8 +46,8 @@
 #if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD) || defined(EFFECT_WIREFRAME)
 #define CONES
 #endif
-// A curved mirror changes the cone.
-#if defined(CONES) && defined(EFFECT_MIRROR)
+// A curved mirror changes the cone, and so does glass that mirrors.
+#if defined(CONES) && (defined(EFFECT_MIRROR) || defined(EFFECT_GLASS))
 #define CURVES
 #endif
 // What a material has beside what an MTL file can say.

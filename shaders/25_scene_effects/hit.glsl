@@ -16,13 +16,16 @@ struct Hit {
 #ifdef LIFTS
     vec3 lift;        // from the flat triangle to the round surface that its normals pretend
 #endif
+#ifdef EFFECT_GLASS
+    bool entering;    // whether the ray came from outside of the body
+#endif
 #ifdef CURVES
     float curvature;  // by how much the normal turns in a unit of length
 #endif
 #ifdef EFFECT_WIREFRAME
     vec2 line;        // told to the shader: the ray's cone. Told by it, in x: how much of a pixel lines cover
 #endif
-};                    // 44 to 84 bytes
+};                    // 44 to 88 bytes
 // ANCHOR_END: hit
 
 // The ground and the plane are made of nothing that is in the list of materials.

@@ -3,6 +3,21 @@
 #ifdef SHADOWS
 #include "shadow.glsl"
 
+// Where shadow rays start.
+struct Start {
+    vec3 origin;
+    bool lifted;     // to the round surface that triangles stand for
+};
+
+Start shadow_start(Hit hit) {
+    Start start = Start(hit.position + hit.height * hit.face, false);
+#ifdef LIFTS
+    start.origin += hit.lift;
+    start.lifted = hit.lift != vec3(0.0);
+#endif
+    return start;
+}
+
 // ANCHOR: visibility
 // Whether shadow rays go to a light.
 bool casts_shadows(Light light, uint number) {
@@ -21,14 +36,7 @@ bool casts_shadows(Light light, uint number) {
 
 // What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else rays go to
 // points of it, which begin at the random numbers `first`.
-float visibility(Light light, Hit hit, vec2 first) {
-    vec3 origin = hit.position + hit.height * hit.face;
-    vec3 up = hit.face;
-#ifdef LIFTS
-    // On a round surface that is made of triangles, up is where the smooth normal points.
-    origin += hit.lift;
-    up = hit.lift != vec3(0.0) ? hit.normal : hit.face;
-#endif
+float visibility(Light light, Start start, Hit hit, vec2 first) {
 #ifdef EFFECT_AREA_LIGHT
     bool soft = light.size > 0.0;
     uint count = soft ? push.world.light_samples : 1;
@@ -41,9 +49,12 @@ float visibility(Light light, Hit hit, vec2 first) {
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
-        vec3 to_light = towards_light(light, origin, point);
-        // What is below the surface, the surface itself hides; that needs no ray.
-        if (dot(up, to_light) > 0.0 && is_lit(origin, to_light, light_end(light), on_plane)) {
+        vec3 to_light = towards_light(light, start.origin, point);
+        // What is below the surface, the surface itself hides; that needs no ray. On a round surface, up is
+        // where the smooth normal points.
+        vec3 up = start.lifted ? hit.normal : hit.face;
+        if (dot(up, to_light) > 0.0
+            && is_lit(start.origin, to_light, light_end(light), on_plane)) {
             seen++;
         }
     }

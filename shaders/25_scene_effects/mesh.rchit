@@ -88,6 +88,10 @@ void main() {
 #ifdef LIFTS
     hit.lift = lift_to_smooth(placed.face, instance, triangle, weights);
 #endif
+#ifdef EFFECT_GLASS
+    // A normal without faceforward looks out of the body.
+    hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), placed.face) > 0.0;
+#endif
 #ifdef CURVES
     hit.curvature = curvature(instance, triangle);
 #endif

@@ -4,31 +4,52 @@
 #ifdef EFFECT_MIRROR
 #include "common/mirror.glsl"
 #endif
+#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
+#include "common/numbers.glsl"
+#include "common/surface.glsl"
+#endif
 
 // ANCHOR: path
 // What a path must still be able to add to a pixel.
 const float MINIMUM_CONTRIBUTION = 1.0 / 512.0;
 
 struct Path {
-    uvec2 pixel;         // whose colour it makes
     uint sample_index;   // which of the pixel's samples this is
     uint bounce;         // the next ray's number: 0 comes from the camera
     vec3 color;          // what the eye sees so far
-#ifdef EFFECT_MIRROR
     vec3 throughput;     // what part of the light at the end of the next ray reaches the eye
+#ifdef EFFECT_BOUNCES
+    uint bounces;        // how often it was scattered
+#endif
+#ifdef EFFECT_GLASS
+    uvec4 media;         // the bodies of glass that the next ray is in
 #endif
 };
 
 // Whether the next ray is worth tracing.
 bool goes_on(Path path) {
-#ifdef EFFECT_MIRROR
+#ifdef PATHS
     float contribution = max(max(path.throughput.r, path.throughput.g), path.throughput.b);
-    return path.bounce <= push.world.depth && contribution >= MINIMUM_CONTRIBUTION;
+    uint reflected = path.bounce;
+#ifdef EFFECT_BOUNCES
+    reflected -= path.bounces;
+#endif
+    return reflected <= push.world.depth && contribution >= MINIMUM_CONTRIBUTION;
 #else
     return false;
 #endif
 }
 // ANCHOR_END: path
+
+#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
+vec2 numbers(Path path, uint dimension) {
+    return numbers(pixel_id(), path.sample_index, path.bounce, dimension, 0);
+}
+#endif
+
+#ifdef EFFECT_GLASS
+#include "glass.glsl"
+#endif
 
 // What was met is made of, its colour apart; and what that mirrors, looked at straight.
 MaterialRecord material_of(Hit hit, out vec3 reflection) {
@@ -51,12 +72,49 @@ MaterialRecord material_of(Hit hit, out vec3 reflection) {
     return material;
 }
 
+#ifdef EFFECT_BOUNCES
+// ANCHOR: scatters
+// A surface mirrors or scatters what comes next: one of the two, and the likelier the more light comes that
+// way (chapter 11). Returns whether it scatters.
+bool scatters(inout Path path, vec3 color, vec3 mirror) {
+    float mirrors = largest(mirror) / max(largest(mirror) + largest(color), 1e-30);
+    if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
+        path.throughput *= mirror / mirrors;
+        return false;
+    }
+    path.throughput *= color / (1.0 - mirrors);
+    return true;
+}
+// ANCHOR_END: scatters
+#endif
+
+// Where a path goes on from a surface.
+const uint WAY_MIRROR = 0;
+const uint WAY_BOUNCE = 1;
+const uint WAY_GLASS = 2;
+
 // ANCHOR: advance
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
-    vec3 color = hit.color;
-    vec3 mirror = vec3(0.0);
-    if (hit.t >= 0.0) {
+#if defined(PATHS) && defined(CONES)
+    ray.width += ray.spread * hit.t;
+#endif
+    uint way = WAY_MIRROR;
+#ifdef EFFECT_GLASS
+    path.throughput *= left_on_way(path.media, hit);
+    if (is_glass(hit)) {
+        way = WAY_GLASS;
+        hit.color = vec3(0.0);   // below its surface nothing scatters
+    }
+#endif
+    // How this ray's light reaches the eye. The next ray's throughput is known before any light is asked for:
+    // so less has to be kept meanwhile.
+    vec3 reaching = path.throughput;
+    if (hit.t < 0.0) {
+        path.color += reaching * hit.color;
+        path.throughput = vec3(0.0);
+    } else {
+        vec3 mirror = vec3(0.0);
         vec3 reflection;
         MaterialRecord material = material_of(hit, reflection);
 #ifdef EFFECT_MIRROR
@@ -66,7 +124,25 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         // What is reflected does not reach the colour below.
         hit.color *= 1.0 - mirror;
 #endif
-        color = material.emission + hit.color * ambient(hit.normal);
+        vec3 around = ambient(hit.normal);
+#ifdef EFFECT_BOUNCES
+        // A highlight that is met by chance would be a bright dot.
+        material.specular *= path.bounces > 0 ? 0.0 : 1.0;
+        if (path.bounces < push.world.bounces && hit.color != vec3(0.0)) {
+            // The next ray finds out what comes from around; after the last one that is taken to be the sky's.
+            around = vec3(0.0);
+            way = scatters(path, hit.color, mirror) ? WAY_BOUNCE : WAY_MIRROR;
+        } else
+#endif
+        if (way == WAY_MIRROR) {
+            path.throughput *= mirror;
+        }
+        path.color += reaching * (material.emission + hit.color * around);
+        hit.color *= reaching;
+        material.specular *= reaching;
+#ifdef SHADOWS
+        Start start = shadow_start(hit);
+#endif
         for (uint i = 0; i < LIGHTS && i < push.world.light_count; i++) {
             Light light = light_of(i);
             float visible = 1.0;
@@ -74,30 +150,42 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
             if (casts_shadows(light, i)) {
                 vec2 first = vec2(0.0);
 #ifdef EFFECT_AREA_LIGHT
-                first = random(path.pixel, path.sample_index, path.bounce, DIMENSION_LIGHT).xy;
+                first = random(pixel_id(), path.sample_index, path.bounce, DIMENSION_LIGHT).xy;
 #endif
-                visible = visibility(light, hit, first);
+                visible = visibility(light, start, hit, first);
             }
 #endif
-            color += lit_by(light, hit, material, -ray.direction, visible);
+            path.color += lit_by(light, hit, material, -ray.direction, visible);
         }
     }
+#ifdef PATHS
+    float side = 1.0;
+#ifdef EFFECT_GLASS
+    if (way == WAY_GLASS) {
+        side = pass(path, ray, hit) ? -1.0 : 1.0;
+    } else
+#endif
+#ifdef EFFECT_BOUNCES
+    if (way == WAY_BOUNCE) {
+        vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
+        ray.direction = kept_above(on, hit.face);
+        path.bounces++;
+    } else
+#endif
+    {
 #ifdef EFFECT_MIRROR
-    path.color += path.throughput * color;
-    path.throughput *= mirror;
-    path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
-    ray.direction = mirrored(ray.direction, hit.normal, hit.face);
+        ray.direction = mirrored(ray.direction, hit.normal, hit.face);
+#endif
+#ifdef CURVES
+        // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
+        ray.spread += 2.0 * hit.curvature * ray.width;
+#endif
+    }
+    ray.origin = hit.position + side * hit.height * hit.face;
 #ifdef EFFECT_PLANE
     ray.on_plane = hit.material == MATERIAL_PLANE;
 #endif
-#ifdef CURVES
-    // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
-    ray.width += ray.spread * hit.t;
-    ray.spread += 2.0 * hit.curvature * ray.width;
-#endif
-#else
-    path.color = color;
+    path.bounce++;
 #endif
 }
 // ANCHOR_END: advance

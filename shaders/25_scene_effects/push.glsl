@@ -9,6 +9,7 @@
 #include "common/plane.glsl"
 #include "common/checker.glsl"
 #include "common/heightfield.glsl"
+#include "common/glass.glsl"
 
 struct Sphere {
     vec3 center;
@@ -55,6 +56,13 @@ struct Finish {
     uint pattern;
 };
 
+// What the camera looks through.
+struct Lens {
+    float diameter;  // 0 for a pinhole
+    float focus;     // how far along the camera's axis things are sharp
+    uint blades;     // that its opening is made by; 0 for a disk
+};
+
 struct Ground {
     HeightfieldShape shape;
     vec3 low;
@@ -71,6 +79,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Box
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Solids { Solid at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Faces { Face at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Finishes { Finish at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
 
 const uint MAX_LIGHTS = 4;
 
@@ -83,18 +92,23 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Solids solids;
     Faces faces;
     Finishes finishes;
+    Glasses glasses;
     Plane plane;
     Board board;
     Ground ground;
+    Lens lens;
+    uint media[4];        // the bodies of glass that the camera is in
     Light lights[MAX_LIGHTS];
     uint light_count;
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size
     uint samples;         // rays a pixel
     uint first_sample;    // the number of the first
-    uint depth;           // how often a path may be reflected
+    uint depth;           // how often a path may be reflected or refracted
+    uint bounces;         // how often it may be scattered
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0
+    uint glass_count;     // of materials, if one in use is glass; else 0
 };
 // ANCHOR_END: world
 

@@ -27,6 +27,9 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #ifdef LIFTS
     hit.lift = vec3(0.0);
 #endif
+#ifdef EFFECT_GLASS
+    hit.entering = dot(outward, gl_WorldRayDirectionEXT) < 0.0;
+#endif
 #ifdef CURVES
     hit.curvature = curvature;
 #endif

@@ -68,7 +68,7 @@ fn patterns_and_lines_that_are_wrong() {
     let paint = |keys: &str| format!("{PAINT}{keys}");
     table_refused(
         &paint("pattern = \"marbel\"\nsecond = [0, 0, 0]\n"),
-        "s.toml:8: unknown variant `marbel`, expected one of `marble`, `wood`, `checker`",
+        "s.toml:8: \"marbel\" is no pattern; write \"marble\" or \"wood\" or \"checker\"",
     );
     table_refused(&paint("pattern = \"wood\"\n"), "s.toml:6: a pattern has a `second` colour");
     table_refused(
@@ -82,6 +82,74 @@ fn patterns_and_lines_that_are_wrong() {
     table_refused(
         &paint(&format!("lines = 1\n{ball}")),
         "s.toml:12: \"a\" has holes, a texture or lines, which only meshes can have",
+    );
+}
+
+#[test]
+fn values_of_another_type() {
+    let camera = |line: &str| HEAD.replace("eye = [0, 1, 5]", line);
+    file_refused(&camera("eye = [0, \"1\", 5]"), "s.toml:3: \"1\" is no number");
+    file_refused(&camera("eye = [0, 1e38, 5]"), "s.toml:3: 1e38 is not a number from -1000000");
+    file_refused(
+        "version = 1\ncamera = 3\n",
+        "s.toml:2: invalid type: integer `3`, expected a table, [camera]",
+    );
+    let paint = |keys: &str| format!("{PAINT}{keys}");
+    table_refused(&paint("pattern = 3\n"), "s.toml:8: 3 is no pattern; write \"marble\"");
+    table_refused(&paint("color = 0.5\n"), "s.toml:8: 0.5 is no list of 3 numbers, such as");
+    table_refused(&paint("shininess = [1]\n"), "s.toml:8: a list is not a number from 0 to 100000");
+    table_refused(
+        &paint("mirror = 1\n"),
+        "s.toml:8: invalid type: integer `1`, expected true or false",
+    );
+    table_refused("[picture]\nsamples = 1.5\n", "s.toml:7: 1.5 is not a whole number from 1 to 64");
+    file_refused(
+        &HEAD.replace("[camera]", "light = 3\n[camera]"),
+        "s.toml:2: invalid type: integer `3`, expected tables",
+    );
+}
+
+#[test]
+fn bounces_glass_and_lenses_that_are_wrong() {
+    let paint = |keys: &str| format!("{PAINT}{keys}");
+    table_refused("[picture]\nbounces = 9\n", "s.toml:7: 9 is not a whole number from 0 to 8");
+    table_refused(
+        &paint("glass = \"clear\"\n"),
+        "s.toml:8: \"clear\" is no kind of glass; write \"thick\" or \"thin\"",
+    );
+    table_refused(
+        &paint("glass = \"thin\"\nindex = 0\n"),
+        "s.toml:9: 0.0 is not a number from 0.1 to 10",
+    );
+    table_refused(&paint("through = [2, 0, 0]\n"), "s.toml:8: 2.0 is not a number from 0 to 1");
+    table_refused(
+        &paint("index = 1.5\n"),
+        "s.toml:6: `index` and `through` are of `glass`: \"thick\" or",
+    );
+    let glass = |keys: &str| paint(&format!("glass = \"thick\"\n{keys}"));
+    table_refused(&glass("mirror = true\n"), "s.toml:6: a material is a mirror or glass; take");
+    table_refused(&glass("opacity = 0.5\n"), "s.toml:6: glass has `through` in place of `opacity`");
+    table_refused(&glass("lines = 2\n"), "s.toml:6: glass shows neither a `pattern` nor `lines`");
+    let lens = |keys: &str| format!("{HEAD}lens = {{ {keys} }}\n");
+    file_refused(&lens("diameter = 2"), "s.toml:6: 2.0 is not a number from 0 to 1");
+    file_refused(&lens("focus = 3"), "s.toml:6: missing field `diameter`");
+    file_refused(
+        &lens("diameter = 0.1, focus = 0"),
+        "s.toml:6: 0.0 is not a number from 0.015625 to 1024",
+    );
+    file_refused(
+        &lens("diameter = 0.1, focus = nan"),
+        "s.toml:6: NaN is not a number from 0.015625 to 1024",
+    );
+    file_refused(
+        &lens("diameter = 0.1, blades = 2"),
+        "s.toml:6: blades make a polygon: 3 to 16 of them",
+    );
+    file_refused(&lens("diameter = 0.1, blades = 17"), "s.toml:6: 17 is not a whole number from 0");
+    file_refused(&lens("diameter = 0.1, f = 2"), "s.toml:6: unknown field `f`, expected one of");
+    file_refused(
+        &format!("{HEAD}lens = 2\n"),
+        "s.toml:6: invalid type: integer `2`, expected a table",
     );
 }
 
@@ -115,14 +183,17 @@ fn keys_and_values_that_are_wrong() {
     );
     file_refused(&camera("eye = [0, 1]"), "s.toml:3: 2 numbers where there are 3");
     file_refused(&camera("eye = [0, 1, 5, 2]"), "s.toml:3: 4 numbers where there are 3");
-    file_refused(&camera("eye = \"here\""), "s.toml:3: invalid type: string \"here\"");
+    file_refused(
+        &camera("eye = \"here\""),
+        "s.toml:3: \"here\" is no list of 3 numbers, such as [1, 1, 1]",
+    );
     file_refused(&camera("eye = [0, 0, 0]"), "s.toml:2: the camera stands where it looks");
     table_refused("[picture]\nsamples = 0\n", "s.toml:7: 0 is not a whole number from 1 to 64");
     table_refused(
         "[picture]\nsamples = 99999999\n",
         "s.toml:7: 99999999 is not a whole number from 1",
     );
-    table_refused("[picture]\ndepth = -1\n", "s.toml:7: -1 is not a whole number from 0 to 8");
+    table_refused("[picture]\ndepth = -1\n", "s.toml:7: -1 is not a whole number from 0 to 32");
     table_refused(
         "[plane]\nnormal = [0, 0, 0]\n",
         "s.toml:7: a direction has a length: [0, 1, 0] is up",
@@ -133,7 +204,10 @@ fn keys_and_values_that_are_wrong() {
 fn lights_that_are_wrong() {
     let lamp = "[[light]]\nkind = \"point\"\nposition = [0, 3, 0]\nintensity = [9, 9, 9]\n";
     table_refused(&lamp.repeat(5), "s.toml:22: more than 4 lights");
-    table_refused(&lamp.replace("point", "laser"), "s.toml:7: unknown variant `laser`, expected");
+    table_refused(
+        &lamp.replace("point", "laser"),
+        "s.toml:7: \"laser\" is no kind of light; write",
+    );
     table_refused(
         &lamp.replace("point", "directional"),
         "s.toml:6: a directional light has `azimuth`, `elevation` and `radiance`",

@@ -100,13 +100,20 @@ fn table() {
     }
     let mut held = Map::new();
     let rows = SCENES.iter().map(|(scene, ..)| *scene).zip(&own);
+    let all = Figures::of(&everything, "navi31").instructions as f64;
+    let mut four_times = 0;
     for (scene, own) in rows.chain([("any scene", &everything)]) {
         let Figures { instructions, registers, spilled, waves, .. } = Figures::of(own, "navi31");
+        let ratio = all / instructions as f64;
+        four_times += u32::from(ratio >= 4.0);
         let row = [("instructions", instructions), ("registers", registers)];
         let row = row.into_iter().chain([("spilled", spilled), ("waves", waves)]);
         let name = scene.replace(' ', "-");
+        held.insert(format!("{name}.ratio"), ratio.into());
         held.extend(row.map(|(of, value)| (format!("{name}.{of}"), value.into())));
     }
+    held.insert("four_times".to_owned(), four_times.into());
+    held.insert("scenes".to_owned(), SCENES.len().into());
     figures::hold_compiled("25_scene_effects/compiled", compiler, "RDNA3", held.into());
     // The pipeline does not depend on the scene, so one row is enough.
     for (scene, ..) in SCENES {

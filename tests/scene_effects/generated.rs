@@ -13,7 +13,7 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 }
 
 /// What of a set a scene can call for: holes, textures and lines are on triangles, a size is a shadow's, and
-/// a mirror and a pattern are on something.
+/// a mirror, a pattern and glass are on something.
 pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
         set = set.without(Textures).without(CutOut).without(Wireframe);
@@ -25,7 +25,7 @@ pub fn possible(mut set: Effects) -> Effects {
         set = set.without(Mirror);
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, Solids]) {
-        set = set.without(Patterns);
+        set = set.without(Patterns).without(Glass);
     }
     set
 }
@@ -132,11 +132,16 @@ fn text(set: Effects, random: &mut Random) -> String {
     let has = |effect| set.has(effect);
     let mut n = |low, high| between(random, low, high);
     let mut text = format!(
-        "version = 1\nmodel = \"model.obj\"\n[picture]\nsamples = {}\nlight_samples = 3\ndepth = 3\n",
-        if has(AntiAliasing) { 2 } else { 1 }
+        "version = 1\nmodel = \"model.obj\"\n[picture]\nsamples = {}\nlight_samples = 3\ndepth = 3\n\
+         bounces = {}\n",
+        if has(AntiAliasing) { 2 } else { 1 },
+        if has(Bounces) { 2 } else { 0 }
     );
     let (x, y) = (n(-1.5, 1.5), n(1.2, 2.4));
     text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");
+    if has(DepthOfField) {
+        text += &format!("lens = {{ diameter = {}, blades = 6 }}\n", n(0.05, 0.3));
+    }
     // Both kinds of light shine everywhere; what differs is which casts shadows.
     let size = if has(AreaLight) { 0.2 } else { 0.0 };
     text += &format!(
@@ -174,10 +179,23 @@ fn text(set: Effects, random: &mut Random) -> String {
             text += &format!("lines = {}\nink = [0.1, 0, 0.2]\n", n(0.5, 3.0));
         }
     }
+    if has(Glass) {
+        text += &format!(
+            "[[material]]\nname = \"crystal\"\nglass = \"thick\"\nindex = {}\n\
+             through = [{}, 0.9, 0.8]\nspecular = [0.04, 0.04, 0.04]\nshininess = 90\n",
+            n(1.2, 1.9),
+            n(0.2, 1.0)
+        );
+    }
     // Without one, every mesh of the model would be placed.
     if has(Triangles) {
-        for (mesh, placed) in [("tent", true), ("picture", has(Textures)), ("lattice", has(CutOut))]
-        {
+        let pieces = [
+            ("tent", "sheet", true),
+            ("tent", "crystal", has(Glass)),
+            ("picture", "", has(Textures)),
+            ("lattice", "", has(CutOut)),
+        ];
+        for (mesh, material, placed) in pieces {
             if placed {
                 text += &format!(
                     "[[piece]]\nmesh = \"{mesh}\"\nat = [{}, 0.02, {}]\nturn = {}\n",
@@ -185,15 +203,17 @@ fn text(set: Effects, random: &mut Random) -> String {
                     n(-2.0, 1.5),
                     n(-40.0, 40.0)
                 );
-                if mesh == "tent" {
-                    text += "material = \"sheet\"\n";
+                if !material.is_empty() {
+                    text += &format!("material = \"{material}\"\n");
                 }
             }
         }
     } else {
         text = text.replace("model = \"model.obj\"\n", "");
     }
-    for (number, material) in ["metal", "paint"].into_iter().enumerate() {
+    let materials = ["metal", "paint", "crystal"];
+    let worn = if has(Glass) { &materials[..] } else { &materials[..2] };
+    for (number, &material) in worn.iter().enumerate() {
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
         let radius = n(0.3, 0.7);
         if has(Spheres) {

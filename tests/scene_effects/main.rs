@@ -3,6 +3,7 @@
 mod compiled;
 mod departures;
 mod generated;
+mod light;
 mod lines;
 mod plots;
 
@@ -21,7 +22,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects that each calls for, and the stages, by hand. Every pipeline
 /// has `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 14] = [
+const SCENES: [(&str, &[Effect], &[&str]); 17] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -70,6 +71,21 @@ const SCENES: [(&str, &[Effect], &[&str]); 14] = [
             "solid.rint",
             "solid.rchit",
         ],
+    ),
+    (
+        "painted room",
+        &[Triangles, Boxes, DirectionalShadows, AreaLight, Bounces, AntiAliasing],
+        &["shadow.rmiss", "mesh.rchit", "box.rint", "shape.rchit"],
+    ),
+    (
+        "crystal",
+        &[Triangles, Spheres, Plane, DirectionalShadows, Bounces, Glass, AntiAliasing],
+        &["shadow.rmiss", "mesh.rchit", "sphere.rint", "shape.rchit"],
+    ),
+    (
+        "close up",
+        &[Triangles, DirectionalShadows, AntiAliasing, DepthOfField],
+        &["shadow.rmiss", "mesh.rchit"],
     ),
     ("everything", &Effect::ALL, &EVERY_STAGE),
 ];
@@ -164,12 +180,15 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
     // Position, distance, normal, material and colour; where rays leave, height and face; the way to the
-    // round surface; how round it is; and the ray's cone. A shadow ray has a payload of its own, of one bool.
+    // round surface; from where it came into a body; how round it is; and the ray's cone. A shadow ray has a
+    // payload of its own, of one bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe]);
+    let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
     let payload = 11
-        + 4 * usize::from(shadows || effects.has(Mirror))
+        + 4 * usize::from(leaves)
         + 3 * usize::from(shadows && effects.has(Triangles))
-        + usize::from(cones && effects.has(Mirror))
+        + usize::from(effects.has(Glass))
+        + usize::from(cones && effects.has_any(&[Mirror, Glass]))
         + 2 * usize::from(effects.has(Wireframe));
     for stage in stages {
         let path = stage["path"].as_str().unwrap();
@@ -180,7 +199,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         };
         assert_eq!(stage["module"]["payload"], 4 * floats, "{name}: {path}");
     }
-    assert!(4 * payload <= 84, "{name}");
+    assert!(4 * payload <= 88, "{name}");
 }
 
 fn set_of(effects: &[Effect]) -> Effects {
@@ -263,12 +282,16 @@ fn a_model_alone_is_a_scene() {
 
 #[test]
 fn an_edit_that_changes_the_set_changes_the_pipeline() {
-    let cases: [(&str, &[&str], Effect, bool); 5] = [
+    let cases: [(&str, &[&str], Effect, bool); 9] = [
         ("opening", &["light size=0.2"], AreaLight, true),
         ("opening", &["light shadows=off"], DirectionalShadows, false),
         ("opening", &["material=black", "mirror=on"], Mirror, true),
         ("knight", &["samples=1"], AntiAliasing, false),
         ("mirror balls", &["depth=0"], Mirror, false),
+        ("two kings", &["bounces=2"], Bounces, true),
+        ("two kings", &["material=black", "glass=on"], Glass, true),
+        ("crystal", &["depth=0"], Glass, false),
+        ("two kings", &["lens diameter=0.5", "focus=3"], DepthOfField, true),
     ];
     for (scene, edits, effect, there) in cases {
         let mut effects = set_of(SCENES.iter().find(|(name, ..)| *name == scene).unwrap().1);

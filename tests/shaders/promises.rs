@@ -117,6 +117,7 @@ fn no_angle_is_beyond_pi() {
         "05_shadow_miss/light.glsl",
         "11_path_tracing/surface.glsl",
         "14_animation/flag.comp",
+        "25_scene_effects/opening.glsl",
         "common/light.glsl",
         "common/surface.glsl",
     ];
@@ -134,6 +135,21 @@ fn no_angle_is_beyond_pi() {
     let picture = run::evaluate(&noting, body, "64x128");
     reaches_pi_at_most(&picture);
     assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.0));
+}
+
+#[test]
+fn no_point_of_a_lens_has_an_angle_beyond_pi() {
+    let noting = format!("{NOTING_ANGLES}#include \"25_scene_effects/opening.glsl\"\n");
+    // A disk, and all polygons; the first and the last number of a turn, and some between.
+    let body = "uint last = 16777215u;\n\
+                float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
+                float other = at.x < 17 ? 0.5 : 1.0 - 1.0 / 16777216.0;\n\
+                vec2 u = vec2(turn / 16777216.0, other);\n\
+                vec2 point = lens_point(at.x % 17 == 0 ? u.yx : u, at.x % 17);\n\
+                answer = vec4(widest, point, 0.0);";
+    let picture = run::evaluate(&noting, body, "34x64");
+    reaches_pi_at_most(&picture);
+    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
 }
 
 #[test]

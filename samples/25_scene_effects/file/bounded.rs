@@ -2,14 +2,45 @@
 //!
 //! Each is a function for serde's `deserialize_with`, so that the error has the number's own line.
 
+use common::gpu::ShaderEnum;
+use common::scene::text::quoted;
 use glam::{DVec3, Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error};
+use toml::Value;
+
+use super::description::Kind;
+use crate::{FOCUS, GlassKind, Pattern};
 
 /// The farthest coordinate of a scene file, and the largest strength of a light.
 const FAR: f64 = 1e6;
 
+/// A number of a TOML file, whole or not.
+fn number<E: Error>(value: &Value) -> Result<f64, E> {
+    match value {
+        Value::Float(number) => Ok(*number),
+        Value::Integer(number) => Ok(*number as f64),
+        other => Err(E::custom(format!("{} is no number", shown(other)))),
+    }
+}
+
+/// A value as a message shows it: on one line, and short.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::String(text) => quoted(text),
+        Value::Array(_) => "a list".to_owned(),
+        Value::Table(_) => "a table".to_owned(),
+        other => other.to_string(),
+    }
+}
+
 fn within<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<f32, D::Error> {
-    check(f64::deserialize(from)?, low, high).map(|number| number as f32)
+    let value = Value::deserialize(from)?;
+    match value {
+        Value::Float(_) | Value::Integer(_) => check(number(&value)?, low, high).map(|n| n as f32),
+        _ => {
+            Err(D::Error::custom(format!("{} is not a number from {low} to {high}", shown(&value))))
+        }
+    }
 }
 
 /// A NaN is in no range.
@@ -21,13 +52,34 @@ fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
 }
 
 /// So many numbers, no fewer and no more: the reader of arrays would pass over what is too much.
-fn numbers<const N: usize, E: Error>(list: Vec<f64>) -> Result<[f64; N], E> {
-    let count = list.len();
-    list.try_into().map_err(|_| E::custom(format!("{count} numbers where there are {N}")))
+fn numbers<const N: usize, E: Error>(value: &Value) -> Result<[f64; N], E> {
+    let Value::Array(list) = value else {
+        let example = vec!["1"; N].join(", ");
+        let what = format!("{} is no list of {N} numbers, such as [{example}]", shown(value));
+        return Err(E::custom(what));
+    };
+    let numbers = list.iter().map(number).collect::<Result<Vec<_>, E>>()?;
+    let count = numbers.len();
+    numbers.try_into().map_err(|_| E::custom(format!("{count} numbers where there are {N}")))
+}
+
+/// One of some words.
+fn word<'de, D: Deserializer<'de>, T: Copy>(
+    from: D,
+    what: &str,
+    words: &[(&str, T)],
+) -> Result<T, D::Error> {
+    let value = Value::deserialize(from)?;
+    let known = words.iter().find(|(word, _)| value.as_str() == Some(word));
+    known.map(|&(_, meaning)| meaning).ok_or_else(|| {
+        let words: Vec<String> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
+        let words = words.join(" or ");
+        D::Error::custom(format!("{} is no {what}; write {words}", shown(&value)))
+    })
 }
 
 fn three<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<DVec3, D::Error> {
-    let [x, y, z] = numbers(Vec::deserialize(from)?)?;
+    let [x, y, z] = numbers(&Value::deserialize(from)?)?;
     Ok(DVec3::new(check(x, low, high)?, check(y, low, high)?, check(z, low, high)?))
 }
 
@@ -97,7 +149,7 @@ pub fn lengths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec2, D::Error> {
 }
 
 fn two<'de, D: Deserializer<'de>>(from: D, low: f64) -> Result<Vec2, D::Error> {
-    let [x, z] = numbers(Vec::deserialize(from)?)?;
+    let [x, z] = numbers(&Value::deserialize(from)?)?;
     Ok(Vec2::new(check(x, low, FAR)? as f32, check(z, low, FAR)? as f32))
 }
 
@@ -108,8 +160,12 @@ pub fn height<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
 
 /// Half-spaces: a normal of any length but 0, and a distance.
 pub fn faces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 4]>, D::Error> {
-    let faces = Vec::<Vec<f64>>::deserialize(from)?;
-    let faces: Vec<[f64; 4]> = faces.into_iter().map(numbers).collect::<Result<_, _>>()?;
+    let value = Value::deserialize(from)?;
+    let Value::Array(faces) = &value else {
+        let what = format!("{} is no list of planes, such as [[0, 1, 0, 2], …]", shown(&value));
+        return Err(D::Error::custom(what));
+    };
+    let faces: Vec<[f64; 4]> = faces.iter().map(numbers).collect::<Result<_, _>>()?;
     for &[x, y, z, distance] in &faces {
         for part in [x, y, z, distance] {
             check(part, -FAR, FAR)?;
@@ -164,11 +220,11 @@ pub fn maybe_strength<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec3>
 }
 
 fn whole<'de, D: Deserializer<'de>>(from: D, low: i64, high: i64) -> Result<u32, D::Error> {
-    let number = i64::deserialize(from)?;
-    match (low..=high).contains(&number) {
-        true => Ok(number as u32),
-        false => {
-            let what = format!("{number} is not a whole number from {low} to {high}");
+    let value = Value::deserialize(from)?;
+    match value.as_integer().filter(|number| (low..=high).contains(number)) {
+        Some(number) => Ok(number as u32),
+        None => {
+            let what = format!("{} is not a whole number from {low} to {high}", shown(&value));
             Err(D::Error::custom(what))
         }
     }
@@ -179,7 +235,48 @@ pub fn samples<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 1, 64)
 }
 
-/// Reflections of a path.
+/// Reflections and refractions of a path.
 pub fn depth<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    whole(from, 0, 32)
+}
+
+/// How often it is scattered.
+pub fn bounces<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 8)
+}
+
+/// Blades around a lens, or none.
+pub fn blades<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+    match whole(from, 0, 16)? {
+        1 | 2 => Err(D::Error::custom("blades make a polygon: 3 to 16 of them, or 0 for a disk")),
+        count => Ok(count),
+    }
+}
+
+/// How far away a lens is in focus.
+pub fn maybe_focus<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    within(from, f64::from(*FOCUS.start()), f64::from(*FOCUS.end())).map(Some)
+}
+
+/// An index of refraction.
+pub fn maybe_index<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
+    within(from, 0.1, 10.0).map(Some)
+}
+
+/// The pattern of a material.
+pub fn maybe_pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Pattern>, D::Error> {
+    let patterns: Vec<_> = Pattern::ALL[1..].iter().map(|&kind| (kind.word(), kind)).collect();
+    word(from, "pattern", &patterns).map(Some)
+}
+
+/// How light enters a material.
+pub fn maybe_glass<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GlassKind>, D::Error> {
+    let kinds = [("thick", GlassKind::Thick), ("thin", GlassKind::Thin)];
+    word(from, "kind of glass", &kinds).map(Some)
+}
+
+/// Where a light is.
+pub fn light_kind<'de, D: Deserializer<'de>>(from: D) -> Result<Kind, D::Error> {
+    let kinds = [("directional", Kind::Directional), ("point", Kind::Point)];
+    word(from, "kind of light", &kinds)
 }

@@ -9,11 +9,12 @@ use common::scene::{Camera, Instance, Material, Model, Scene, assets, obj, place
 use glam::{Affine3A, Mat3A};
 use toml::Spanned;
 
-use super::description::{Board, Description, Piece, View};
+use super::description::{Board, Description, Optics, Piece, View};
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
-use crate::{Box, Composition, Finish, MAX_LIGHTS, Sphere};
+use crate::composition::{close, focus_of};
+use crate::{Box, Composition, Finish, Lens, MAX_LIGHTS, Sphere, is_glass};
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
@@ -33,10 +34,15 @@ impl Description {
         let mut model = self.model(path, source)?;
         let (materials, finishes) = self.paint(&mut model.materials, source)?;
         let view = self.camera.get_ref();
-        let View { eye, target, field_of_view } = *view;
+        let &View { eye, target, field_of_view, .. } = view;
         if eye.distance(target) < 1e-9 {
             let what = "the camera stands where it looks; move `eye` or `target`";
             return Err(source.error(self.camera.span().start, what));
+        }
+        let camera = Camera::new(eye, target, field_of_view);
+        let mut lens = Lens { focus: focus_of(&camera), ..Lens::PINHOLE };
+        if let Some(Optics { diameter, focus, blades }) = view.lens {
+            lens = Lens { diameter, focus: focus.unwrap_or(lens.focus), blades };
         }
         let instances = self.instances(&model, &materials, source)?;
         let lights = self.light.iter().map(|lamp| {
@@ -49,6 +55,7 @@ impl Description {
         });
         let mut composition = Composition {
             finishes,
+            lens,
             lights: lights.collect::<Result<_>>()?,
             plane: self.plane.as_ref().map(Board::plane),
             spheres: Vec::new(),
@@ -60,7 +67,8 @@ impl Description {
             samples: self.picture.samples,
             light_samples: self.picture.light_samples,
             depth: self.picture.depth,
-            scene: Scene { model, instances, camera: Camera::new(eye, target, field_of_view) },
+            bounces: self.picture.bounces,
+            scene: Scene { model, instances, camera },
         };
         self.add_shapes(&mut composition, &materials, source)?;
         composition.prune();
@@ -107,14 +115,20 @@ impl Description {
                 finishes.push(Finish::NONE);
                 materials.len() - 1
             });
+            let wrong = |what: &'static str| source.error(paint.span().start, what);
             paint.get_ref().apply(&mut materials[number]);
-            let finish = paint.get_ref().finish();
-            finishes[number] = finish.map_err(|what| source.error(paint.span().start, what))?;
+            finishes[number] = paint.get_ref().finish().map_err(wrong)?;
+            if is_glass(&materials[number]) {
+                paint.get_ref().check_glass().map_err(wrong)?;
+            } else if paint.get_ref().index.is_some() || paint.get_ref().through.is_some() {
+                return Err(wrong("`index` and `through` are of `glass`: \"thick\" or \"thin\""));
+            }
             if finishes[number].pattern().is_some() {
                 // It takes the place of the material's colour, and so of what multiplies that.
                 materials[number].base_texture = None;
             }
         }
+        materials.iter_mut().for_each(close);
         Ok((numbers, finishes))
     }
 

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bounded;
-use crate::Pattern;
+use crate::{GlassKind, Pattern};
 
 /// A scene file as it stands.
 #[derive(Deserialize)]
@@ -41,7 +41,7 @@ pub(super) struct Description {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, expecting = "a table, [picture]", default)]
 pub(super) struct Picture {
     #[serde(deserialize_with = "bounded::samples")]
     pub(super) samples: u32,
@@ -49,16 +49,18 @@ pub(super) struct Picture {
     pub(super) light_samples: u32,
     #[serde(deserialize_with = "bounded::depth")]
     pub(super) depth: u32,
+    #[serde(deserialize_with = "bounded::bounces")]
+    pub(super) bounces: u32,
 }
 
 impl Default for Picture {
     fn default() -> Self {
-        Self { samples: 1, light_samples: 16, depth: 4 }
+        Self { samples: 1, light_samples: 16, depth: 4, bounces: 0 }
     }
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [camera]")]
 pub(super) struct View {
     #[serde(deserialize_with = "bounded::far_point")]
     pub(super) eye: DVec3,
@@ -66,10 +68,21 @@ pub(super) struct View {
     pub(super) target: DVec3,
     #[serde(deserialize_with = "bounded::view")]
     pub(super) field_of_view: f64,
+    pub(super) lens: Option<Optics>,
 }
 
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table, { diameter = 0.1 }")]
+pub(super) struct Optics {
+    #[serde(deserialize_with = "bounded::part")]
+    pub(super) diameter: f32,
+    #[serde(default, deserialize_with = "bounded::maybe_focus")]
+    pub(super) focus: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::blades")]
+    pub(super) blades: u32,
+}
+
+#[derive(Clone, Copy)]
 pub(super) enum Kind {
     Directional,
     Point,
@@ -77,8 +90,9 @@ pub(super) enum Kind {
 
 /// A light of either kind; which keys go with which is checked when it is made.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[light]]")]
 pub(super) struct Lamp {
+    #[serde(deserialize_with = "bounded::light_kind")]
     pub(super) kind: Kind,
     #[serde(default, deserialize_with = "bounded::maybe_degrees")]
     pub(super) azimuth: Option<f32>,
@@ -102,7 +116,7 @@ fn yes() -> bool {
 
 /// A new material, or what differs from the model's of that name.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[material]]")]
 pub(super) struct Paint {
     pub(super) name: String,
     #[serde(default, deserialize_with = "bounded::maybe_color")]
@@ -116,6 +130,13 @@ pub(super) struct Paint {
     #[serde(default, deserialize_with = "bounded::maybe_part")]
     pub(super) opacity: Option<f32>,
     pub(super) mirror: Option<bool>,
+    #[serde(default, deserialize_with = "bounded::maybe_glass")]
+    pub(super) glass: Option<GlassKind>,
+    #[serde(default, deserialize_with = "bounded::maybe_index")]
+    pub(super) index: Option<f32>,
+    #[serde(default, deserialize_with = "bounded::maybe_color")]
+    pub(super) through: Option<Vec3>,
+    #[serde(default, deserialize_with = "bounded::maybe_pattern")]
     pub(super) pattern: Option<Pattern>,
     #[serde(default, deserialize_with = "bounded::maybe_color")]
     pub(super) second: Option<Vec3>,
@@ -128,7 +149,7 @@ pub(super) struct Paint {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[piece]]")]
 pub(super) struct Piece {
     pub(super) mesh: Spanned<String>,
     #[serde(deserialize_with = "bounded::point")]
@@ -145,7 +166,7 @@ fn one() -> f32 {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [plane]")]
 pub(super) struct Board {
     #[serde(deserialize_with = "bounded::direction")]
     pub(super) normal: Vec3,
@@ -162,7 +183,7 @@ pub(super) struct Board {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[sphere]]")]
 pub(super) struct Ball {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) center: Vec3,
@@ -172,7 +193,7 @@ pub(super) struct Ball {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[box]]")]
 pub(super) struct Block {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) low: Vec3,
@@ -182,7 +203,7 @@ pub(super) struct Block {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [[solid]]")]
 pub(super) struct Body {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) center: Vec3,
@@ -192,7 +213,7 @@ pub(super) struct Body {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, [heightfield]")]
 pub(super) struct Land {
     #[serde(deserialize_with = "bounded::place")]
     pub(super) low: Vec2,

@@ -56,8 +56,13 @@ impl Source {
 
     /// Reads the text as a table.
     pub fn parse<'a, T: Deserialize<'a>>(&'a self) -> Result<T> {
-        toml::from_str(&self.text)
-            .map_err(|error| self.error(error.span().map_or(0, |span| span.start), error.message()))
+        toml::from_str(&self.text).map_err(|error| {
+            let what = error.message();
+            let what = what.replace("expected a boolean", "expected true or false");
+            let what =
+                what.replace("expected a sequence", "expected tables, each under [[its name]]");
+            self.error(error.span().map_or(0, |span| span.start), &what)
+        })
     }
 
     /// Refuses a list that is too long, at its first entry too many.

@@ -3,7 +3,7 @@
 use common::scene::{Light, Material, PointLight, Sun};
 
 use super::description::{Board, Kind, Lamp, Land, Paint};
-use crate::{BoardPlane, Finish, Heightfield, SceneLight};
+use crate::{BoardPlane, Finish, GlassKind, Heightfield, SceneLight};
 
 impl Lamp {
     pub(super) fn light(&self) -> Result<SceneLight, &'static str> {
@@ -67,6 +67,25 @@ impl Paint {
         material.opacity = self.opacity.unwrap_or(material.opacity);
         if let Some(mirror) = self.mirror {
             material.illumination = if mirror { 3 } else { 2 };
+        }
+        if let Some(glass) = self.glass {
+            material.illumination = if glass == GlassKind::Thin { 9 } else { 7 };
+            material.refraction = 1.5;
+        }
+        material.refraction = self.index.unwrap_or(material.refraction);
+        material.transmission = self.through.unwrap_or(material.transmission);
+    }
+
+    /// Whether nothing is said of glass that it cannot be.
+    pub(super) fn check_glass(&self) -> Result<(), &'static str> {
+        let &Self { mirror, opacity, pattern, lines, .. } = self;
+        match (mirror, opacity, pattern.is_some() || lines.is_some_and(|width| width > 0.0)) {
+            (Some(true), ..) => {
+                Err("a material is a mirror or glass; take `mirror` or `glass` out")
+            }
+            (_, Some(_), _) => Err("glass has `through` in place of `opacity`"),
+            (.., true) => Err("glass shows neither a `pattern` nor `lines`; take them out"),
+            _ => Ok(()),
         }
     }
 

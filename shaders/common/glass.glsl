@@ -1,0 +1,72 @@
+// Taught by 27_glass, whose own file this is a copy of.
+//
+// What a smooth surface between two transparent media does with light.
+
+// What a material is for light that enters it.
+struct Glass {
+    vec3 absorption;  // exp(-absorption) of the light is left after a unit of length
+    float index;      // of refraction
+    uint kind;
+};
+
+const uint GLASS_NONE = 0;
+const uint GLASS_THICK = 1;   // its surface is the skin of a body
+const uint GLASS_THIN = 2;    // its surface is a sheet, both of whose sides are the skin
+
+// What is left of light after a body has taken its part. Clear glass takes nothing at all: Vulkan lets exp(0)
+// be off by 3 ULP.
+vec3 left_after(vec3 absorption) {
+    return mix(exp(-absorption), vec3(1.0), equal(absorption, vec3(0.0)));
+}
+
+// What part of the light a surface reflects, and what part goes through.
+struct Split {
+    float reflected;
+    float through;
+};
+
+// ANCHOR: fresnel
+// Fresnel's equations, for light that is not polarised, from a medium of index `from` into one of index
+// `to`; `cosine` is the ray's to the normal.
+//
+// q and p are index·cosine before and behind the surface, k2 is (index·sine)^2: by Snell's law the same on
+// both sides. So p^2 - q^2 = to^2 - from^2, and the difference that Fresnel's equations have, q - p, is a
+// quotient that does not cancel, however near the indices are to each other.
+Split fresnel_exact(float cosine, float from, float to) {
+    float q = from * cosine;
+    float squares = (to - from) * (to + from);
+    float p2 = squares + q * q;
+    if (p2 <= 0.0) {
+        return Split(1.0, 0.0);    // total reflection
+    }
+    float p = sqrt(p2);
+    float k2 = from * from * (1.0 - cosine) * (1.0 + cosine);
+    float sum = q + p;
+    float across = squares / (sum * sum);              // the amplitude that swings across the plane of incidence
+    float within = (q * p - k2) / (q * p + k2);        // and, relative to it, that which swings within the plane
+    float relative = from * to / (q * p + k2);
+    return Split(
+        0.5 * across * across * (1.0 + within * within),
+        2.0 * q * p / (sum * sum) * (1.0 + relative * relative)
+    );
+}
+// ANCHOR_END: fresnel
+
+// ANCHOR: thin
+// Between the two sides of a sheet light goes to and fro: R + T²R + T²R³ + … = 2R / (1 + R) comes back.
+Split of_sheet(Split side) {
+    float all = 1.0 + side.reflected;
+    return Split(2.0 * side.reflected / all, side.through / all);
+}
+// ANCHOR_END: thin
+
+// ANCHOR: refracted
+// Where a ray goes on that is not totally reflected. Along the surface index·direction stays as it is, and
+// along the normal -q becomes -p.
+vec3 refracted(vec3 direction, vec3 normal, float from, float to) {
+    float q = from * dot(-direction, normal);
+    float squares = (to - from) * (to + from);
+    float sum = q + sqrt(max(squares + q * q, 0.0));
+    return normalize(from * direction - squares / sum * normal);
+}
+// ANCHOR_END: refracted

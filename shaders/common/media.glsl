@@ -1,0 +1,22 @@
+// Taught by 27_glass, whose own file this is a copy of.
+//
+// The media that a ray is in: bodies may overlap, and one of them counts.
+
+// No body at all.
+const uint AIR = 0xffffffffu;
+
+// ANCHOR: media
+// Up to four bodies, each by the number of its material, the lowest first: that one counts (Schmidt and
+// Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 7:2, 2002). The rest is air.
+
+// Those of a ray that comes into a body.
+uvec4 entered(uvec4 media, uint material) {
+    return min(media, max(uvec4(0, media.xyz), material));
+}
+
+// Those of a ray that comes out of one. Out of a body that it was not in, nothing changes.
+uvec4 left(uvec4 media, uint material) {
+    uvec4 without = mix(media, uvec4(media.yzw, AIR), greaterThanEqual(media, uvec4(material)));
+    return any(equal(media, uvec4(material))) ? without : media;
+}
+// ANCHOR_END: media
