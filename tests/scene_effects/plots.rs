@@ -142,7 +142,7 @@ fn times() {
     assert_eq!(names, SCENES.map(|scene| scene.0));
     let points = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();
     let points = (points(&milliseconds, &ratios), points(&stages, &compiles));
-    let ticks = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+    let ticks = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0];
     let time = Axis { label: "own pipeline, milliseconds", ticks: &ticks, logarithmic: true };
     let ratio = Axis {
         label: "everything / own",
@@ -156,7 +156,7 @@ fn times() {
     };
     let compile = Axis {
         label: "compile, milliseconds",
-        ticks: &[50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0],
+        ticks: &[50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0],
         logarithmic: true,
     };
     // A dot outside of its chart would be drawn nowhere, and its name, too.
