@@ -6,6 +6,7 @@ mod focus;
 mod mean;
 mod plots;
 #[allow(dead_code, reason = "04 has other sequences, too")]
+#[expect(clippy::duplicate_mod, reason = "to 04 it is a part of its own")]
 #[path = "jitter_camera/points.rs"]
 mod points;
 

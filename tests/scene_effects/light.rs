@@ -148,7 +148,7 @@ fn a_lens_blurs_an_edge_by_its_distance_from_the_focus() {
     assert!(spread("lens = { diameter = 0.5, focus = 5 }\n") < 0.6, "in focus");
     for (diameter, focus) in [(0.3, 3.0), (0.3, 9.0), (0.2, 2.5)] {
         let lens = format!("lens = {{ diameter = {diameter}, focus = {focus} }}\n");
-        let expected = diameter * (5.0 - focus as f64).abs() / focus / pixel / 4.0;
+        let expected = diameter * (5.0_f64 - focus).abs() / focus / pixel / 4.0;
         // A pixel's own width blurs, too.
         let found = (spread(&lens).powi(2) - 1.0 / 6.0).sqrt();
         println!("diameter {diameter}, focus {focus}: {found} pixels, not {expected}");

@@ -25,6 +25,9 @@ fn estimators() {
     draw_panels("29_estimators.png", 1, &[Shown::row(&[0, 1, 2].map(show))]);
 }
 
+/// A title, and the curves of a chart: a name and its points.
+type Curves = (&'static str, Vec<(&'static str, Vec<[f64; 2]>)>);
+
 const FRAMES: [u32; 5] = [1, 4, 16, 64, 256];
 const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0];
 
@@ -105,7 +108,7 @@ fn price() {
     };
     let reference = brightness(&of(&["seed=9"], 2048).picture);
     let mut held = Map::new();
-    let mut charts: Vec<(&str, Vec<(&str, Vec<[f64; 2]>)>)> =
+    let mut charts: Vec<Curves> =
         vec![("error against rays", vec![]), ("error against time", vec![])];
     for name in ESTIMATORS {
         let set = estimator(name);
