@@ -15,7 +15,7 @@ fn options() {
         (&["--frames", "0"], "invalid value '0' for '--frames <N>': 0 is not in 1.."),
         (&["--frames=-1"], "invalid value '-1' for '--frames <N>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
-        (&["--scene", ""], "a value is required for '--scene <FILE.obj>'"),
+        (&["--scene", ""], "a value is required for '--scene <FILE>'"),
         (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, all]"),
         (
             &["--compile-for", "nonsense"],

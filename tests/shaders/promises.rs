@@ -118,6 +118,8 @@ fn no_angle_is_beyond_pi() {
         "11_path_tracing/surface.glsl",
         "14_animation/flag.comp",
         "25_scene_effects/opening.glsl",
+        "28_depth_of_field/lens.glsl",
+        "29_emitters/sphere_light.glsl",
         "common/light.glsl",
         "common/surface.glsl",
     ];
@@ -150,6 +152,49 @@ fn no_point_of_a_lens_has_an_angle_beyond_pi() {
     let picture = run::evaluate(&noting, body, "34x64");
     reaches_pi_at_most(&picture);
     assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
+}
+
+#[test]
+fn no_corner_of_a_blade_has_an_angle_beyond_pi() {
+    // The camera and its rungs are none of the matter.
+    let noting = format!(
+        "{NOTING_ANGLES}struct Other {{ vec3 origin; vec3 right; vec3 up; vec3 forward; }};\n\
+         #define CameraBasis Other\n\
+         struct Lens {{ float radius; float inverse_focus; uint blades; float turn; }};\n\
+         const uint RUNG = 2, RUNG_EYE = 1, RUNG_START = 2;\n\
+         #include \"28_depth_of_field/lens.glsl\"\n\
+         #undef CameraBasis\n"
+    );
+    // All polygons and the disk; the first and the last number of a turn, and some between.
+    let body = "uint last = 16777215u;\n\
+                float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
+                vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
+                uint corners = uint(at.x) % 17;\n\
+                vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
+                                         : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
+                answer = vec4(widest, point, 0.0);";
+    let picture = run::evaluate(&noting, body, "34x64");
+    reaches_pi_at_most(&picture);
+    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
+}
+
+#[test]
+fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
+    let noting = format!(
+        "{NOTING_ANGLES}#include \"29_emitters/emitter.glsl\"\n\
+         #include \"29_emitters/sphere_light.glsl\"\n"
+    );
+    // The numbers that end a turn, and some between, from outside and from inside.
+    let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
+                Emitter ball;\n\
+                ball.corner = vec3(0.0, 0.0, at.x < 32 ? 5.0 : 0.5);\n\
+                ball.radius = 1.0;\n\
+                ball.height = ball.slack = 0.0;\n\
+                Aim aim = aim_at_sphere(ball, vec3(0.0), vec2(float(at.x % 32) / 32.0, u));\n\
+                answer = vec4(widest, aim.to);";
+    let picture = run::evaluate(&noting, body, "64x128");
+    reaches_pi_at_most(&picture);
+    assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()));
 }
 
 #[test]
