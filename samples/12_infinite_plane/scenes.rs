@@ -69,8 +69,8 @@ pub fn extend(model: &mut Model) {
 
 // ANCHOR: reflection
 /// What part of the light a material mirrors when looked at straight. In an MTL file that is the
-/// specular colour, if the illumination model reflects (`illum 3`); the balls say it apart, and what
-/// they mirror has their colour.
+/// specular colour, if the illumination model reflects (`illum 3`); the balls have a list of
+/// their own, and their mirror images have their colour.
 pub fn reflection(material: &Material) -> Vec3 {
     match PAINTS.iter().find(|paint| paint.0 == material.name) {
         Some(Paint(_, color, _, reflection)) => color / color.max_element() * reflection,

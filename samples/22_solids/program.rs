@@ -50,7 +50,7 @@ pub struct Programs {
     pub steps: Vec<u32>,
     /// The planes as they were given, turned to one side.
     given: Vec<(Vec3, f32)>,
-    /// Of whose planes each is one: solids are not compared with each other.
+    /// The solid of each plane: solids are not compared with each other.
     first_plane: usize,
     /// Whether planes and balls that are equal are stored once.
     shared: bool,

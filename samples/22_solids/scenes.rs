@@ -32,7 +32,7 @@ pub struct SolidInstance {
     pub solid: Solid,
     /// Where.
     pub transform: Affine3A,
-    /// Only what of its surface lies within this is there.
+    /// The clip: its surface outside this is left out.
     pub clip: Option<Bound>,
 }
 

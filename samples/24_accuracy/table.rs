@@ -91,7 +91,7 @@ fn times(ladder: &[Measured]) -> String {
             noise.median
         );
     }
-    let _ = writeln!(text, "\nErrors here: *{home}*.");
+    let _ = writeln!(text, "\nThe errors above are those of the family *{home}*.");
     text
 }
 
@@ -149,7 +149,7 @@ fn errors(ladder: &[Measured]) -> String {
             }
         }
     }
-    text + "\nTraced rays are listed where they are not as direct ones.\n"
+    text + "\nTraced rays are listed only where their figures differ from those of direct rays.\n"
 }
 
 /// Rays that leave a surface have no error but that they meet it again, or pass what is near.

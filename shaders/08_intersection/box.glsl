@@ -1,7 +1,7 @@
 // A ray against a box with sides along the axes, in two ways that are equal on paper.
 //
-// A ray is in the box while it is between the walls of all three slabs. Where the last is entered goes
-// to t.x, where the first is left to t.y; `faces` gets the outward normals there. The box is closed.
+// A ray is in the box while it is between the walls of all three slabs. t.x is where it enters the last
+// slab, t.y where it leaves the first; `faces` gets the outward normals there. The box is closed.
 
 const uint BOX_RECIPROCAL = 0;
 const uint BOX_DIVISION = 1;
@@ -30,8 +30,8 @@ bool box_reciprocal(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 fa
 
 // ANCHOR: division
 // A true division: t is off by no more than Vulkan allows for a difference and a quotient, 1 + 2.5 ULP,
-// and its sign is right. Where d = 0, the origin is in the slab or it is not. Whether a wall is entered or
-// left, the sign of d says (after Majercik et al., JCGT 7:3, 2018).
+// and its sign is right. Where d = 0, the origin is in the slab or it is not. The sign of d
+// decides which wall is entered and which is left (after Majercik et al., JCGT 7:3, 2018).
 bool box_division(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 faces[2]) {
     t = vec2(-LARGEST, LARGEST);
     faces[0] = vec3(0.0);

@@ -11,8 +11,8 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
 // ANCHOR: place
-// The hit again, from the shape and not from the ray: on the sphere or the wall as nearly as rounding
-// allows, wherever the ray came from. And how far above it a ray must start that leaves it.
+// Computes the hit anew, from the shape and not from the ray: on the sphere or the wall as nearly as
+// rounding allows, wherever the ray came from. And how far above the surface a leaving ray must start.
 //
 // Sphere, center + r·outward. A unit vector is off by 16u in length (Vulkan allows 9u for the square root
 // and 5u for a division), product and sum round: 17u·r + u·|p|. The next ray's test finds f exactly but

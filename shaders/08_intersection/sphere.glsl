@@ -74,7 +74,7 @@ bool sphere_stable(vec3 f, vec3 d, float r, out vec2 t) {
 
 // ANCHOR: host_c
 // All rays of a camera begin at one point, so c = |f|² - r² is one number a sphere. The host computes
-// it in 64 bits; what would cancel here has been subtracted there.
+// it in 64 bits, and makes there the subtraction that would cancel here.
 bool sphere_host_c(vec3 f, vec3 d, float c, out vec2 t) {
     precise float a = dot(d, d);
     precise float b = -dot(f, d);

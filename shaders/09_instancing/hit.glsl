@@ -1,5 +1,5 @@
-// What the hit shader reports of the surface that a ray met. What to do about it, the raygen shader
-// decides: this is the payload of its rays.
+// What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
+// The raygen shader decides what to do about it.
 
 // ANCHOR: hit
 struct Hit {

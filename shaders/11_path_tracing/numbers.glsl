@@ -2,7 +2,7 @@
 // its samples.
 #include "common/sequence.glsl"
 
-// What else than in chapters before a number is for.
+// The purposes of numbers that earlier chapters do not have.
 const uint DIMENSION_CHOICE = 2;
 const uint DIMENSION_BOUNCE = 3;
 const uint DIMENSION_ROULETTE = 4;

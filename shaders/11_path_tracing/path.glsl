@@ -29,7 +29,7 @@ void gather(inout Path path, vec3 seen) {
 // ANCHOR_END: path
 
 // ANCHOR: roulette
-// The most likely that a path survives a turn: even in a room that swallows nothing, it ends one day.
+// The largest probability that a path survives a turn: even in a room that swallows nothing, it ends one day.
 const float LIKELIEST = 0.95;
 
 // Whether the next ray is worth tracing.
@@ -48,7 +48,7 @@ bool goes_on(inout Path path) {
 }
 // ANCHOR_END: roulette
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights and gathers the surface that a ray has met, and chooses the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     if (hit.t < 0.0) {
         gather(path, hit.color);

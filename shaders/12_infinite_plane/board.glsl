@@ -66,8 +66,8 @@ const uint SIDE_INSIDE = 1;
 Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     vec3 outward = normalize(plane.normal);
     bool inside = dot(ray.direction, plane.normal) > 0.0;
-    // From the anchor, not from the world's origin: small numbers near the camera. And onto the plane,
-    // which rounding has left.
+    // From the anchor, not from the world's origin: small numbers near the camera. Then back onto the
+    // plane, off which rounding has moved the point.
     vec3 from_anchor = ray.origin - plane.anchor + t * ray.direction;
     from_anchor -= (dot(from_anchor, plane.normal) - plane.rest)
         / dot(plane.normal, plane.normal) * plane.normal;

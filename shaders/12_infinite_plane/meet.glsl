@@ -3,7 +3,7 @@
 // As far as rays go.
 const float FAR = 1e30;
 
-// Whether rays leave the plane: what a path has met last.
+// Whether the path has met the plane last, so that its next rays leave the plane.
 bool on_plane = false;
 
 // ANCHOR: meet

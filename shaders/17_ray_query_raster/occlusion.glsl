@@ -18,7 +18,7 @@ float openness(Start start, vec3 normal, uint count, vec2 first) {
         vec2 point = disk_point(i, count, first);
         float height = sqrt(max(1.0 - dot(point, point), 0.0));
         vec3 direction = point.x * right + point.y * ahead + height * normal;
-        // What is below the surface, the surface itself hides; that needs no ray.
+        // The surface itself hides all directions below it; they need no ray.
         if (dot(start.up, direction) > 0.0 && is_lit(start.origin, direction, 1e30)) {
             open++;
         }

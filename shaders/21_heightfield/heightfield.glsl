@@ -194,7 +194,7 @@ HeightfieldHit heightfield_bisected(HeightfieldShape shape, vec3 o, vec3 d, floa
 // ANCHOR: over_relaxed
 // Longer steps, as if the ground were less steep (Keinert and others, Smart Tools and Applications in
 // Graphics 2014). From the new place, too, some of the way back is free for sure; if the two free parts
-// leave a gap, or the ground is passed, the step was too long, and the safe one is done instead.
+// leave a gap, or the ground is passed, the step was too long: it is taken back for the safe one.
 HeightfieldHit heightfield_over_relaxed(HeightfieldShape shape, vec3 o, vec3 d, float tmin, float tmax) {
     const float RELAXATION = 1.6;
     float bend = bending(shape, d);

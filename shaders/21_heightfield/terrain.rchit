@@ -20,7 +20,7 @@ vec3 color(float height, vec3 face) {
 // ANCHOR: place
 // The hit again, from the formula and not from the ray: its height is what a march computes there.
 //
-// How far above it must a ray start that leaves it, for a march to find the start above the ground? A
+// How far above the ground must a leaving ray start, so that a march finds the start above it? A
 // march computes a height in the box that is off by `error` at most. That is the sum of two parts: of the
 // formula's roundings, by which the hit itself is off, and of three roundings of a place, of which the
 // start has one. A step h along the normal leads h·sqrt(1 + slope²) up from the slope, from which the

@@ -148,7 +148,7 @@ bool contains(SolidRecord solid, vec3 point) {
 // ANCHOR_END: contains
 
 // ANCHOR: line
-// A solid's parts along a ray: who is in from where to where. Parts that the ray never is in say nothing.
+// A solid's parts along a ray: from where to where the ray is in each. Parts that it never meets have none.
 Interval intervals[MAX_PARTS];
 uint parts[MAX_PARTS];
 uint interval_count;
@@ -221,7 +221,7 @@ bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, o
             continue;
         }
         // Back from after to before, one part at a time: the first that undoes the change has the face.
-        // Where a cutter only touches, that is what is cut, not the cutter.
+        // Where a cutter only touches the solid, the face is the solid's, not the cutter's.
         uint members = after;
         for (uint i = 0; i < interval_count; i++) {
             uint part = 1u << parts[i];

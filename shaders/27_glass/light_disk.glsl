@@ -1,4 +1,4 @@
-// The light as a ray sees it that meets it by chance.
+// The light, as seen by a ray that meets it by chance.
 
 // ANCHOR: disk
 // The light is a disk that faces whoever looks at it (05). What reaches a surface from all of it is its

@@ -88,7 +88,7 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
     path.asked = false;
 }
 
-// What a ray has met is lit and gathered, and says which ray comes next.
+// Lights and gathers the surface that a ray has met, and chooses the next ray.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: absorb
     if (path.media.x != AIR && hit.t >= 0.0) {

@@ -3,7 +3,7 @@
 // The error of a sum and of a product, as a float of its own.
 //
 // This needs `precise` and rounding to nearest. FUSED is whether fma() rounds once, which GLSL does not
-// promise: who has asked the device defines it before; 0 is right everywhere.
+// promise: a shader whose host has asked the device defines it before; 0 is right everywhere.
 #ifndef FUSED
 #define FUSED 0
 #endif

@@ -42,7 +42,7 @@ fn every_ray_takes_the_record_that_the_formula_gives() {
     let scene = Scene::chess().unwrap();
     let [hits, directions, groups, records] =
         ["hit", "ray direction", "group", "record"].map(|view| show(view).picture);
-    // Which instance a ray hits, the reference says.
+    // The reference says which instance a ray hits.
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
