@@ -863,6 +863,10 @@ impl<'a> Gpu<'a> {
             let submitted = self.device.queue_submit2(self.queue, &submit, fence);
             let done =
                 submitted.and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
+            if done.is_err() {
+                // A wait may fail while the device works on, with what is destroyed from here on.
+                let _ = self.device.device_wait_idle();
+            }
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }

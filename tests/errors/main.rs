@@ -2,6 +2,7 @@
 //! one module for each kind of input.
 
 mod arguments;
+mod failures;
 mod machine;
 mod models;
 mod outputs;

@@ -4,7 +4,7 @@ use std::process::Output;
 
 use common::gpu::{ADDRESS_ALIGNMENT, Buffer, Gpu, GpuOptions, Requirements, device_lines};
 use common::scene::input_usage;
-use run::narrow::Narrow;
+use run::layer::Layer;
 
 use ash::vk;
 
@@ -68,11 +68,6 @@ const ALSO: [(&str, &[&str]); 10] = [
     ("25_scene_effects", &["--set", "scene=lake"]),
 ];
 
-/// All chapters, 01 too.
-fn samples() -> Vec<String> {
-    std::iter::once("01_foundation".to_owned()).chain(crate::chapters()).collect()
-}
-
 /// Standard output of a run that succeeded in silence, and so without a validation message.
 #[track_caller]
 fn quiet(what: &str, output: Output) -> String {
@@ -83,7 +78,7 @@ fn quiet(what: &str, output: Output) -> String {
 
 /// The report of a small headless run.
 #[track_caller]
-fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value {
+fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Value {
     let mut command = narrow.command(sample);
     command.args(["--headless", "--validate", "--report", "-"]).args(arguments);
     if !arguments.contains(&"--size") {
@@ -97,8 +92,8 @@ fn runs(narrow: &Narrow, sample: &str, arguments: &[&str]) -> serde_json::Value 
 
 #[test]
 fn every_sample_runs_on_the_narrowest_device() {
-    let narrow = Narrow::new("");
-    for sample in samples() {
+    let narrow = Layer::narrow("");
+    for sample in run::chapters() {
         if let Some((_, lacks)) = UNSUITABLE.iter().find(|(name, _)| *name == sample) {
             let mut command = narrow.command(&sample);
             let (code, line) = run::refusal(command.arg("--headless").output().expect("it starts"));
@@ -118,7 +113,7 @@ fn every_sample_runs_on_the_narrowest_device() {
 
 #[test]
 fn whatever_else_a_sample_shows_runs_there_too() {
-    let narrow = Narrow::new("");
+    let narrow = Layer::narrow("");
     for (sample, settings) in ALSO {
         runs(&narrow, sample, settings);
     }
@@ -126,7 +121,7 @@ fn whatever_else_a_sample_shows_runs_there_too() {
 
 #[test]
 fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
-    let narrow = Narrow::new("");
+    let narrow = Layer::narrow("");
     for (sample, arguments, limit, words) in REFUSED {
         let mut command = narrow.command(sample);
         command.args(["--headless", "--validate"]).args(arguments);
@@ -138,8 +133,8 @@ fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
 #[test]
 fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
     for (feature, without) in FEATURES {
-        let narrow = Narrow::new(&format!("without={feature}"));
-        for sample in samples() {
+        let narrow = Layer::narrow(&format!("without={feature}"));
+        for sample in run::chapters() {
             let mut list = narrow.command(&sample);
             let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
             let lacks = list.contains(&format!("feature {feature}"));
@@ -151,7 +146,7 @@ fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
 /// The laboratory needs no more than the others, and says of a rung what it lacks.
 #[test]
 fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
-    let narrow = Narrow::new("");
+    let narrow = Layer::narrow("");
     let folder = tempfile::tempdir().unwrap();
     let mut command = narrow.command("24_accuracy");
     command.args(["--headless", "--validate", "--only", "sphere", "--rays", "8", "--rounds", "1"]);
@@ -165,7 +160,7 @@ fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
 
 #[test]
 fn a_card_without_graphics_traces_without_a_window() {
-    let narrow = Narrow::new("compute-only");
+    let narrow = Layer::narrow("compute-only");
     for sample in ["01_foundation", "02_basic"] {
         runs(&narrow, sample, &[]);
     }
@@ -175,7 +170,7 @@ fn a_card_without_graphics_traces_without_a_window() {
 #[test]
 fn a_card_without_graphics_is_refused_by_what_draws() {
     let lacks = |faults: &str, what: &str| {
-        let narrow = Narrow::new(faults);
+        let narrow = Layer::narrow(faults);
         let mut list = narrow.command("17_ray_query_raster");
         quiet("17", list.arg("--list-devices").output().expect("it starts")).contains(what)
     };
@@ -191,7 +186,7 @@ fn a_card_without_graphics_is_refused_by_what_draws() {
 fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("told");
-    runs(&Narrow::new(&format!("{faults},tell={}", file.display())), sample, arguments);
+    runs(&Layer::narrow(&format!("{faults},tell={}", file.display())), sample, arguments);
     let told = std::fs::read_to_string(&file).expect("the layer tells");
     let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
     numbers.try_into().expect("four numbers")
@@ -203,7 +198,8 @@ fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
 fn a_frame_from_elsewhere_is_one_submission() {
     let moving =
         ["--compare", "camera eye=-5.6,2.7,8.2|-5.5,2.7,8.2", "--size", "24x1", "--frames"];
-    let mut samples: Vec<_> = crate::chapters().into_iter().map(|name| (name, vec![])).collect();
+    let mut samples: Vec<_> =
+        run::chapters_on_the_framework().into_iter().map(|name| (name, vec![])).collect();
     samples.retain(|(name, _)| UNSUITABLE.iter().all(|(unsuitable, _)| name != unsuitable));
     // There the host computes a number for each sphere, by where the eye is.
     samples.push(("08_intersection".to_owned(), vec!["--set", "sphere rung=host c"]));
@@ -231,7 +227,7 @@ fn the_foundation_s_uploads_lie_in_the_device_where_the_host_can_write_there() {
 #[test]
 fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
     let refused = |faults: &str, size: &str, words: [&str; 2]| {
-        let narrow = Narrow::new(faults);
+        let narrow = Layer::narrow(faults);
         let mut command = narrow.command("03_any_hit");
         let mode = ["--set", "mode=all hits"];
         let output = command.args(["--headless", "--validate", "--size", size]).args(mode).output();
@@ -267,13 +263,13 @@ fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
     std::fs::write(folder.path().join("a.obj"), model).unwrap();
     std::fs::write(folder.path().join("a.mtl"), materials).unwrap();
     let model = folder.path().join("a.obj");
-    runs(&Narrow::new(""), "02_basic", &["--scene", model.to_str().expect("a plain path")]);
+    runs(&Layer::narrow(""), "02_basic", &["--scene", model.to_str().expect("a plain path")]);
 }
 
 /// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
 /// is run again in a child with `--ignored`.
 fn in_child(test: &str, faults: &str) {
-    let narrow = Narrow::new(faults);
+    let narrow = Layer::narrow(faults);
     let this = std::env::current_exe().expect("a running program has a file");
     let name = format!("narrowest::{test}");
     let output = std::process::Command::new(this)

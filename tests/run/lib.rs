@@ -1,8 +1,8 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
 pub mod figures;
+pub mod layer;
 pub mod leaving;
-pub mod narrow;
 pub mod plot;
 pub mod primary_hits;
 
@@ -201,6 +201,25 @@ pub fn flip(reference: &Picture, picture: &Picture) -> (f32, f32) {
     assert_eq!((reference.width, reference.height), size);
     let (expected, actual) = (reference.srgb(), picture.srgb());
     (flip::mean(size, &expected, &actual), flip::share_above(0.1, size, &expected, &actual))
+}
+
+/// The chapters, in their order: the folders of `samples/` that begin with a number.
+pub fn chapters() -> Vec<String> {
+    let folders = root().join("samples").read_dir().expect("samples/ can be read");
+    let names = folders.map(|entry| entry.expect("an entry").file_name().into_string());
+    let names = names.map(|name| name.expect("a chapter has a plain name"));
+    let mut names: Vec<_> =
+        names.filter(|name| name.starts_with(|first: char| first.is_ascii_digit())).collect();
+    names.sort();
+    assert!(names.len() >= 14, "{names:?}");
+    names
+}
+
+/// The chapters that make their pipelines through the framework: all but 01.
+pub fn chapters_on_the_framework() -> Vec<String> {
+    let mut names = chapters();
+    names.retain(|name| name != "01_foundation");
+    names
 }
 
 /// The project's root.

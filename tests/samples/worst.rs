@@ -70,17 +70,6 @@ fn paths_are_the_same(chapter: &str, surfaces: f32, driver: &Picture, worst: &Pi
     mean <= 0.01 * surfaces * drawn_anew
 }
 
-fn chapters() -> Vec<String> {
-    let entries = std::fs::read_dir(root().join("samples")).expect("the samples are there");
-    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    // 01 is one file, and has no such switch.
-    let is_chapter = |name: &String| name.as_bytes()[0].is_ascii_digit() && !name.starts_with("01");
-    let mut names: Vec<String> = names.filter(is_chapter).collect();
-    names.sort();
-    assert!(names.len() >= 14, "{names:?}");
-    names
-}
-
 fn rendered(name: &str, arithmetic: &str, arguments: &[&str]) -> Run {
     let run = render(name, SIZE, &[arguments, &["--arithmetic", arithmetic]].concat());
     assert_eq!(run.report["arithmetic"], arithmetic);
@@ -91,7 +80,7 @@ fn rendered(name: &str, arithmetic: &str, arguments: &[&str]) -> Run {
 
 fn every_picture_is_finite_and_near(arithmetic: &str) {
     let mut wrong = Vec::new();
-    for name in chapters() {
+    for name in run::chapters_on_the_framework() {
         // The picture that 24 begins with is one of errors, of a rung that has many.
         let set: &[&str] = match &name[..] {
             "24_accuracy" => &["--set", "show=picture", "--set", "rung=two-float"],

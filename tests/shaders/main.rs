@@ -43,14 +43,6 @@ fn stages() -> Vec<Shader> {
     stages.map(|stage| compile(&stage).unwrap_or_else(|error| panic!("{error:#}"))).collect()
 }
 
-/// The chapters: the folders of `samples/` that begin with a number.
-fn chapters() -> Vec<String> {
-    let folders = run::root().join("samples").read_dir().expect("samples/ can be read");
-    let names = folders.map(|entry| entry.expect("an entry").file_name());
-    let names = names.map(|name| name.to_string_lossy().into_owned());
-    names.filter(|name| name.starts_with(|first: char| first.is_ascii_digit())).collect()
-}
-
 #[test]
 fn every_stage_compiles() {
     let stages = stages();
@@ -126,7 +118,7 @@ fn a_structure_at_an_address_that_rust_does_not_know_is_refused_by_name() {
 #[test]
 fn every_file_is_used_by_a_chapter() {
     let mut used = BTreeSet::new();
-    let plain = chapters().into_iter().map(|chapter| (chapter, vec![]));
+    let plain = run::chapters().into_iter().map(|chapter| (chapter, vec![]));
     // Their pictures take one pipeline of many.
     let gathered = ("04_jitter_camera".to_owned(), vec!["--samples", "0..1"]);
     let best = ("24_accuracy".to_owned(), vec!["--set", "rung=64 bits"]);

@@ -12,7 +12,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use image::{Rgb, RgbImage};
 
-use run::narrow::Narrow;
+use run::layer::Layer;
 
 use desk::{Desk, KEY_COMMA, KEY_ESCAPE, KEY_F1, KEY_HOME, KEY_PERIOD, KEY_SPACE, KEY_TAB, wait};
 
@@ -328,9 +328,9 @@ fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
 }
 
 /// The narrowest device's environment, with what else is wrong with it.
-fn narrow(faults: &str) -> (Narrow, Vec<(&'static str, std::ffi::OsString)>) {
-    let narrow = Narrow::new(faults);
-    let environment = narrow.environment().into();
+fn narrow(faults: &str) -> (Layer, Vec<(&'static str, std::ffi::OsString)>) {
+    let narrow = Layer::narrow(faults);
+    let environment = narrow.environment();
     (narrow, environment)
 }
 

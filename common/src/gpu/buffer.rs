@@ -1,5 +1,8 @@
 //! A buffer and its memory: uploaded once, addressed from shaders, read back for tests.
 
+use std::ffi::c_void;
+use std::ptr::NonNull;
+
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 use bytemuck::Pod;
@@ -120,11 +123,16 @@ impl Buffer {
                 allocation_scheme: AllocationScheme::GpuAllocatorManaged,
             })
             .with_context(|| format!("no memory for the buffer '{name}' of {size} bytes"))?;
-        // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
-        unsafe {
-            gpu.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset())?;
-        }
+        // SAFETY: the memory is bound below and freed after the buffer.
+        let (memory, offset) = unsafe { (allocation.memory(), allocation.offset()) };
+        // Where the host has no room to map it, some drivers hand out `MAP_FAILED`, which is -1.
+        let start = |at: NonNull<c_void>| at.addr().get().wrapping_sub(offset as usize);
+        let unmapped = allocation.mapped_ptr().is_some_and(|at| start(at) == usize::MAX);
         buffer.allocation = Some(allocation);
+        ensure!(!unmapped, "no address space for the buffer '{name}' of {size} bytes");
+        // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
+        unsafe { gpu.device.bind_buffer_memory(handle, memory, offset) }
+            .with_context(|| format!("no memory for the buffer '{name}' of {size} bytes"))?;
         if addressed {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.

@@ -1,9 +1,21 @@
 //! Submission: commands are recorded, submitted and waited for.
 
+use std::thread;
+use std::time::Duration;
+
 use anyhow::{Context, Result, anyhow};
 use ash::vk;
 
 use super::Gpu;
+use crate::app::output;
+
+/// How long one submission may take: far longer than systems let a device work without an answer, and
+/// than a software driver builds the largest model in.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+/// How often a wait is begun again for which the host had no memory, and how long to leave it alone.
+const TRIES: u32 = 50;
+const PAUSE: Duration = Duration::from_millis(20);
 
 impl Gpu {
     /// Records commands with `record`, submits them, and waits until the device has done them.
@@ -66,12 +78,35 @@ impl Gpu {
         // SAFETY: cmd is recorded; the fence is destroyed after the wait.
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
-            let done = self
-                .device
-                .queue_submit2(self.queue, &submit, fence)
-                .and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
+            let submitted = self.device.queue_submit2(self.queue, &submit, fence);
+            let done = submitted.and_then(|()| self.wait(fence));
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }
+    }
+
+    /// Waits until the device has done what signals a fence, or is lost, which ends its work too.
+    ///
+    /// Whoever waits may free afterwards what the device has used. So this never returns while the device
+    /// may be at work: a wait that goes on failing, or that has no end, ends the process.
+    fn wait(&self, fence: vk::Fence) -> Result<(), vk::Result> {
+        let patience = PATIENCE.as_nanos() as u64;
+        let mut last = vk::Result::TIMEOUT;
+        for _ in 0..TRIES {
+            // SAFETY: the fence is alive, and submitted.
+            match unsafe { self.device.wait_for_fences(&[fence], true, patience) } {
+                Ok(()) => return Ok(()),
+                Err(vk::Result::ERROR_DEVICE_LOST) => return Err(vk::Result::ERROR_DEVICE_LOST),
+                Err(vk::Result::TIMEOUT) => break,
+                Err(error) => last = error,
+            }
+            thread::sleep(PAUSE);
+        }
+        let why = match last {
+            vk::Result::TIMEOUT => format!("has not answered for {} s", PATIENCE.as_secs()),
+            error => format!("cannot be waited for: {error}"),
+        };
+        output::complain(&format!("error: {} {why}", self.name));
+        std::process::exit(1)
     }
 }

@@ -1,28 +1,8 @@
 //! A device made and destroyed, and its swapchain.
 
-use std::ffi::c_void;
-
 use ash::vk;
 
-use crate::entry::LINK;
 use crate::{below, faults, memory, queues};
-
-/// `VkLayerDeviceCreateInfo`, as far as the layer reads it.
-#[repr(C)]
-struct DeviceLink {
-    kind: vk::StructureType,
-    next: *const c_void,
-    function: u32,
-    link: *mut NextDevice,
-}
-
-/// `VkLayerDeviceLink`.
-#[repr(C)]
-struct NextDevice {
-    next: *mut NextDevice,
-    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
-    get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
-}
 
 pub unsafe extern "system" fn create(
     physical: vk::PhysicalDevice,
@@ -30,18 +10,11 @@ pub unsafe extern "system" fn create(
     allocator: *const vk::AllocationCallbacks,
     device: *mut vk::Device,
 ) -> vk::Result {
-    // SAFETY: the loader puts its structure, which may be written, in the chain of every layer.
+    // SAFETY: the loader calls this once for each device; the other arguments are the caller's.
     unsafe {
-        let mut at = (*info).p_next.cast_mut().cast::<DeviceLink>();
-        while !at.is_null()
-            && ((*at).kind, (*at).function) != (vk::StructureType::LOADER_DEVICE_CREATE_INFO, LINK)
-        {
-            at = (*at).next.cast_mut().cast();
-        }
-        let Some(found) = at.as_mut() else { return vk::Result::ERROR_INITIALIZATION_FAILED };
-        let get_proc_addr = (*found.link).get_device_proc_addr;
-        // The next layer finds its own link here.
-        found.link = (*found.link).next;
+        let Some(get_proc_addr) = layer::below_device(info) else {
+            return vk::Result::ERROR_INITIALIZATION_FAILED;
+        };
         // However many families are asked for, the one below serves them all.
         let family = queues::family_below(physical);
         let asked = (*info).p_queue_create_infos;

@@ -1,22 +1,11 @@
-//! Where the loader enters the layer, and the lists of the functions that the layer has of its own:
-//! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
+//! Where the loader enters the layer, and the lists of the functions that the layer has of its own.
 
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{c_char, c_void};
 
 use ash::vk;
+use layer::Negotiation;
 
 use crate::{below, device, memory, physical, queues};
-
-/// `VkNegotiateLayerInterface`.
-#[repr(C)]
-pub struct Negotiation {
-    kind: u32,
-    next: *mut c_void,
-    version: u32,
-    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
-    get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
-    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
-}
 
 /// Settles on version 2 of the interface, the present one.
 ///
@@ -28,12 +17,7 @@ pub unsafe extern "system" fn vkNegotiateLoaderLayerInterfaceVersion(
     negotiation: *mut Negotiation,
 ) -> vk::Result {
     // SAFETY: the caller's promise.
-    let negotiation = unsafe { &mut *negotiation };
-    negotiation.version = 2;
-    negotiation.get_instance_proc_addr = get_instance_proc_addr;
-    negotiation.get_device_proc_addr = get_device_proc_addr;
-    negotiation.get_physical_device_proc_addr = None;
-    vk::Result::SUCCESS
+    unsafe { (*negotiation).settle(get_instance_proc_addr, get_device_proc_addr) }
 }
 
 /// The layer's function of this name, if it has one for instances and physical devices.
@@ -99,9 +83,9 @@ unsafe extern "system" fn get_instance_proc_addr(
 ) -> vk::PFN_vkVoidFunction {
     // SAFETY: names end in a zero byte, and the addresses are those of functions of Vulkan's convention.
     unsafe {
-        let own = instance_function(CStr::from_ptr(name).to_str().unwrap_or_default());
+        let own = instance_function(layer::text(name));
         match own {
-            Some(own) => std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(own),
+            Some(own) => layer::function(own),
             None if instance == vk::Instance::null() => None,
             None => (below::instance(instance).get_proc_addr)(instance, name),
         }
@@ -115,55 +99,25 @@ unsafe extern "system" fn get_device_proc_addr(
     // SAFETY: as above.
     unsafe {
         let below = (below::device(device).get_proc_addr)(device, name);
-        let own = device_function(CStr::from_ptr(name).to_str().unwrap_or_default());
+        let own = device_function(layer::text(name));
         match (own, below) {
             // A function of an extension that is not enabled is nobody's.
-            (Some(own), Some(_)) => {
-                std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(own)
-            }
+            (Some(own), Some(_)) => layer::function(own),
             _ => below,
         }
     }
 }
-
-/// `VkLayerInstanceCreateInfo`, as far as the layer reads it.
-#[repr(C)]
-struct InstanceLink {
-    kind: vk::StructureType,
-    next: *const c_void,
-    function: u32,
-    link: *mut NextInstance,
-}
-
-/// `VkLayerInstanceLink`.
-#[repr(C)]
-struct NextInstance {
-    next: *mut NextInstance,
-    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
-    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
-}
-
-/// `VK_LAYER_LINK_INFO`.
-pub const LINK: u32 = 0;
 
 unsafe extern "system" fn create_instance(
     info: *const vk::InstanceCreateInfo,
     allocator: *const vk::AllocationCallbacks,
     instance: *mut vk::Instance,
 ) -> vk::Result {
-    // SAFETY: the loader puts its structure, which may be written, in the chain of every layer.
+    // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
     unsafe {
-        let mut at = (*info).p_next.cast_mut().cast::<InstanceLink>();
-        while !at.is_null()
-            && ((*at).kind, (*at).function)
-                != (vk::StructureType::LOADER_INSTANCE_CREATE_INFO, LINK)
-        {
-            at = (*at).next.cast_mut().cast();
-        }
-        let Some(found) = at.as_mut() else { return vk::Result::ERROR_INITIALIZATION_FAILED };
-        let get_proc_addr = (*found.link).get_instance_proc_addr;
-        // The next layer finds its own link here.
-        found.link = (*found.link).next;
+        let Some(get_proc_addr) = layer::below_instance(info) else {
+            return vk::Result::ERROR_INITIALIZATION_FAILED;
+        };
         let create = get_proc_addr(vk::Instance::null(), c"vkCreateInstance".as_ptr());
         let create =
             std::mem::transmute::<vk::PFN_vkVoidFunction, vk::PFN_vkCreateInstance>(create);

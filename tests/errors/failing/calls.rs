@@ -1,0 +1,197 @@
+//! The functions that may fail, how often each was called, and the one call that does.
+
+use std::collections::BTreeMap;
+use std::ffi::{CStr, c_char, c_void};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
+
+use ash::vk;
+
+/// A function that returns a `VkResult`, with the layer's function in its place.
+pub struct Function {
+    /// Its name.
+    pub name: &'static CStr,
+    /// What the layer gives out for it.
+    pub own: *const c_void,
+    below: AtomicUsize,
+    calls: AtomicUsize,
+}
+
+// SAFETY: the pointer is that of a function.
+unsafe impl Sync for Function {}
+
+/// Declares [`FUNCTIONS`]: each name with its number of arguments, spelled out as letters.
+///
+/// Arguments are passed on as they came, each as a machine word: handles, pointers, numbers and flags are
+/// no larger, and the calling conventions of the 64-bit systems pass them all alike.
+macro_rules! functions {
+    ($($name:ident($($argument:ident)*))*) => {
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "the functions' own names")]
+        #[derive(Clone, Copy)]
+        enum Number { $($name),* }
+
+        $(
+            #[allow(non_snake_case, reason = "the function's own name")]
+            unsafe extern "system" fn $name($($argument: usize),*) -> vk::Result {
+                let function = &FUNCTIONS[Number::$name as usize];
+                type Below = unsafe extern "system" fn($($argument: functions!(@word $argument)),*) -> vk::Result;
+                // SAFETY: the address is that of the function below, which takes these arguments.
+                function.answer(|address| unsafe {
+                    std::mem::transmute::<usize, Below>(address)($($argument),*)
+                })
+            }
+        )*
+
+        /// Every function that the samples call and that may fail.
+        pub static FUNCTIONS: [Function; [$(stringify!($name)),*].len()] = [$(Function {
+            // SAFETY: the text ends in a zero byte.
+            name: unsafe { CStr::from_bytes_with_nul_unchecked(concat!(stringify!($name), "\0").as_bytes()) },
+            own: $name as *const c_void,
+            below: AtomicUsize::new(0),
+            calls: AtomicUsize::new(0),
+        }),*];
+    };
+    (@word $argument:ident) => { usize };
+}
+
+functions! {
+    vkCreateInstance(a b c)
+    vkEnumeratePhysicalDevices(a b c)
+    vkEnumerateDeviceExtensionProperties(a b c d)
+    vkCreateDevice(a b c d)
+    vkCreateDebugUtilsMessengerEXT(a b c d)
+    vkGetPhysicalDeviceSurfaceSupportKHR(a b c d)
+    vkGetPhysicalDeviceSurfaceCapabilitiesKHR(a b c)
+    vkGetPhysicalDeviceSurfaceFormatsKHR(a b c d)
+    vkGetPhysicalDeviceSurfacePresentModesKHR(a b c d)
+    vkCreateXlibSurfaceKHR(a b c d)
+    vkCreateXcbSurfaceKHR(a b c d)
+    vkCreateWaylandSurfaceKHR(a b c d)
+    vkAllocateMemory(a b c d)
+    vkMapMemory(a b c d e f)
+    vkBindBufferMemory(a b c d)
+    vkBindImageMemory(a b c d)
+    vkCreateBuffer(a b c d)
+    vkCreateImage(a b c d)
+    vkCreateImageView(a b c d)
+    vkCreateSampler(a b c d)
+    vkCreateShaderModule(a b c d)
+    vkCreatePipelineCache(a b c d)
+    vkGetPipelineCacheData(a b c d)
+    vkCreatePipelineLayout(a b c d)
+    vkCreateDescriptorSetLayout(a b c d)
+    vkCreateDescriptorPool(a b c d)
+    vkAllocateDescriptorSets(a b c)
+    vkFreeDescriptorSets(a b c d)
+    vkCreateComputePipelines(a b c d e f)
+    vkCreateGraphicsPipelines(a b c d e f)
+    vkCreateRayTracingPipelinesKHR(a b c d e f g)
+    vkGetRayTracingShaderGroupHandlesKHR(a b c d e f)
+    vkCreateAccelerationStructureKHR(a b c d)
+    vkCreateQueryPool(a b c d)
+    vkGetQueryPoolResults(a b c d e f g h)
+    vkCreateFence(a b c d)
+    vkResetFences(a b c)
+    vkGetFenceStatus(a b)
+    vkWaitForFences(a b c d e)
+    vkCreateSemaphore(a b c d)
+    vkCreateCommandPool(a b c d)
+    vkResetCommandPool(a b c)
+    vkAllocateCommandBuffers(a b c)
+    vkBeginCommandBuffer(a b)
+    vkEndCommandBuffer(a)
+    vkQueueSubmit(a b c d)
+    vkQueueSubmit2(a b c d)
+    vkQueueWaitIdle(a)
+    vkDeviceWaitIdle(a)
+    vkCreateSwapchainKHR(a b c d)
+    vkGetSwapchainImagesKHR(a b c d)
+    vkAcquireNextImageKHR(a b c d e f)
+    vkQueuePresentKHR(a b)
+    vkGetPipelineExecutablePropertiesKHR(a b c d)
+    vkGetPipelineExecutableStatisticsKHR(a b c d)
+    vkSetDebugUtilsObjectNameEXT(a b)
+}
+
+/// The layer's function in place of the one below, if it may fail; else the one below.
+///
+/// # Safety
+/// `name` ends in a zero byte, and `below` is the function of that name.
+pub unsafe fn over(name: *const c_char, below: vk::PFN_vkVoidFunction) -> vk::PFN_vkVoidFunction {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let (name, found) = (CStr::from_ptr(name), below?);
+        match FUNCTIONS.iter().find(|function| function.name == name) {
+            Some(function) => {
+                function.below.store(found as usize, Ordering::Relaxed);
+                layer::function(function.own)
+            }
+            None => below,
+        }
+    }
+}
+
+impl Function {
+    /// Counts a call, and lets it fail if it is the chosen one.
+    fn answer(&self, below: impl FnOnce(usize) -> vk::Result) -> vk::Result {
+        let number = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
+        let below = || below(self.below.load(Ordering::Relaxed));
+        match chosen() {
+            Some(fault) if fault.meets(self.name, number) => {
+                // A device that is lost does not go on working.
+                if fault.result == vk::Result::ERROR_DEVICE_LOST && self.name == c"vkWaitForFences"
+                {
+                    let _ = below();
+                }
+                fault.result
+            }
+            _ => below(),
+        }
+    }
+}
+
+/// What the variable `FAIL` asks for.
+struct Fault {
+    name: String,
+    first: usize,
+    all_after: bool,
+    result: vk::Result,
+}
+
+impl Fault {
+    fn meets(&self, name: &CStr, number: usize) -> bool {
+        self.name.as_bytes() == name.to_bytes()
+            && (number == self.first || self.all_after && number > self.first)
+    }
+}
+
+fn chosen() -> Option<&'static Fault> {
+    static CHOSEN: OnceLock<Option<Fault>> = OnceLock::new();
+    let parse = || {
+        let text = std::env::var("FAIL").ok()?;
+        let mut words = text.split(':');
+        let (name, number, result) = (words.next()?, words.next()?, words.next()?);
+        Some(Fault {
+            name: name.to_owned(),
+            first: number.trim_end_matches('+').parse().ok()?,
+            all_after: number.ends_with('+'),
+            result: vk::Result::from_raw(result.parse().ok()?),
+        })
+    };
+    CHOSEN.get_or_init(parse).as_ref()
+}
+
+/// Writes how often each function was called to the file that `CALLS` names, a line a function.
+pub fn tell() {
+    static TOLD: Mutex<()> = Mutex::new(());
+    let Some(file) = std::env::var_os("CALLS") else { return };
+    let _alone = TOLD.lock();
+    let counts: BTreeMap<_, _> = FUNCTIONS
+        .iter()
+        .map(|function| (function.name.to_string_lossy(), function.calls.load(Ordering::Relaxed)))
+        .filter(|(_, calls)| *calls > 0)
+        .collect();
+    let lines: String = counts.iter().map(|(name, calls)| format!("{name} {calls}\n")).collect();
+    // A test that finds no file fails.
+    let _ = std::fs::write(file, lines);
+}

@@ -1,0 +1,127 @@
+//! What the loader and a Vulkan layer tell each other:
+//! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
+
+use std::ffi::{CStr, c_char, c_void};
+
+use ash::vk;
+
+/// `VkNegotiateLayerInterface`.
+#[repr(C)]
+pub struct Negotiation {
+    kind: u32,
+    next: *mut c_void,
+    version: u32,
+    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+    get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
+}
+
+impl Negotiation {
+    /// Settles on version 2 of the interface, the present one, and on where functions are found.
+    pub fn settle(
+        &mut self,
+        get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+        get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+    ) -> vk::Result {
+        self.version = 2;
+        self.get_instance_proc_addr = get_instance_proc_addr;
+        self.get_device_proc_addr = get_device_proc_addr;
+        self.get_physical_device_proc_addr = None;
+        vk::Result::SUCCESS
+    }
+}
+
+/// `VkLayerInstanceCreateInfo` and `VkLayerDeviceCreateInfo`, as far as a layer reads them.
+#[repr(C)]
+struct Link<T> {
+    kind: vk::StructureType,
+    next: *const c_void,
+    function: u32,
+    below: *mut T,
+}
+
+/// `VK_LAYER_LINK_INFO`.
+const LINK: u32 = 0;
+
+/// `VkLayerInstanceLink`.
+#[repr(C)]
+struct BelowInstance {
+    next: *mut BelowInstance,
+    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+    get_physical_device_proc_addr: Option<vk::PFN_vkGetInstanceProcAddr>,
+}
+
+/// `VkLayerDeviceLink`.
+#[repr(C)]
+struct BelowDevice {
+    next: *mut BelowDevice,
+    get_instance_proc_addr: vk::PFN_vkGetInstanceProcAddr,
+    get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
+}
+
+/// Where the functions below an instance are found that is being made; the next layer finds its own.
+///
+/// # Safety
+/// `info` comes from the loader, once for each instance.
+pub unsafe fn below_instance(
+    info: *const vk::InstanceCreateInfo,
+) -> Option<vk::PFN_vkGetInstanceProcAddr> {
+    // SAFETY: the loader puts its structure, which may be written, in the chain of every layer.
+    unsafe {
+        let link = link((*info).p_next, vk::StructureType::LOADER_INSTANCE_CREATE_INFO)?;
+        let below: &BelowInstance = &*link.below;
+        link.below = below.next;
+        Some(below.get_instance_proc_addr)
+    }
+}
+
+/// The same for a device.
+///
+/// # Safety
+/// As for [`below_instance`].
+pub unsafe fn below_device(
+    info: *const vk::DeviceCreateInfo,
+) -> Option<vk::PFN_vkGetDeviceProcAddr> {
+    // SAFETY: as above.
+    unsafe {
+        let link = link((*info).p_next, vk::StructureType::LOADER_DEVICE_CREATE_INFO)?;
+        let below: &BelowDevice = &*link.below;
+        link.below = below.next;
+        Some(below.get_device_proc_addr)
+    }
+}
+
+/// # Safety
+/// `chain` is the loader's, and `kind` goes with `T`.
+unsafe fn link<T>(chain: *const c_void, kind: vk::StructureType) -> Option<&'static mut Link<T>> {
+    let mut at = chain.cast_mut().cast::<Link<T>>();
+    // SAFETY: every structure of a chain begins with its kind and a pointer to the next; only the loader's
+    // has a function.
+    unsafe {
+        while let Some(found) = at.as_mut() {
+            if found.kind == kind && found.function == LINK {
+                return Some(found);
+            }
+            at = found.next.cast_mut().cast();
+        }
+    }
+    None
+}
+
+/// A function's name; empty if it is no text.
+///
+/// # Safety
+/// `name` ends in a zero byte and lives as long as the result is used.
+pub unsafe fn text<'a>(name: *const c_char) -> &'a str {
+    // SAFETY: the caller's promise.
+    unsafe { CStr::from_ptr(name) }.to_str().unwrap_or_default()
+}
+
+/// A function as Vulkan hands it out.
+///
+/// # Safety
+/// The address is that of a function with Vulkan's calling convention.
+pub unsafe fn function(address: *const c_void) -> vk::PFN_vkVoidFunction {
+    // SAFETY: the caller's promise; a null pointer is no function.
+    unsafe { std::mem::transmute::<*const c_void, vk::PFN_vkVoidFunction>(address) }
+}

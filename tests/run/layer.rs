@@ -1,0 +1,89 @@
+//! Layers between a program and the driver, for tests alone.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use crate::command;
+
+/// A layer, made known to the Vulkan loader for as long as this lives.
+pub struct Layer {
+    folder: TempDir,
+    layers: String,
+    variables: Vec<(&'static str, OsString)>,
+}
+
+impl Layer {
+    /// The narrowest device: all is hidden that Vulkan need not offer. `faults` is what else is wrong with
+    /// it, in the words of `tests/gpus/narrow`.
+    pub fn narrow(faults: &str) -> Self {
+        // Validation holds the program to what it sees, without being asked.
+        let layers = format!("VK_LAYER_KHRONOS_validation:{}", narrow::NAME);
+        Self::new("narrow", narrow::NAME, layers, vec![("NARROW", faults.into())])
+    }
+
+    /// A call that fails: `fault` names it in the words of `tests/errors/failing`; empty for none.
+    pub fn failing(fault: &str) -> Self {
+        // Mesa's own layer, which sorts devices, crashes of some failures.
+        let alone = ("NODEVICE_SELECT", "1".into());
+        let variables = vec![("FAIL", fault.into()), alone];
+        Self::new("failing", failing::NAME, failing::NAME.to_owned(), variables)
+    }
+
+    fn new(
+        library: &str,
+        name: &str,
+        layers: String,
+        variables: Vec<(&'static str, OsString)>,
+    ) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let place = folder.path().join("vulkan/explicit_layer.d");
+        std::fs::create_dir_all(&place).expect("a folder");
+        let layer = serde_json::json!({
+            "name": name,
+            "type": "GLOBAL",
+            "library_path": path(library),
+            "api_version": "1.3.0",
+            "implementation_version": "1",
+            "description": "for tests alone",
+        });
+        let manifest = serde_json::json!({ "file_format_version": "1.2.0", "layer": layer });
+        let file = place.join(library).with_extension("json");
+        std::fs::write(file, manifest.to_string()).expect("a manifest");
+        Self { folder, layers, variables }
+    }
+
+    /// A sample under that layer.
+    pub fn command(&self, name: &str) -> Command {
+        let mut command = command(name);
+        command.envs(self.environment());
+        command
+    }
+
+    /// What a program's environment has to hold.
+    ///
+    /// The order in which the layers are named is that in which they are called, and validation has to
+    /// come first. Loaders from 1.3.234 to 1.3.246 call them in the order in which they find them instead
+    /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so this one is also to be found last.
+    pub fn environment(&self) -> Vec<(&'static str, OsString)> {
+        let known = std::env::var_os("XDG_DATA_DIRS").filter(|folders| !folders.is_empty());
+        let known = known.unwrap_or_else(|| "/usr/local/share:/usr/share".into());
+        let own = std::iter::once(PathBuf::from(self.folder.path()));
+        let folders = std::env::join_paths(std::env::split_paths(&known).chain(own));
+        let mut all = self.variables.clone();
+        all.push(("XDG_DATA_DIRS", folders.expect("plain names")));
+        all.push(("VK_INSTANCE_LAYERS", self.layers.clone().into()));
+        all
+    }
+}
+
+/// The layer's library: cargo puts it beside the tests that depend on it.
+fn path(library: &str) -> PathBuf {
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+    let test = std::env::current_exe().expect("a running program has a file");
+    let library = test.with_file_name(format!("{DLL_PREFIX}{library}{DLL_SUFFIX}"));
+    assert!(Path::new(&library).is_file(), "no {}", library.display());
+    library
+}
