@@ -1,10 +1,12 @@
 //! Files that are written whole or not at all.
 
+use std::collections::BTreeSet;
 use std::collections::hash_map::DefaultHasher;
 use std::fs::{self, Metadata};
 use std::hash::{Hash, Hasher};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result, anyhow, ensure};
 use tempfile::NamedTempFile;
@@ -17,10 +19,28 @@ use tempfile::NamedTempFile;
 /// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let failed = || format!("cannot write '{}'", path.display());
-    let (target, mut file) = begin(path).with_context(failed)?;
-    file.write_all(bytes).with_context(failed)?;
-    file.persist(target).map_err(|error| error.error).with_context(failed)?;
-    Ok(())
+    let mut unfinished = Unfinished::begin(path).with_context(failed)?;
+    unfinished.write(bytes).and_then(|()| unfinished.finish()).with_context(failed)
+}
+
+/// The temporary files that are being written.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Removes what is being written: the process is about to end. Who would write on waits for that.
+pub fn abandon() {
+    let files = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    files.iter().for_each(|file| drop(fs::remove_file(file)));
+    std::mem::forget(files);
+}
+
+/// Bytes of a cache's file; more was written by nobody here.
+const CACHED_BYTES: u64 = 256 << 20;
+
+/// A cache's file; `None` if there is none, or something that could deliver without end, as a pipe could.
+pub fn read_cached(path: &Path) -> Option<Vec<u8>> {
+    let metadata = fs::metadata(path).ok()?;
+    let fits = metadata.is_file() && metadata.len() <= CACHED_BYTES;
+    fits.then(|| fs::read(path).ok()).flatten()
 }
 
 /// What a cache keeps of `bytes`: them, then a hash of them, by which damage is noticed: a full disk's, or
@@ -46,7 +66,7 @@ fn seal(bytes: &[u8]) -> [u8; 8] {
 /// # Errors
 /// If the folder is missing or cannot be written, or something that is no file bears the name.
 pub fn check_writable(path: &Path) -> Result<()> {
-    begin(path).map(drop).with_context(|| format!("cannot write '{}'", path.display()))
+    Unfinished::begin(path).map(drop).with_context(|| format!("cannot write '{}'", path.display()))
 }
 
 /// Whether two paths lead to the same file, be it there or not.
@@ -54,37 +74,105 @@ pub fn same(a: &Path, b: &Path) -> bool {
     a == b || matches!((target(a), target(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Where a path leads, and an empty temporary file in the same folder.
-fn begin(path: &Path) -> Result<(PathBuf, NamedTempFile)> {
-    let target = target(path)?;
-    let existing = match fs::metadata(&target) {
-        Ok(metadata) => Some(metadata),
-        Err(error) if error.kind() == ErrorKind::NotFound => None,
-        Err(error) => return Err(error.into()),
-    };
-    // Renaming would put a file in the place of a device, `/dev/null` for one.
-    if let Some(metadata) = &existing {
-        ensure!(!metadata.is_dir(), "it is a folder");
-        ensure!(metadata.is_file(), "it is a device or a pipe, not a file");
-        // A rename asks for no right to write the file that it replaces.
-        ensure!(!metadata.permissions().readonly(), "it is read-only");
-    }
-    let folder = target.parent().context("it has no folder")?;
-    let mut builder = tempfile::Builder::new();
-    permit(&mut builder, existing);
-    // The error's text would name the temporary file, which means nothing to the reader.
-    let failed = |error: std::io::Error| {
-        anyhow!("no file can be made in '{}': {}", folder.display(), error.kind())
-    };
-    let file = builder.tempfile_in(folder).map_err(failed)?;
-    Ok((target, file))
+/// A file that is being written, under another name beside its own.
+struct Unfinished {
+    target: PathBuf,
+    file: Option<NamedTempFile>,
+    temporary: PathBuf,
 }
+
+impl Unfinished {
+    /// Where a path leads, and an empty temporary file in the same folder.
+    fn begin(path: &Path) -> Result<Self> {
+        let target = target(path)?;
+        let existing = match fs::metadata(&target) {
+            Ok(metadata) => Some(metadata),
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(error) => return Err(error.into()),
+        };
+        let folder = target.parent().context("it has no folder")?;
+        if let Some(metadata) = &existing {
+            check_replaceable(&target, folder, metadata)?;
+        }
+        let mut builder = tempfile::Builder::new();
+        permit(&mut builder, existing);
+        // The error's text would name the temporary file, which means nothing to the reader.
+        let failed = |error: std::io::Error| {
+            anyhow!("no file can be made in '{}': {}", folder.display(), error.kind())
+        };
+        let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = builder.tempfile_in(folder).map_err(failed)?;
+        let temporary = file.path().to_owned();
+        unfinished.insert(temporary.clone());
+        Ok(Self { target, file: Some(file), temporary })
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<()> {
+        let file = self.file.as_mut().context("it was written before")?;
+        // As above, the kind alone.
+        file.write_all(bytes).map_err(|error| anyhow!("{}", error.kind()))
+    }
+
+    fn finish(mut self) -> Result<()> {
+        let _alone = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = self.file.take().context("it was written before")?;
+        file.persist(&self.target).map_err(|error| anyhow!("{}", error.error.kind()))?;
+        Ok(())
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        // Removes it, unless it has become the file itself.
+        drop(self.file.take());
+        unfinished.remove(&self.temporary);
+    }
+}
+
+/// Fails if a file must not be replaced: a rename asks for fewer rights than writing does.
+fn check_replaceable(target: &Path, folder: &Path, metadata: &Metadata) -> Result<()> {
+    // Renaming would put a file in the place of a device, `/dev/null` for one.
+    ensure!(!metadata.is_dir(), "it is a folder");
+    ensure!(metadata.is_file(), "it is a device or a pipe, not a file");
+    ensure!(!metadata.permissions().readonly(), "it is read-only");
+    fs::File::options().write(true).open(target).map_err(|error| anyhow!("{}", error.kind()))?;
+    ensure!(may_rename(folder, metadata), "it belongs to another, in a folder that keeps it so");
+    Ok(())
+}
+
+/// Whether this process may replace a file in a folder that it can write to: in one with the sticky bit, as
+/// `/tmp` has it, only the file's owner and the folder's may.
+#[cfg(unix)]
+fn may_rename(folder: &Path, file: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    // SAFETY: the call has no preconditions.
+    let this = unsafe { libc::geteuid() };
+    let Ok(folder) = fs::metadata(folder) else { return true };
+    let sticky = folder.mode() & 0o1000 != 0;
+    !sticky || this == 0 || this == file.uid() || this == folder.uid()
+}
+
+#[cfg(not(unix))]
+fn may_rename(_: &Path, _: &Metadata) -> bool {
+    true
+}
+
+/// How many links may lead from one to the next, as in Linux.
+const MOST_LINKS: usize = 40;
 
 /// The path with links resolved; its last part need not be there.
 fn target(path: &Path) -> Result<PathBuf> {
     if let Ok(existing) = path.canonicalize() {
         return Ok(existing);
     }
+    // A link to what is not there yet is followed, too.
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&path) else { break };
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    ensure!(fs::read_link(&path).is_err(), "it is a link that leads in a circle");
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -158,6 +246,30 @@ mod tests {
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read_to_string(&file).unwrap(), "new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_what_is_not_there_yet_is_followed_and_a_circle_refused() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link, circle] = ["file", "link", "circle"].map(|name| folder.path().join(name));
+        symlink("file", &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        symlink("circle", &circle).unwrap();
+        let error = format!("{:#}", check_writable(&circle).unwrap_err());
+        assert!(error.ends_with("it is a link that leads in a circle"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_in_the_place_of_a_cache_is_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success() && read_cached(&pipe).is_none());
     }
 
     #[cfg(unix)]

@@ -37,7 +37,7 @@ const PLACE: [f32; 12] = [
 const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 fn main() -> ExitCode {
-    finish(run())
+    finish(run)
 }
 
 /// Every layer makes its object, hands it on, and destroys it however the rest ended.

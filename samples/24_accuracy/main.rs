@@ -39,8 +39,10 @@ use probe::Probe;
 use specimen::Specimen;
 
 fn main() -> ExitCode {
-    let parsed = Args::parse_with::<Lab>(env!("CARGO_BIN_NAME")).map_err(Into::into);
-    app::finish(parsed.and_then(|(args, lab)| lab.start(&args)))
+    app::finish(|| {
+        let (args, lab) = Args::parse_with::<Lab>(env!("CARGO_BIN_NAME"))?;
+        lab.start(&args)
+    })
 }
 
 struct Demo {

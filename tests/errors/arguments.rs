@@ -81,6 +81,9 @@ fn sizes() {
     for size in ["4294967295x1", "1x4294967295", "4294967295x4294967295"] {
         refused_by(sized(size), 2, &[&format!("{size} is too large for "), " a side and "]);
     }
+    let mut window = run::command(crate::SAMPLE);
+    window.args(["--size", "65536x10"]);
+    refused_by(window, 2, &["65536x10 is too large for a window"]);
 }
 
 fn sized(size: &str) -> std::process::Command {
@@ -124,6 +127,15 @@ fn what_only_tells_ends_with_0() {
         assert!(output.status.success() && output.stderr.is_empty(), "{argument}");
         assert!(told.contains(words), "{argument}: {told}");
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_that_nobody_can_read_is_an_error() {
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = sample().arg("--help").stdout(full).output().unwrap();
+    let (code, line) = run::refusal(output);
+    assert!(code == 1 && line.contains("cannot write to standard output"), "{line}");
 }
 
 #[test]

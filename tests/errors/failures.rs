@@ -1,7 +1,8 @@
 //! Calls of Vulkan that fail: each is answered in one line, and nothing is left or freed too early.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use run::layer::Layer;
 
@@ -35,49 +36,44 @@ const NEEDLESS: [&str; 5] = [
     "vkWaitForFences",
 ];
 
-fn started(sample: &str, layer: &Layer) -> Command {
-    let mut command = layer.command(sample);
-    command.args(["--headless", "--size", "8x8"]);
-    command
-}
-
-fn output(sample: &str, fault: &str) -> Output {
-    started(sample, &Layer::failing(fault)).output().expect("the sample starts")
-}
-
-/// The functions that a run calls, and how often.
-fn calls(sample: &str) -> Vec<(String, usize)> {
+/// Runs it with a call that fails; also how often each function was called, if it came to an end.
+fn run(sample: &str, fault: &str) -> (Output, BTreeMap<String, usize>) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("calls");
-    let status = started(sample, &Layer::failing("")).env("CALLS", &file).status();
-    assert!(status.expect("the sample starts").success());
-    let told = fs::read_to_string(file).unwrap();
+    let layer = Layer::failing(fault);
+    let mut command = layer.command(sample);
+    command.args(["--headless", "--size", "8x8"]).env("CALLS", &file);
+    let output = command.output().expect("the sample starts");
+    let told = fs::read_to_string(file).unwrap_or_default();
     let pair = |line: &str| {
         let (name, number) = line.split_once(' ').unwrap();
         (name.to_owned(), number.parse().unwrap())
     };
-    told.lines().map(pair).collect()
+    (output, told.lines().map(pair).collect())
 }
 
 /// Lets calls of each function fail, those of these numbers among so many, and holds the answers.
 fn answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) {
-    let calls = calls(sample);
+    let (whole, calls) = run(sample, "");
+    assert!(whole.status.success());
     assert!(calls.len() > 20, "{calls:?}");
     let mut tried = 0;
-    for (function, count) in calls {
+    for (function, &count) in &calls {
         let needless = NEEDLESS.contains(&function.as_str());
         for (number, result) in numbers(count)
             .into_iter()
-            .flat_map(|number| results(&function).iter().map(move |result| (number, *result)))
+            .flat_map(|number| results(function).iter().map(move |result| (number, *result)))
         {
             let fault = format!("{function}:{number}:{result}");
-            let output = output(sample, &fault);
+            let (output, now) = run(sample, &fault);
             let errors = String::from_utf8_lossy(&output.stderr);
-            tried += 1;
-            if output.status.success() && needless {
+            // How many bands a picture has depends on the time: this run may have had fewer calls.
+            let unmet = now.get(function).is_some_and(|&calls| calls < number);
+            if output.status.success() && (needless || unmet) {
                 assert!(errors.is_empty(), "{sample} {fault}: {errors}");
                 continue;
             }
+            tried += 1;
             assert_eq!(output.status.code(), Some(1), "{sample} {fault}: {errors}");
             assert!(
                 errors.starts_with("error: ") && errors.lines().count() == 1,
@@ -86,6 +82,7 @@ fn answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) {
         }
     }
     println!("{sample}: {tried} failures");
+    assert!(tried > 30);
 }
 
 /// The first and the last call.
@@ -109,7 +106,7 @@ fn every_call_of_every_chapter_may_fail() {
 
 #[test]
 fn a_device_that_is_never_to_be_waited_for_ends_the_process_in_one_line() {
-    let output = output("02_basic", "vkWaitForFences:1+:-1");
+    let (output, _) = run("02_basic", "vkWaitForFences:1+:-1");
     let (code, line) = run::refusal(output);
     assert_eq!(code, 1);
     assert!(line.contains("cannot be waited for"), "{line}");

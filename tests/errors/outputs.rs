@@ -95,6 +95,40 @@ fn a_run_that_is_killed_leaves_nothing() {
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_asked_to_end_leaves_no_half_written_file() {
+    let signal = |child: &std::process::Child, name: &str| {
+        let id = child.id().to_string();
+        let sent = std::process::Command::new("kill").args(["-s", name, &id]).status().unwrap();
+        assert!(sent.success());
+    };
+    let mut caught = 0;
+    for name in ["INT", "TERM", "HUP"].into_iter().cycle().take(12) {
+        let folder = tempfile::tempdir().unwrap();
+        let files = || {
+            let files = folder.path().read_dir().unwrap();
+            files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
+        };
+        // It writes after each sample. The second signal does not wait for the end of the writing.
+        let mut command = run::command("04_jitter_camera");
+        command.args(["--size", "400x400", "--samples", "0..100000", "--save-every", "0"]);
+        command.current_dir(&folder).args(["--save", "a.sums"]).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        while !files().iter().any(|name| name.starts_with(".tmp")) {
+            assert!(child.try_wait().unwrap().is_none(), "it was to render for hours");
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        signal(&child, name);
+        std::thread::sleep(Duration::from_millis(1));
+        signal(&child, name);
+        caught += usize::from(child.wait().unwrap().code().is_none());
+        let left = files();
+        assert!(left.iter().all(|name| name == "a.sums"), "{name}: {left:?}");
+    }
+    assert!(caught > 0, "no run was ended by its second signal");
+}
+
 #[test]
 fn two_runs_may_write_the_same_file() {
     let folder = tempfile::tempdir().unwrap();

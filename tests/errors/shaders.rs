@@ -49,6 +49,16 @@ fn what_does_not_compile_has_file_and_line() {
 }
 
 #[test]
+fn what_a_compiler_cannot_be_shown_has_a_place_too() {
+    let file = "02_basic/camera.rgen";
+    let zero = folder(file, |text| format!("{text}// \0\n"));
+    let place = format!("{file}:{}: holds a zero byte", line_count(file) + 1);
+    shaders_refused(zero.path(), &[&place]);
+    let old = folder(file, |text| text.replace("#version 460", "#version 110"));
+    shaders_refused(old.path(), &["shader '02_basic/camera.rgen': the profile is invalid"]);
+}
+
+#[test]
 fn includes_that_are_wrong() {
     let file = "02_basic/push.glsl";
     let place = format!("{file}:{}: #include ", line_count(file) + 1);

@@ -209,6 +209,18 @@ impl Desk {
         self.x.sync();
     }
 
+    /// Ends the server, as if the user's session had crashed.
+    pub fn kill_server(&mut self) {
+        self.server.kill().expect("it runs");
+        self.server.wait().expect("it ends");
+    }
+
+    /// Destroys the window, as a careless client might.
+    pub fn destroy(&self) {
+        self.x.destroy_window(self.window).unwrap();
+        self.x.sync();
+    }
+
     /// Waits until the sample has ended, and returns how, and what it said.
     pub fn end(mut self) -> Output {
         let sample = self.sample.as_mut().expect("the sample runs");

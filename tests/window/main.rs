@@ -215,6 +215,15 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("the error", || tells_error(&desk).then_some(()));
     assert!(same(&desk.picture().0, &first), "the last good picture stays");
 
+    // What a compiler's bindings take for a mistake of the program: a zero byte, and a version of desktops.
+    for text in [format!("{good}\0"), good.replace("#version 460", "#version 110")] {
+        edit(&text);
+        wait("the error", || tells_error(&desk).then_some(()));
+        assert!(same(&desk.picture().0, &first), "the last good picture stays");
+        edit(&good);
+        wait("no error", || (!tells_error(&desk)).then_some(()));
+    }
+
     edit(&edited("    payload = vec4(1.0, 0.0, 0.0, 1.0);"));
     wait("no error", || (!tells_error(&desk)).then_some(()));
     let (red, _) = desk.picture();
@@ -241,6 +250,43 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     std::fs::write(&push, layout.replace(light, &format!("uint less;\n    {light}")))
         .expect("an edit");
     wait("the refusal", || tells_error(&desk).then_some(()));
+    desk.close();
+    ended_well(desk.end());
+}
+
+/// One line that begins like this, and exit code 1.
+#[track_caller]
+fn failed_with(output: Output, start: &str) {
+    let (code, line) = run::refusal(output);
+    assert_eq!(code, 1, "{line}");
+    assert!(line.starts_with(start), "{line}");
+}
+
+#[test]
+fn a_server_that_dies_ends_the_window_in_one_line() {
+    let _alone = alone();
+    let mut desk =
+        Desk::open("02_basic", &["--size", "320x200"], &[("RUST_BACKTRACE", "0".as_ref())]);
+    desk.kill_server();
+    failed_with(desk.end(), "error: the window system failed");
+}
+
+#[test]
+fn a_window_that_another_client_destroys_ends_in_one_line() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--size", "320x200"], &[("RUST_BACKTRACE", "0".as_ref())]);
+    desk.destroy();
+    failed_with(desk.end(), "error: ");
+}
+
+#[test]
+fn a_window_larger_than_pictures_may_be_shows_a_coarser_one() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--validate", "--size", "320x200"], &[]);
+    desk.resize(16_000, 4_500);
+    wait("the larger window", || (desk.shown().width() == 16_000).then_some(()));
+    let (picture, _) = desk.picture();
+    assert!(picture.width() > 320, "{} pixels wide", picture.width());
     desk.close();
     ended_well(desk.end());
 }

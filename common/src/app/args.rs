@@ -8,6 +8,7 @@ use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::compile_for::Family;
+use super::output;
 use super::samples::range;
 use crate::gpu::Arithmetic;
 use crate::usage::Usage;
@@ -97,9 +98,9 @@ pub struct Args {
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,
 
-    /// Compile these shaders and exit: how a window tries an edit, as a compiler may abort on one
-    #[arg(long, hide = true, num_args = 1.., value_name = "PATH")]
-    pub compile: Vec<String>,
+    /// Compile the shader on standard input: the child of a window, as a compiler may abort on an edit
+    #[arg(long, hide = true)]
+    pub answer_compile: bool,
 
     /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
     #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
@@ -172,7 +173,11 @@ impl Args {
         });
         let (args, more) = matches.map_err(|error| {
             if !error.use_stderr() {
-                error.exit();
+                let said = output::print(&error.to_string());
+                std::process::exit(i32::from(said.is_err_and(|error| {
+                    output::complain(&format!("error: {error:#}"));
+                    true
+                })));
             }
             // clap spreads an error over a paragraph; its first block says it all.
             let text = error.to_string();

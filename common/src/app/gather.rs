@@ -83,7 +83,7 @@ impl Gather {
                 "set like this, each of its frames is a picture of its own, not a sample of one";
             return Err(Usage(format!("{name} takes no --samples: {why}")).into());
         }
-        let interrupt = args.save.as_ref().map(|_| Interrupt::listen()).transpose()?;
+        let interrupt = args.save.as_ref().map(|_| Interrupt::listen());
         let origin = origin(name, args, gpu, sample)?;
         let pixels = args.size.width as usize * args.size.height as usize;
         let file = args.resume.as_deref().map(shown).unwrap_or_default();

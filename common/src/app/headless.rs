@@ -205,14 +205,11 @@ pub fn check_files(args: &Args) -> Result<()> {
 /// # Errors
 /// With what it allows.
 pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
-    let side = gpu.limits.max_image_dimension;
-    let rays = u64::from(gpu.limits.max_ray_dispatch_invocation_count);
-    let fits = size.width <= side
-        && size.height <= side
-        && u64::from(size.width) * u64::from(size.height) <= rays;
-    if fits {
+    if gpu.limits.fits(size) {
         return Ok(());
     }
+    let (side, rays) =
+        (gpu.limits.max_image_dimension, gpu.limits.max_ray_dispatch_invocation_count);
     let (width, height) = (size.width, size.height);
     Err(Usage(format!(
         "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",

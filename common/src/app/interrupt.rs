@@ -1,39 +1,72 @@
-//! The wish that a long render end early: Ctrl-C, or what a batch system sends before it kills.
+//! The wish that a program end early: Ctrl-C, a closed terminal, or what a batch system sends before it
+//! kills. A long render saves what it has; everything else ends at once and leaves no half-written file.
 
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Context, Result};
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
+#[cfg(unix)]
+use crate::files;
 
-/// Listens from now on. The first signal is only noted, a second one ends the process at once.
-pub struct Interrupt {
-    came: Arc<AtomicBool>,
-}
+/// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
+static LISTENING: AtomicBool = AtomicBool::new(false);
+static CAME: AtomicBool = AtomicBool::new(false);
+
+/// Whoever holds it is told of the first signal; a second one ends the process at once.
+pub struct Interrupt(());
 
 impl Interrupt {
-    /// Listens for `SIGINT` and `SIGTERM`.
-    ///
-    /// # Errors
-    /// If the system does not let it.
-    pub fn listen() -> Result<Self> {
-        let came = Arc::new(AtomicBool::new(false));
-        for signal in [SIGINT, SIGTERM] {
-            // In this order: the first signal finds the flag down.
-            flag::register_conditional_shutdown(signal, 1, came.clone())
-                .and_then(|_| flag::register(signal, came.clone()))
-                .context("cannot listen for signals")?;
-        }
-        Ok(Self { came })
+    /// Listens from now on.
+    pub fn listen() -> Self {
+        LISTENING.store(true, Ordering::Relaxed);
+        Self(())
     }
 
     /// Whether a signal has come.
     pub fn came(&self) -> bool {
-        self.came.load(Ordering::Relaxed)
+        CAME.load(Ordering::Relaxed)
     }
 }
+
+impl Drop for Interrupt {
+    fn drop(&mut self) {
+        LISTENING.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Takes up signals for as long as the process lives. Where that cannot be done they end it, as ever.
+#[cfg(unix)]
+pub fn watch() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    let watch = || {
+        // What started this process may have asked it to live on: `nohup`, or a shell's `&`.
+        let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+        let Ok(mut signals) = Signals::new(heeded) else { return };
+        for signal in signals.forever() {
+            let first = !CAME.swap(true, Ordering::Relaxed);
+            if first && LISTENING.load(Ordering::Relaxed) {
+                continue;
+            }
+            files::abandon();
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+        }
+    };
+    let _ = std::thread::Builder::new().name("signals".to_owned()).spawn(watch);
+}
+
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let mut now = std::mem::MaybeUninit::<libc::sigaction>::uninit();
+    // SAFETY: no new action is given, and the present one is read only if it was written.
+    unsafe {
+        libc::sigaction(signal, std::ptr::null(), now.as_mut_ptr()) == 0
+            && now.assume_init().sa_sigaction == libc::SIG_IGN
+    }
+}
+
+/// Elsewhere the system ends a process as ever.
+#[cfg(not(unix))]
+pub fn watch() {}
 
 /// The error that means "asked to stop, and what was done is saved": a program ends with exit code 3.
 #[derive(Debug)]

@@ -9,6 +9,7 @@ pub mod controls;
 mod gather;
 mod headless;
 mod interrupt;
+mod last_words;
 mod lighting;
 pub mod output;
 mod picture;
@@ -40,6 +41,7 @@ pub use samples::{Samples, range};
 pub use crate::gpu::shader::compile as compile_shader;
 
 use self::interrupt::Stopped;
+use crate::gpu::shader::apart;
 use crate::gpu::{self, Gpu, Image, Requirements};
 use crate::scene::text::shown;
 use crate::scene::{Scene, SceneOptions};
@@ -195,12 +197,14 @@ impl Frame<'_> {
 ///
 /// Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 asked to stop, and what was gathered is saved.
 pub fn run<S: Sample>(name: &'static str) -> ExitCode {
-    finish(Args::parse_for(name).map_err(Into::into).and_then(|args| start::<S>(name, &args)))
+    finish(|| start::<S>(name, &Args::parse_for(name)?))
 }
 
-/// The exit code of a program that ended with `result`; an error is printed as one line.
-pub fn finish(result: Result<()>) -> ExitCode {
-    let Err(error) = result else { return ExitCode::SUCCESS };
+/// Runs a program and returns its exit code; whatever ends it is printed as one line.
+pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    last_words::for_panics();
+    interrupt::watch();
+    let Err(error) = program() else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
     if error.is::<Stopped>() {
         output::complain(&line);
@@ -218,11 +222,8 @@ pub fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
     }
-    for shader in &args.compile {
-        compile_shader(shader)?;
-    }
-    if !args.compile.is_empty() {
-        return Ok(());
+    if args.answer_compile {
+        return apart::answer();
     }
     if args.answer_compile_for {
         return compile_for::answer(&S::requirements());

@@ -68,6 +68,26 @@ impl Limits {
         self.timestamp_mask != 0
     }
 
+    /// Whether a picture may be so large.
+    pub fn fits(&self, size: vk::Extent2D) -> bool {
+        let rays = u64::from(size.width) * u64::from(size.height);
+        size.width.max(size.height) <= self.max_image_dimension
+            && rays <= self.max_ray_dispatch_invocation_count.into()
+    }
+
+    /// The largest size of the same shape that a picture may have, and at most `size`.
+    pub fn fitted(&self, size: vk::Extent2D) -> vk::Extent2D {
+        if self.fits(size) {
+            return size;
+        }
+        let [width, height] = [size.width, size.height].map(f64::from);
+        let most = f64::from(self.max_ray_dispatch_invocation_count);
+        let side = f64::from(self.max_image_dimension);
+        let scale = (most / (width * height)).sqrt().min(side / width.max(height));
+        let [width, height] = [width, height].map(|side| ((side * scale) as u32).max(1));
+        vk::Extent2D { width, height }
+    }
+
     /// Reads the limits of a device that has the ray tracing extensions, and of a queue family.
     pub fn of(instance: &Instance, physical_device: vk::PhysicalDevice, family: u32) -> Self {
         let mut pipeline = vk::PhysicalDeviceRayTracingPipelinePropertiesKHR::default();
@@ -148,5 +168,28 @@ impl Limits {
             rounding_to_nearest_even: vulkan12.shader_rounding_mode_rte_float32 == vk::TRUE,
             signed_zero_inf_nan: vulkan12.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_that_is_too_large_keeps_its_shape() {
+        let limits = Limits {
+            max_image_dimension: 16_384,
+            max_ray_dispatch_invocation_count: 1 << 26,
+            ..Limits::default()
+        };
+        let size = |width, height| vk::Extent2D { width, height };
+        assert_eq!(limits.fitted(size(960, 600)), size(960, 600));
+        for wide in [size(16_000, 4_500), size(32_000, 300), size(u32::MAX, u32::MAX)] {
+            let fitted = limits.fitted(wide);
+            assert!(!limits.fits(wide) && limits.fits(fitted), "{fitted:?}");
+            let shape = |size: vk::Extent2D| f64::from(size.width) / f64::from(size.height);
+            assert!((shape(fitted) / shape(wide) - 1.0).abs() < 0.01, "{fitted:?}");
+        }
+        assert_eq!(limits.fitted(size(u32::MAX, 1)).height, 1);
     }
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use ash::{Device, vk};
 
-use crate::files::{sealed, unsealed, write_whole};
+use crate::files::{read_cached, sealed, unsealed, write_whole};
 
 /// The most bytes that are kept. A driver never forgets a pipeline, and shaders change: what has grown
 /// beyond this is begun anew.
@@ -42,7 +42,7 @@ impl PipelineCache {
         let start = header(properties);
         let name: String = start[8..].iter().map(|byte| format!("{byte:02x}")).collect();
         let file = folder.join(name).with_extension("cache");
-        let known = fs::read(&file).ok().and_then(|bytes| unsealed(&bytes).map(<[u8]>::to_vec));
+        let known = read_cached(&file).and_then(|bytes| unsealed(&bytes).map(<[u8]>::to_vec));
         let known = known.filter(|known| known.starts_with(&start)).unwrap_or_default();
         let info = vk::PipelineCacheCreateInfo::default().initial_data(&known);
         // SAFETY: the device is alive; the data is what this device has given, by its header and seal.

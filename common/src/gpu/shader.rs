@@ -4,6 +4,8 @@
 //! once and an error names its file and line. The result is kept under `target/spirv`, keyed by a
 //! hash of the whole text, includes and all.
 
+pub mod apart;
+
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
 use std::hash::{Hash, Hasher};
@@ -94,10 +96,13 @@ fn cached(
     defines: &[(&str, String)],
 ) -> Result<Vec<u32>> {
     let cached = cache_file(path, text, defines);
-    if let Some(words) = fs::read(&cached).ok().and_then(|bytes| unsealed(&bytes)) {
+    if let Some(words) = files::read_cached(&cached).and_then(|bytes| unsealed(&bytes)) {
         return Ok(words);
     }
-    let words = to_spirv(path, text, stage, defines)?;
+    let words = match apart::is_wanted() {
+        true => apart::compile(path, text, defines)?,
+        false => to_spirv(path, text, stage, defines)?,
+    };
     // A cache that cannot be written costs time at the next start, nothing else.
     let _ = cached.parent().map(fs::create_dir_all);
     let _ = files::write_whole(&cached, &sealed(&words));
@@ -156,6 +161,10 @@ impl Source {
         let metadata = fs::metadata(&file).with_context(failed)?;
         ensure!(metadata.is_file(), "{}: it is not a file", failed());
         let text = fs::read_to_string(&file).with_context(failed)?;
+        if let Some(zero) = text.find('\0') {
+            let line = 1 + text[..zero].matches('\n').count();
+            bail!("{path}:{line}: holds a zero byte: this is a binary file, not text");
+        }
         if !self.files.iter().any(|file| file == path) {
             self.files.push(path.to_owned());
         }
@@ -230,8 +239,9 @@ fn to_spirv(
     };
     let defines: Vec<_> =
         defines.iter().map(|(name, value)| (*name, Some(value.as_str()))).collect();
-    let input = ShaderInput::new(&source, stage, &options, Some(&defines), None)?;
-    let compiled = compiler.create_shader(input).and_then(|shader| {
+    let input = ShaderInput::new(&source, stage, &options, Some(&defines), None);
+    let compiled = input.and_then(|input| {
+        let shader = compiler.create_shader(input)?;
         let mut program = compiler.create_program();
         program.add_shader(&shader);
         program.compile(stage)

@@ -30,13 +30,17 @@ use winit::window::WindowId;
 use self::session::Session;
 use super::Sample;
 use super::args::Args;
+use crate::gpu::shader::apart;
 use crate::usage::Usage;
+
+/// Pixels of a window's side: X11 counts in signed 16 bits.
+const MOST_SIDE: u32 = 32_767;
 
 /// What reaches the event loop from other threads.
 enum Wake {
     /// A file below `shaders/` was written.
     Saved(String),
-    /// The child has compiled the shaders, or says why it could not.
+    /// The shaders are compiled, or why they could not be.
     Compiled(Result<(), String>),
 }
 
@@ -50,7 +54,14 @@ pub fn open<S: Sample>(name: &str, args: &Args) -> Result<()> {
         let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
         return Err(Usage(hint.to_owned()).into());
     }
+    let (width, height) = (args.size.width, args.size.height);
+    if width.max(height) > MOST_SIDE {
+        let most =
+            format!("{width}x{height} is too large for a window: at most {MOST_SIDE} a side");
+        return Err(Usage(most).into());
+    }
     log_if_asked();
+    apart::want();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
     let mut program = Program::<S> { name, args, proxy, session: None, outcome: Ok(()) };

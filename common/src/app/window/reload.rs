@@ -1,7 +1,6 @@
-//! Shaders edited while the window is open: noticed, compiled by a child process, compared.
+//! Shaders edited while the window is open: noticed, compiled beside it, compared.
 
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
@@ -99,7 +98,7 @@ impl Reload {
         None
     }
 
-    /// Takes the child's result and returns why the new shaders cannot be used, if so.
+    /// Takes the compiler's result and returns why the new shaders cannot be used, if so.
     pub fn compiled(&mut self, result: Result<(), String>) -> Result<(), String> {
         self.compiling = false;
         let result = result.and_then(|()| self.compare());
@@ -154,19 +153,8 @@ fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
     Ok(watcher)
 }
 
-/// Compiles in a child process, which leaves the result in the cache of SPIR-V.
+/// Compiles all of them; the results are in the cache then.
 fn compile(stages: &[String]) -> Result<(), String> {
-    let child = std::env::current_exe().and_then(|program| {
-        let mut command = Command::new(program);
-        command.arg("--compile").args(stages).stdin(Stdio::null()).output()
-    });
-    let output = child.map_err(|error| format!("cannot start the shader compiler: {error}"))?;
-    let errors = String::from_utf8_lossy(&output.stderr);
-    if output.status.success() {
-        return Ok(());
-    }
-    match errors.lines().find_map(|line| line.strip_prefix("error: ")) {
-        Some(error) => Err(error.to_owned()),
-        None => Err(format!("the shader compiler crashed ({})", output.status)),
-    }
+    let compiled = stages.iter().try_for_each(|stage| shader::compile(stage).map(drop));
+    compiled.map_err(|error| format!("{error:#}"))
 }

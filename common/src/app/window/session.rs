@@ -296,7 +296,7 @@ impl<S: Sample> Session<S> {
         self.redraw_at = times.into_iter().flatten().min();
     }
 
-    /// Takes up shaders that a child has compiled, or shows why not.
+    /// Takes up shaders that were compiled beside, or shows why not.
     pub fn compiled(&mut self, result: Result<(), String>) {
         let start = Instant::now();
         let result = self.reload.compiled(result).and_then(|()| {

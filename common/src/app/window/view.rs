@@ -130,11 +130,13 @@ impl<S: Sample> View<S> {
         self.picture_due = true;
     }
 
-    /// Renders some of the next picture for a window of size `full`, if one is due.
+    /// Renders some of the next picture for a window of size `full`, if one is due. A window may be larger
+    /// than the device's largest picture: that is shown stretched.
     ///
     /// # Errors
     /// If the sample or the device fails.
     pub fn step(&mut self, full: vk::Extent2D) -> Result<Stepped> {
+        let full = self.gpu.limits.fitted(full);
         if full != self.full {
             self.full = full;
             self.change();
