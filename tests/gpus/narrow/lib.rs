@@ -14,6 +14,7 @@
 //! - `out-of-date`: the first swapchain is out of date before it is made.
 //! - `without=FEATURE`: that feature is missing too.
 //! - `bar`: the host can map device memory too, as with a resizable BAR.
+//! - `rays=NUMBER`: one trace has at most so many rays, fewer than Vulkan allows a device to say.
 //! - `tell=FILE`: when the device is destroyed, the file gets four numbers: how often was submitted, and how
 //!   many allocations there were of memory in the device, in the host, and in the device but mapped.
 

@@ -181,7 +181,8 @@ fn ray_tracing_pipeline(own: &mut vk::PhysicalDeviceRayTracingPipelineProperties
     own.max_ray_recursion_depth = 1;
     own.max_shader_group_stride = 4096;
     own.shader_group_base_alignment = 64;
-    own.max_ray_dispatch_invocation_count = 1 << 30;
+    own.max_ray_dispatch_invocation_count = faults::value("rays")
+        .map_or(1 << 30, |rays| rays.parse().expect("rays= is followed by a number"));
     own.shader_group_handle_alignment = 32;
     own.max_ray_hit_attribute_size = 32;
 }
