@@ -232,6 +232,11 @@ impl Desk {
 
 /// The one line with which a sample refuses to open a window.
 pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> String {
+    run::refusal(outcome(name, arguments, environment)).1
+}
+
+/// What came of a sample that closes its window by itself.
+pub fn outcome(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> Output {
     let (mut server, display) = server();
     let mut command: Command = run::command(name);
     command.args(arguments).env("DISPLAY", &display);
@@ -240,7 +245,7 @@ pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)])
     let output = command.output().expect("the sample starts");
     let _ = server.kill();
     let _ = server.wait();
-    run::refusal(output).1
+    output
 }
 
 impl Drop for Desk {

@@ -278,6 +278,53 @@ fn a_window_that_another_client_destroys_ends_in_one_line() {
     failed(desk.end());
 }
 
+/// What Vulkan may answer where a window is concerned.
+const OUT_OF_HOST_MEMORY: i32 = -1;
+const DEVICE_LOST: i32 = -4;
+const SURFACE_LOST: i32 = -1_000_000_000;
+const OUT_OF_DATE: i32 = -1_000_001_004;
+const SUBOPTIMAL: i32 = 1_000_001_003;
+const TIMEOUT: i32 = 2;
+
+/// Opens a window for a few frames, in which a call fails; returns whether they were shown all the same.
+#[track_caller]
+fn shows_all_the_same(function: &str, number: usize, result: i32) -> bool {
+    let fault = format!("{function}:{number}:{result}");
+    let layer = Layer::failing(&fault);
+    let arguments = ["--size", "160x100", "--frames", "3"];
+    let output = desk::outcome("02_basic", &arguments, &layer.environment());
+    let errors = String::from_utf8_lossy(&output.stderr);
+    match output.status.code() {
+        Some(0) => assert!(errors.is_empty(), "{fault}: {errors}"),
+        Some(1) => {
+            assert!(errors.starts_with("error: ") && errors.lines().count() == 1, "{errors}")
+        }
+        other => panic!("{fault}: {other:?}, {errors}"),
+    }
+    output.status.success()
+}
+
+#[test]
+fn what_a_window_system_takes_away_is_made_again_and_a_lost_device_is_said() {
+    let _alone = alone();
+    for function in ["vkAcquireNextImageKHR", "vkQueuePresentKHR"] {
+        for result in [OUT_OF_DATE, SURFACE_LOST] {
+            assert!(shows_all_the_same(function, 2, result), "{function}: {result}");
+        }
+        for result in [OUT_OF_HOST_MEMORY, DEVICE_LOST] {
+            assert!(!shows_all_the_same(function, 2, result), "{function}: {result}");
+        }
+    }
+    assert!(shows_all_the_same("vkAcquireNextImageKHR", 1, TIMEOUT));
+    assert!(shows_all_the_same("vkQueuePresentKHR", 1, SUBOPTIMAL));
+    for function in ["vkCreateSwapchainKHR", "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"] {
+        assert!(shows_all_the_same(function, 1, SURFACE_LOST), "{function}");
+    }
+    for function in ["vkCreateXlibSurfaceKHR", "vkCreateSemaphore", "vkQueueSubmit"] {
+        assert!(!shows_all_the_same(function, 1, OUT_OF_HOST_MEMORY), "{function}");
+    }
+}
+
 #[test]
 fn a_window_may_be_larger_than_a_picture() {
     let _alone = alone();

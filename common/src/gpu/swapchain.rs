@@ -84,6 +84,22 @@ impl Swapchain {
     /// # Errors
     /// If the window system or the device fails.
     pub fn fit(&mut self, wanted: vk::Extent2D) -> Result<Option<vk::Extent2D>> {
+        // A surface that was lost while its images were made has a successor by now.
+        for _ in 0..2 {
+            let Some((capabilities, extent)) = self.size(wanted)? else { return Ok(None) };
+            let fits = !self.stale && extent == self.extent;
+            if fits || self.make(&capabilities, extent)? {
+                return Ok(Some(extent));
+            }
+        }
+        Ok(None)
+    }
+
+    /// What the surface can do, and how large its images have to be; `None` while the window has no area.
+    fn size(
+        &mut self,
+        wanted: vk::Extent2D,
+    ) -> Result<Option<(vk::SurfaceCapabilitiesKHR, vk::Extent2D)>> {
         let capabilities = match self.capabilities() {
             Err(vk::Result::ERROR_SURFACE_LOST_KHR) => {
                 self.make_surface()?;
@@ -100,13 +116,7 @@ impl Swapchain {
             },
             current => current,
         };
-        if extent.width == 0 || extent.height == 0 {
-            return Ok(None);
-        }
-        if (self.stale || extent != self.extent) && !self.make(&capabilities, extent)? {
-            return Ok(None);
-        }
-        Ok(Some(extent))
+        Ok((extent.width > 0 && extent.height > 0).then_some((capabilities, extent)))
     }
 
     /// The next image, or `None` if there is none now: draw again, after [`Swapchain::fit`].

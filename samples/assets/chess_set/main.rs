@@ -16,8 +16,12 @@ mod pieces;
 
 use std::io::Cursor;
 use std::path::Path;
+use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
+use common::app::{finish, output};
+use common::files::write_whole;
+use common::usage::Usage;
 use image::ImageFormat;
 
 use crate::mesh::Mesh;
@@ -26,14 +30,24 @@ use crate::obj::Object;
 /// Where the files go.
 const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/assets");
 
-fn main() -> Result<()> {
-    let arguments: Vec<_> = std::env::args().skip(1).collect();
-    let check = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => false,
-        ["--check"] => true,
-        _ => bail!("usage: chess_set [--check]"),
-    };
+const USAGE: &str = "usage: chess_set           write the files\n       \
+                     chess_set --check   only say whether they are as they would be written\n";
 
+fn main() -> ExitCode {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    finish(|| match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => make(false),
+        ["--check"] => make(true),
+        ["--help" | "-h"] => output::print(USAGE),
+        _ => {
+            let all = arguments.join(" ");
+            Err(Usage(format!("chess_set takes --check, or nothing, and not '{all}'")).into())
+        }
+    })
+}
+
+/// Writes the files, or only compares them.
+fn make(check: bool) -> Result<()> {
     let objects = objects();
     check_meshes(&objects)?;
     for object in &objects {
@@ -52,7 +66,7 @@ fn main() -> Result<()> {
     for (name, bytes) in files {
         let path = directory.join(name);
         if !check {
-            std::fs::write(&path, &bytes).with_context(|| format!("writing {}", path.display()))?;
+            write_whole(&path, &bytes)?;
             println!("{name:<13} {:>7} bytes", bytes.len());
             continue;
         }
