@@ -48,11 +48,11 @@ common::shader_struct! {
 // ANCHOR_END: push
 
 impl Sample for Demo {
+    // ANCHOR: new
     fn requirements() -> Requirements {
         Requirements::ray_tracing().textures()
     }
 
-    // ANCHOR: new
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
