@@ -18,6 +18,9 @@ use crate::project::Project;
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";
 
+/// The fields that only the page shows, as the title.
+const SENTENCES: [&str; 3] = ["Cause:", "Find:", "Cure:"];
+
 /// What a file of a mistake looks like.
 const FORM: &str =
     "write a title, a blank line, `Chapter: NN_name` and the other fields, a blank line, a diff";
@@ -212,10 +215,14 @@ impl Mistake {
         }
     }
 
-    /// What its picture is made from, as a hash: the chapter and the patch.
+    /// What its picture is made from, as a hash: the chapter and the patch, but for the sentences that no
+    /// picture shows.
     pub fn sources(&self, project: &Project, sources: &mut Sources) -> String {
         let chapter = sources.of(project, &self.chapter);
-        picture::hash([chapter.as_bytes(), self.patch.text.as_bytes()])
+        let is_sentence = |line: &&str| SENTENCES.iter().any(|key| line.starts_with(key));
+        let lines = self.patch.text.lines().skip(1).filter(|line| !is_sentence(line));
+        let shown: String = lines.map(|line| format!("{line}\n")).collect();
+        picture::hash([chapter.as_bytes(), shown.as_bytes()])
     }
 
     /// What is out of date about its picture, if anything is.

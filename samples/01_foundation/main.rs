@@ -206,7 +206,7 @@ fn with_device<R>(
     result
 }
 
-// ---- 3. From here on the making of one picture
+// ---- 3. Limits, queue, command buffers; from here on, the making of one picture
 
 fn render(
     instance: &Instance,
@@ -419,6 +419,7 @@ fn render(
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
         let layout = device.create_pipeline_layout(&info, None)?;
         gpu.own(device, layout, Device::destroy_pipeline_layout);
+        // ANCHOR: pipeline
         let info = vk::RayTracingPipelineCreateInfoKHR::default()
             .stages(&stages)
             .groups(&groups)
@@ -433,6 +434,7 @@ fn render(
         let (count, bytes) = (groups.len() as u32, groups.len() * handle_size);
         let handles =
             ray_tracing.get_ray_tracing_shader_group_handles(pipeline, 0, count, bytes)?;
+        // ANCHOR_END: pipeline
         (layout, pipeline, handles)
     };
     let pipeline_milliseconds = milliseconds(pipeline_start);
@@ -466,7 +468,7 @@ fn render(
         format!("raygen +0, miss +{region}, hit +{}: {size} bytes at {at:#x}", 2 * region),
     );
 
-    // ---- 9. The frame, recorded once: trace, copy
+    // ---- 9. The frame, recorded once: trace, then copy
 
     let levels = [top.handle];
     let mut level =
@@ -583,7 +585,7 @@ fn render(
     Ok((picture, report))
 }
 
-// ---- What the story uses: memory, buffers, builds, barriers, submission
+// ---- The helpers of these steps: memory, buffers, builds, barriers, submission
 
 /// A buffer with memory of its own. `offset` is where its first aligned byte lies, `address` names it.
 struct Buffer {

@@ -15,9 +15,11 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup};
 
+// ANCHOR: main
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
+// ANCHOR_END: main
 
 struct Demo {
     scene: SceneOnGpu,
@@ -34,6 +36,7 @@ common::shader_enum! {
 }
 // ANCHOR_END: show
 
+// ANCHOR: push
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
@@ -42,8 +45,10 @@ common::shader_struct! {
         light: DirectionalLight,
     }
 }
+// ANCHOR_END: push
 
 impl Sample for Demo {
+    // ANCHOR: new
     fn requirements() -> Requirements {
         Requirements::ray_tracing().textures()
     }
@@ -60,6 +65,7 @@ impl Sample for Demo {
             show: Show::Picture,
         })
     }
+    // ANCHOR_END: new
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {

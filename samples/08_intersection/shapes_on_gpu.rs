@@ -172,9 +172,11 @@ impl Level {
         let boxes: Vec<[Vec3; 2]> =
             order.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
         // ANCHOR_END: margin
+        // ANCHOR: boxes
         let input = boxes_on_gpu(gpu, name, &boxes)?;
         let count = boxes.len() as u32;
         let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
+        // ANCHOR_END: boxes
         let options = BuildOptions { compact: true, ..BuildOptions::default() };
         let blas = (count > 0)
             .then(|| AccelerationStructure::bottom(gpu, name, &[geometry], options))

@@ -1,10 +1,12 @@
 #version 460
 #extension GL_EXT_ray_tracing : require
 
+// ANCHOR: payload
 layout(location = 0) rayPayloadInEXT vec3 color;
+// ANCHOR_END: payload
+// ANCHOR: shade
 hitAttributeEXT vec2 weights;
 
-// ANCHOR: shade
 // The nearest hit: the colours of the three corners, mixed by the weights of the point.
 void main() {
     const vec3 first = vec3(0.06, 0.10, 0.80);

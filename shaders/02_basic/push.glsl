@@ -4,11 +4,13 @@
 #include "shade.glsl"
 #include "common/false_color.glsl"
 
+// ANCHOR: push
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     DirectionalLight light;
 } push;
+// ANCHOR_END: push
 
 // Fixed when the pipeline is made: code for another view is not even compiled.
 layout(constant_id = 0) const uint SHOW = 0;

@@ -6,10 +6,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 
+// ANCHOR: textures
 layout(set = 1, binding = 0) uniform sampler2D textures[];
+// ANCHOR_END: textures
 
+// ANCHOR: inputs
 layout(location = 0) rayPayloadInEXT vec4 payload;
 hitAttributeEXT vec2 weights;
+// ANCHOR_END: inputs
 
 // The nearest hit: normal, material and light give the colour.
 void main() {

@@ -5,7 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 
+// ANCHOR: payload
 layout(location = 0) rayPayloadInEXT vec4 payload;
+// ANCHOR_END: payload
 
 // The ray hit nothing: it sees the sky.
 void main() {

@@ -19,11 +19,14 @@ struct MaterialRecord {
     uint illumination;
 };
 
+// ANCHOR: vertices
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vertices { Vertex at[]; };
+// ANCHOR_END: vertices
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles { uvec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Original { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Materials { MaterialRecord at[]; };
 
+// ANCHOR: instance
 struct InstanceRecord {
     Vertices vertices;
     Triangles triangles;
@@ -33,6 +36,7 @@ struct InstanceRecord {
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Instances { InstanceRecord at[]; };
+// ANCHOR_END: instance
 
 struct SceneAddresses {
     Instances instances;

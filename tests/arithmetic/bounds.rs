@@ -67,12 +67,12 @@ fn sine(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(-0.999, 0.999))
 }
 
-/// Two numbers, and what part of the second is taken.
+/// Two numbers, and the part of the second that a blend takes.
 fn blend(random: &mut Random) -> Vec3 {
     Vec3::new(random.any(), random.any(), random.next())
 }
 
-/// An edge, a later one, and what lies between them.
+/// An edge, a larger edge, and a number between them.
 fn edges(random: &mut Random) -> Vec3 {
     let (low, high) = (random.within(-4.0, 0.0), random.within(1.0, 4.0));
     Vec3::new(low, high, random.within(0.1, 0.9) * (high - low) + low)
@@ -87,7 +87,7 @@ fn near_one(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(0.5, 2.0))
 }
 
-/// The largest distance from `exact` of what `of` makes of numbers within `off` of `x`.
+/// How far the values of `of` are from `of(x)` at most, for numbers within `off` of `x`.
 fn spread(of: impl Fn(f64) -> f64, x: f64, off: f64) -> f64 {
     (of(x + off) - of(x)).abs().max((of(x - off) - of(x)).abs())
 }

@@ -181,7 +181,7 @@ fn the_rest_of_the_promises(gpu: &Gpu) {
     }
     let share = beyond_one_rounding as f64 / COUNT as f64;
     assert!(share > 0.05 && share < 0.6, "{share}");
-    // x + y - x may be y, and may be what two roundings leave of it.
+    // x + y - x may be y, or y as two roundings leave it.
     let wide: Vec<Vec3> = operands.iter().map(|v| Vec3::new(v.x * 1e6, v.y, 0.0)).collect();
     let found = results(gpu, "probe.rgen", 16, &wide);
     let kept = wide.iter().zip(&found).filter(|(v, result)| v.y == **result).count();
@@ -224,8 +224,8 @@ fn a_remainder_may_be_one_divisor_off(gpu: &Gpu) {
     assert!(whole > COUNT / 5 && whole < COUNT * 4 / 5, "{whole} of {COUNT}");
 }
 
-/// Of min, max and clamp with NaN nothing is promised, whatever is declared: any operand may come out. Of
-/// numbers the right one does.
+/// min, max and clamp promise nothing for a NaN, whatever a shader declares: any operand may come out. For
+/// numbers the right one comes out.
 fn nan_may_be_taken_for_the_lesser_and_the_greater(gpu: &Gpu) {
     let operands = operands(pair);
     let order = |v: &Vec3| Vec3::new(v.x, v.y.min(v.z), v.y.max(v.z));

@@ -17,7 +17,7 @@ common::shader_struct! {
 const MOST: usize = 7;
 const RAYS: u32 = 8;
 
-/// The boxes, by their numbers, for whose ray the intersection shader was called; a list a ray.
+/// For each ray, the numbers of the boxes for which the intersection shader was called.
 fn offered(gpu: &Gpu, boxes: &[[Vec3; 2]]) -> Vec<Vec<u32>> {
     let bounds: Vec<order::Bounds> = boxes.iter().map(|&[low, high]| (low, high)).collect();
     let order = order::for_build(gpu, &bounds, false);

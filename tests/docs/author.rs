@@ -106,7 +106,7 @@ fn a_package_that_cargo_test_leaves_out_is_named_beside_what_it_makes_stale() {
     let line = "Cargo.toml:25: '02_basic' is a package without a test program: `cargo test` would not \
                 build it; add [[test]] to samples/02_basic/Cargo.toml";
     assert!(found.lines().any(|found| found == line), "{found}");
-    // A file of the chapter more: what shows the chapter shows it, too.
+    // The chapter has one more file: all that is made from the chapter is stale, too.
     let beside = ["docs/02_basic.md:", "samples/02_basic/Cargo.toml:1: stray file: "];
     let expected =
         |found: &str| found == line || beside.iter().any(|start| found.starts_with(start));

@@ -132,7 +132,7 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
         assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
     }
     fixture.write(file, &whole);
-    // The first run of what takes only looking is shown to the reader.
+    // The reader sees the first run of an exercise that takes only looking.
     let look = "docs/exercises/02.2.diff";
     let text = fixture.read(look);
     fixture.write(
@@ -281,7 +281,7 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
     let render = "Make it yourself: SHADERS=target/exercises/02.1 cargo run --bin 02_basic -- --size 50x30 \
                   --headless --out target/exercises/02.1.png";
     assert!(told.iter().any(|line| line == render), "{told:#?}");
-    // What is seen once it is solved is told with the verdict.
+    // The check's text comes with the verdict, once the exercise is solved.
     assert!(!told.iter().any(|line| line.contains("Check:")), "{told:#?}");
     let last = told.last().expect("a line");
     let first = "not yet: differs by 0.0000, not at least 0.05 with --size 50x30: yours ";

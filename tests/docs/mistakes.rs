@@ -150,7 +150,10 @@ fn a_picture_is_made_and_known_to_be_old() {
     let outcome = fixture.run(&["sync", "--pictures"]);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
     assert_eq!(fixture.check(), "");
+    // No picture shows a sentence of the page.
     fixture.replace("docs/mistakes/pale.diff", "Cause: c", "Cause: d");
+    assert_eq!(fixture.check(), "");
+    fixture.replace("docs/mistakes/pale.diff", "vec4(1.0)", "vec4(0.5)");
     assert!(fixture.check().contains("is older than its patch; run: "), "{}", fixture.check());
 }
 

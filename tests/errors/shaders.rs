@@ -74,6 +74,17 @@ fn includes_that_are_wrong() {
 }
 
 #[test]
+fn an_include_without_its_extension() {
+    let file = "02_basic/sky.rmiss";
+    let extension = "#extension GL_GOOGLE_include_directive : require\n";
+    let folder = folder(file, |text| text.replace(extension, ""));
+    shaders_refused(
+        folder.path(),
+        &[&format!("{file}:5: #include takes the line `{}`", extension.trim())],
+    );
+}
+
+#[test]
 fn a_circle_of_includes_is_spliced_once() {
     let folder = folder("common/false_color.glsl", appended("#include \"02_basic/push.glsl\""));
     let status = sample().env("SHADERS", folder.path()).status().unwrap();

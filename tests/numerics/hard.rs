@@ -62,7 +62,7 @@ fn hold(report: &Value) {
     figures::hold("24_accuracy/traced", traced(report).into());
 }
 
-/// The device's own triangles can only be traced; what is asked directly tells of a rung.
+/// Whether a row tells of its rung, which is asked directly; the device's own triangles can only be traced.
 pub fn is_own(row: &Value) -> bool {
     row["way"] == if row["rung"] == "T0" { "traced" } else { "direct" }
 }

@@ -9,7 +9,7 @@ use crate::bars::Row;
 /// A table's figures by name, in the order of the page.
 pub type Table = Map<String, Value>;
 
-/// Of a rung or a family what the page calls it.
+/// The page's name of a rung or a family.
 pub fn head(words: &[&str]) -> String {
     words.join(" ").replace(' ', "-")
 }
@@ -86,7 +86,7 @@ fn home_and_hardest(rung: &Value, is_of_page: bool) -> Table {
     table
 }
 
-/// The device's own triangles can only be traced; what is asked directly tells of a rung.
+/// Whether a row tells of its rung, which is asked directly; the device's own triangles can only be traced.
 fn is_own(rung: &Value, row: &Row) -> bool {
     let way = if text(rung, "rung") == "T0" { "traced" } else { "direct" };
     row.0["way"] == way

@@ -12,8 +12,8 @@ use crate::tables::{Table, ladders, text};
 /// The rungs that are right because 64-bit floats are: Vulkan promises no more of them than of 32 bits.
 const NEED_64_BITS: [&str; 4] = ["S5", "B4", "P4", "C3"];
 
-/// What random rays are asked of, for its two-float rung or the like. A capsule's and an instance's takes
-/// the driver's compiler more than ten seconds, and so have their hard cases only.
+/// The ladders that random rays are asked of, for their two-float rung or the like. The driver's compiler takes
+/// more than ten seconds for that of a capsule or an instance: these two have their hard cases only.
 const MEASURED: [&str; 7] =
     ["sphere", "box", "plane", "triangle", "heightfield", "secondary origin", "accumulation"];
 
@@ -69,7 +69,7 @@ fn every_family_is_right(arithmetic: &str) {
             println!("{place}: p99 {p99:.3}, most {most:.3} ULP");
             assert_eq!(row.number("not_finite"), 0.0, "{place}");
             assert_eq!(row.number("false_misses") + row.number("never_offered"), 0.0, "{place}");
-            // H3 marches in 32 bits: it may hit what a ray all but touches, and t has a bar at home.
+            // H3 marches in 32 bits: it may hit hills that a ray nearly touches. Its t is held on its home ground.
             let is_home = row.0["family"] == "hills at 60°";
             assert!(label == "H3" && !is_home || row.number("false_hits") == 0.0, "{place}");
             match label {

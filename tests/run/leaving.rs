@@ -18,9 +18,9 @@ pub enum Outcome {
     Close,
     /// The surface it left was hit again, or something behind the plane of that triangle.
     SelfHit,
-    /// What stands in the way by exact arithmetic was passed over.
+    /// The ray passed over a surface that stands in its way by exact arithmetic.
     Lost,
-    /// Something was hit that exact arithmetic passes by.
+    /// The ray hit a surface that exact arithmetic passes by.
     Astray,
 }
 
@@ -118,8 +118,8 @@ impl<'a> Leaving<'a> {
     }
 
     /// The same ray where the triangle that it left is a hundred times as long as wide. Rounding in the
-    /// test of such a triangle may cost more than the gap, and so the ray starts higher up: what is nearer
-    /// to an edge than the start was moved may then be missed or met.
+    /// test of such a triangle may cost more than the gap, and so the ray starts higher up: a ray that passes
+    /// nearer to an edge than the start was moved may then miss it or meet it.
     pub fn of_sliver(&self) -> Option<Self> {
         let (length, width) = self.left();
         (length > 100.0 * width).then(|| Self { gap: self.gap * self.moved().max(1.0), ..*self })
@@ -141,7 +141,7 @@ impl<'a> Leaving<'a> {
         (hit.instance, hit.primitive)
     }
 
-    /// What is hit for sure, at the gap's height or above, and how far off its t may be seen.
+    /// The first hit that is sure, at the gap's height or above, and how far off its t may be.
     fn must_hit(&self) -> Option<(Hit, f64)> {
         let sine = self.steepness();
         self.scene.all_hits(&self.ray).into_iter().find_map(|hit| {

@@ -1,4 +1,4 @@
-//! 28_depth_of_field: where on the lens rays start, where they meet, and how far what is elsewhere is blurred.
+//! 28_depth_of_field: where on the lens rays start, where they meet, and how much is blurred outside the focus.
 
 mod aperture;
 mod circle;
@@ -18,7 +18,7 @@ const NAME: &str = "28_depth_of_field";
 const SIZE: &str = "240x150";
 /// Enough pixels for many points, few enough for many frames.
 const SMALL: &str = "64x40";
-/// At the origin, looking along -z: what a ray's origin says is its place on the lens.
+/// At the origin, looking along -z: a ray's origin is its place on the lens.
 const AT_ORIGIN: [&str; 2] = ["camera eye=0,0,0", "camera target=0,0,-1"];
 /// A model that every chapter shows alike.
 const MODEL: [&str; 2] = ["--scene", "samples/assets/chess.obj"];

@@ -129,7 +129,7 @@ fn fireflies_are_those_of_chance_and_of_area() {
         held.insert(format!("{name}.brightest"), most.into());
         brightest.push(most);
     }
-    // White, beside what shines with 1, is 1/2 at most; by area a point of it may stand for any multiple.
+    // A white surface beside an emitter of 1 is 1/2 at most; by area, one point may count for any multiple.
     assert!(brightest[1] > 2.0 && brightest[2] < 1.01 && brightest[3] < 1.01, "{brightest:?}");
     figures::hold("29_emitters/fireflies", held.into());
 }

@@ -88,12 +88,12 @@ fn each_rung_in_each_view() {
             println!("{rung}: {steps:.1} steps of a ray that misses");
             views.insert(of_view(&format!("{rung}.steps_of_misses")), steps.into());
         }
-        // What bisects errs nowhere; where hills have their edges, rounding may decide.
+        // The rungs that bisect err nowhere; at the edges of hills rounding may decide.
         for best in [over_relaxed, bisected] {
             assert_eq!(best.right(), rays, "{view}");
             assert!(best.count(Verdict::Grazes) * 1000 <= rays, "{view}");
         }
-        // What steps no farther than the slope allows never goes through, but it stops early.
+        // The rung that steps no farther than the slope allows never goes through, but it stops early.
         assert_eq!(lipschitz.count(Verdict::Through) + lipschitz.count(Verdict::FalseMiss), 0);
         if view == "flat" {
             // With a slope of 0 the first step is right.
@@ -110,7 +110,7 @@ fn each_rung_in_each_view() {
             assert!(relaxed.count(Verdict::TooNear) * 20 > 19 * hits, "{view}");
             let invents = ["hills", "near ground"].contains(&view);
             assert!(!invents || relaxed.count(Verdict::FalseHit) > 20, "{view}");
-            // The claim of the page: what errs nowhere asks less often, the more so where rays graze.
+            // The claim of the page: the rung that errs nowhere asks less often, the more so where rays graze.
             let part = if view == "from above" { 1.0 } else { 0.8 };
             assert!(bisected.steps() < part * relaxed.steps(), "{view}");
         }

@@ -167,8 +167,8 @@ fn each_rung_is_as_good_as_it_promises() {
         for Judged { ray, found, exact, sine } in view.judged(&model) {
             let reach = view.plane.distance.abs().max(ray.origin.length());
             let Some(Surface { t, .. }) = exact else {
-                // Behind, parallel, or beyond what rays reach: nobody may find it. A rung that gets the
-                // side wrong would; the textbook's height may even change its sign.
+                // The plane is behind, parallel, or farther than rays reach: no rung may find it. A rung that
+                // gets the side wrong would find it; the textbook's height may even change its sign.
                 assert_eq!(ByRung { pov: -1.0, ..found }, MISSED, "{ray:?}");
                 continue;
             };

@@ -239,7 +239,7 @@ fn copies_of_a_thousand_squares_take_what_the_page_says() {
     println!("{pieces} pieces, {each} bytes for a copy");
     figures::hold("09_instancing/memory", table.into());
     figures::hold("09_instancing/copies", json!({ "pieces": pieces, "each": each }));
-    // What is in the table is less than all by what the frame needs, and the same in both columns.
+    // The table's rows add up to less than all. The rest is what a frame needs, alike in both columns.
     let rest = [0, 1].map(|i| all[i] - parts.iter().map(|pair| pair[i]).sum::<u64>());
     assert!(rest.iter().all(|&bytes| bytes < 16 << 20) && all[1] > 30 * all[0], "{rest:?}");
 }

@@ -277,7 +277,7 @@ fn neighbours_have_their_points_in_common_only_without_scrambling() {
     }
 }
 
-/// What the page says of a key that is not reversed: its low bits, which are related, decide first.
+/// The page says of a key that is not reversed: its low bits, which are related, decide first.
 #[test]
 fn keys_that_are_not_reversed_relate_the_first_points_of_neighbours() {
     let naive = |key: u32| f64::from(points::owen(0, key.reverse_bits())) * 0.5f64.powi(32) - 0.5;

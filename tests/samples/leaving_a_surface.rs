@@ -143,7 +143,7 @@ impl<'a> Setting<'a> {
             let Some(hit) = answer(hit) else { continue };
             let ray = Ray::from_f32([x, y, z], light, tmin, 1e30);
             let leaving = Leaving::new(&self.exact, &arriving, &hit, &ray);
-            // The shader knows without a ray what is below the surface.
+            // The shader knows without a ray that a light below the surface is hidden.
             if leaving.steepness() > 0.0 {
                 tally.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
             }

@@ -157,7 +157,7 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
         }
         let ray = Ray::from_f32([x, y, z], light, 0.0, 1e30);
         let leaving = Leaving::new(&exact, &arriving, &hit, &ray);
-        // The shader knows without a ray what is below the surface.
+        // The shader knows without a ray that a light below the surface is hidden.
         if leaving.steepness() > 0.0 {
             shadows.add(&leaving, &ray, |leaving| leaving.any(visible == 0.0));
         }

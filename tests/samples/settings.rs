@@ -10,7 +10,7 @@ fn values(name: &str, sets: &[&str]) -> Vec<String> {
     String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
 }
 
-/// Every setting is in force, whether what brings values of its own comes first or last.
+/// Every setting is in force, whether the preset that brings values of its own comes first or last.
 fn held(name: &str, sets: [&str; 3]) {
     let [a, b, c] = sets;
     let last = values(name, &[c, b, a]);

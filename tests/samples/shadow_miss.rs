@@ -41,7 +41,7 @@ struct Seen {
     lit: bool,
 }
 
-/// What each pixel saw that did not see the sky.
+/// The surface that each pixel saw, but for pixels that saw the sky.
 fn seen(exact: &Exact, sets: &[&str]) -> Vec<Seen> {
     let camera = Scene::chess().unwrap().camera;
     let show = |view| picture(&[sets, &[view]].concat());

@@ -60,9 +60,10 @@ fn number(chapter: &str) -> u32 {
 /// Whether a picture of paths that chance sends on is the driver's, but for one path of a hundred at each of
 /// the surfaces that a path meets.
 ///
-/// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on, and is as far from
-/// what it was as another draw of its numbers: how far that is, a picture of another seed tells. So many
-/// paths are others as the mean FLIP is of that one's. With more than that, errors would have taken the lead over chance.
+/// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on. It is then as far
+/// from the driver's path as another draw of random numbers would be, and a picture of another seed tells how
+/// far that is. So the mean FLIP over that of the other seed is the part of the paths that went elsewhere.
+/// If this part is larger, errors count for more than chance.
 fn paths_are_the_same(chapter: &str, surfaces: f32, driver: &Picture, worst: &Picture) -> bool {
     let other = rendered(chapter, "driver", &["--set", "seed=1"]).picture;
     let (mean, drawn_anew) = (flip(driver, worst).0, flip(driver, &other).0);
@@ -154,7 +155,7 @@ fn a_triangle_is_offered_twice_unless_that_is_ruled_out() {
 }
 
 /// A device may offer a sphere to rays that pass by its box: the rung of 08 that takes every offer for a hit
-/// sees more of them, and those that look for themselves see what they should.
+/// sees more of them, and the rungs that test the sphere see the right ones.
 #[test]
 fn a_shader_that_trusts_its_box_is_found_out() {
     let pictures = |rung: &str| {

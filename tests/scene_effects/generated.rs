@@ -12,8 +12,8 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
     (random.between(low, high) * 100.0).round() / 100.0
 }
 
-/// What of a set a scene can call for: holes, textures and lines are on triangles, a size is a shadow's, and
-/// a mirror, a pattern and glass are on something.
+/// The effects of a set that a scene can call for together: holes, textures and lines need triangles, a
+/// light's size needs shadows, and a mirror, a pattern and glass need a surface.
 pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
         set = set.without(Textures).without(CutOut).without(Wireframe);

@@ -121,7 +121,7 @@ fn from_within_glass_a_flat_angle_is_reflected_as_a_whole() {
 
 #[test]
 fn a_lens_blurs_an_edge_by_its_distance_from_the_focus() {
-    // An edge at 5; sharp is what is at `focus`. A point at z is a disk as wide as diameter·|z - f| / f, seen
+    // The edge is at 5; points at `focus` are sharp. A point at z is a disk as wide as diameter·|z - f| / f, seen
     // at z; across a straight edge, a disk's standard deviation is a quarter of its width.
     let spread = |lens: &str| {
         let text = format!(

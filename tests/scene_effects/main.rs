@@ -343,7 +343,7 @@ fn every_effect_that_a_chapter_declares_is_in_the_table_and_in_the_shaders() {
     for effect in Effect::ALL {
         let define = effect.define();
         assert!(everything.contains(&format!("#define {define}\n")), "effects.glsl lacks {define}");
-        // Some stage or some line is there for it alone, but for geometry, whose stages are chosen.
+        // Each effect has a stage or a line of its own. Geometry has none: its stages are chosen.
         let used = sources.iter().filter(|text| text.contains(&define)).count();
         let geometry = [Triangles, Spheres, Boxes, Heightfield, Solids].contains(&effect);
         assert!(used > 1 || geometry, "no shader asks for {define}");

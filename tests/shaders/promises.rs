@@ -67,7 +67,7 @@ fn highlights_are_as_exact_as_their_bound_says() {
         let [color, x, _, z] = pixel.map(f64::from);
         assert!(color.is_finite(), "exponent {n}, cosine {z}: {color}");
         let lambert = z / std::f64::consts::PI;
-        // What is E below the peak as a power of e; beyond 20 nobody sees it.
+        // The highlight is e^-E times its peak; where E is above 20, nobody sees it.
         let e = n * 0.5 * (x / z).powi(2).ln_1p();
         if lambert == 0.0 || e > 20.0 {
             continue;
@@ -112,7 +112,7 @@ fn reaches_pi_at_most(picture: &Picture) {
 
 #[test]
 fn no_angle_is_beyond_pi() {
-    // Beyond, Vulkan promises nothing of sin() and cos(). Whoever calls them is tried below.
+    // Beyond, Vulkan promises nothing of sin() and cos(). The shaders that call them are tried below.
     let known = [
         "05_shadow_miss/light.glsl",
         "11_path_tracing/surface.glsl",
@@ -199,7 +199,7 @@ fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
 
 #[test]
 fn no_direction_by_chance_has_an_angle_beyond_pi() {
-    // Materials are none of the matter, and come with what is included later.
+    // Materials do not matter here; the files that are included later declare them.
     let noting = format!(
         "{NOTING_ANGLES}struct Other {{ uint illumination; vec3 specular; }};\n\
          #define MaterialRecord Other\n\
@@ -252,7 +252,7 @@ fn no_shadow_ray_ends_before_it_begins() {
             (0.0..=*tmax).contains(tmin) && *tmax == 1.0,
             "a lamp at {away}: from {tmin} to {tmax}"
         );
-        // What can be promised is: the start's length, where the lamp is farther.
+        // Where the lamp is farther than tmin, the ray begins at that distance.
         if away > start {
             assert!((tmin * away - start).abs() <= 1e-6 * start, "{tmin} {away} {start}");
         }

@@ -21,6 +21,9 @@ use glslang::{
 use super::arithmetic::Arithmetic;
 use crate::files;
 
+/// What lets a shader include files, and `#line` name them.
+const INCLUDE_EXTENSION: &str = "GL_GOOGLE_include_directive";
+
 /// How deep `#include` may nest; more is taken for a circle.
 const MAX_INCLUDE_DEPTH: usize = 16;
 
@@ -172,6 +175,11 @@ impl Source {
         for (index, line) in text.lines().enumerate() {
             let number = index + 1;
             if let Some(rest) = line.trim_start().strip_prefix("#include") {
+                ensure!(
+                    self.text.contains(INCLUDE_EXTENSION),
+                    "{path}:{number}: #include takes the line `#extension {INCLUDE_EXTENSION} : require` \
+                     above it"
+                );
                 let name = resolve(path, rest.trim().trim_matches(['"', '<', '>']));
                 let guard = guard(&name);
                 self.text.push_str(&format!("#ifndef {guard}\n#define {guard}\n"));
@@ -187,7 +195,7 @@ impl Source {
                     self.constants.push(UintConstant { name, value, place });
                 }
                 // The first `#line` must follow `#version` and the extension that allows file names.
-                if depth == 0 && line.contains("GL_GOOGLE_include_directive") {
+                if depth == 0 && line.contains(INCLUDE_EXTENSION) {
                     self.text.push_str(&format!("#line {} \"{path}\"\n", number + 1));
                 }
             }

@@ -158,7 +158,7 @@ fn what_is_in_focus_stays_sharp_with_any_lens() {
     let differ = pinhole.iter().zip(&lens).filter(|(a, b)| differ((a, b))).count();
     assert!(differ <= 2, "{differ} pixels differ");
     assert!(spread(&pinhole, 3.3, 20.0).light > 24.0, "no lamp");
-    // As the lens that is this large blurs what is elsewhere by hundreds of pixels.
+    // A lens as large as this blurs everything out of focus by hundreds of pixels.
     let behind = Lamps::new(&[Lamp { at: 3.3, depth: 2.0 * FOCUS, side: 5.0 }], [0.0; 3]);
     let brightest = behind.shown(64, &["lens diameter=4"]).into_iter().fold(0.0, f64::max);
     assert!(brightest < 0.2, "{brightest}");

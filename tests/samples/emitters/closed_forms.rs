@@ -27,9 +27,9 @@ pub fn balls(scene: &str) -> Vec<(DVec3, f64, f64)> {
     }
 }
 
-/// What of the half-space above a point of the plane z = 0, weighed by the cosine, a ball fills that may be
-/// partly below the plane. By Stokes' theorem it is half the integral of r × dr along the rim of what is seen
-/// of the ball: an arc of its outline, and an arc of the horizon.
+/// The part of the half-space above a point of the plane z = 0, weighed by the cosine, that a ball fills. The
+/// ball may be partly below the plane. By Stokes' theorem this part is half the integral of r × dr along the
+/// rim of the visible part of the ball: an arc of its outline, and an arc of the horizon.
 pub fn part_of_ball(point: DVec3, center: DVec3, radius: f64) -> f64 {
     let to = center - point;
     let sine = radius / to.length();
@@ -48,7 +48,7 @@ pub fn part_of_ball(point: DVec3, center: DVec3, radius: f64) -> f64 {
     (outline + horizon) / PI
 }
 
-/// What each pixel of a picture `side` wide is, which shows the white square whole.
+/// The value of each pixel of a picture that is `side` wide and shows the white square whole.
 pub fn lit_by_balls(scene: &str, side: u32) -> Vec<f64> {
     let balls = balls(scene);
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
@@ -253,7 +253,7 @@ fn of_file(file: &str, shift: f64, frames: &str) -> Picture {
     render(NAME, "64x64", &arguments).picture
 }
 
-/// Where a ray ends short of an emitter, what is nearer to it than that would not hide it.
+/// If a shadow ray ended short of its emitter, a surface within that gap would not hide the emitter.
 #[test]
 fn no_light_leaks_through_what_lies_close_before_an_emitter() {
     for (shift, gap) in [(0.0, 4e-5), (16.0, 4e-4)] {
@@ -279,7 +279,7 @@ fn a_furnace_is_white_whoever_finds_its_light() {
         estimate.is(1.0, &format!("furnace, {name}"));
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
-            // What a path brings is 1, whatever way it takes: no chance, no rounding.
+            // Each path brings exactly 1, whichever way it takes: no chance, no rounding.
             let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
         }

@@ -41,7 +41,7 @@ pub fn exact(landscape: Landscape) -> Heightfield {
 impl Exact {
     /// For rays whose origins have coordinates no larger than those.
     pub fn new(landscape: Landscape, origin: DVec3) -> Self {
-        // What lies on the ground may be above the box by rounding; the box's sides count.
+        // By rounding, a point of the ground may lie above the box; the box's sides count.
         let (low, high) = landscape.bounds(1e-2);
         let error = landscape.error(origin.abs());
         Self { field: exact(landscape), low: low.as_dvec3(), high: high.as_dvec3(), error }

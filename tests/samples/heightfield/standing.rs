@@ -88,7 +88,7 @@ fn ground_and_pieces_hide_each_other() {
 #[test]
 fn shadows_fall_both_ways_and_no_ground_shades_itself() {
     let world = World::new();
-    // By what is in the shadow and what throws it.
+    // By the surface in the shadow and the surface that throws it.
     let mut seen = BTreeMap::<String, usize>::new();
     let (mut edges, mut facing_away, mut from_ground) = (0, 0, 0);
     let sun = |azimuth, elevation| Sun { azimuth, elevation, ..Sun::default() }.light().direction;
@@ -120,11 +120,11 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
             let ground = world.ground.field.height(x.into(), z.into()).1;
             let faces = match on {
                 "ground" => DVec3::new(-ground[0], 1.0, -ground[1]).dot(ray.direction) > 1e-6,
-                // Which way its triangle faces is not known here; what is lit does.
+                // It is not known here which way its triangle faces; a lit one faces the sun.
                 _ => visible > 0.0 || world.first(&ray).0 != -1.0,
             };
             if !faces {
-                // What faces away from the sun needs no ray.
+                // A surface that faces away from the sun needs no ray.
                 assert!(visible == 0.0);
                 facing_away += 1;
                 continue;

@@ -37,8 +37,8 @@ impl World {
         met.unwrap_or((-1.0, 0.0))
     }
 
-    /// Whether it is a matter of rounding what the ray meets, or what is near `t`: an outline of a piece
-    /// or of a hill, or two surfaces in one place.
+    /// Whether rounding decides which surface the ray meets first: at the outline of a piece or of a hill,
+    /// or where two surfaces are in one place.
     pub fn is_close(&self, ray: &Ray) -> bool {
         let near = self.scene.near_candidates(ray);
         if near.iter().any(|near| near.may_hit(ray) && !near.must_hit(ray)) {

@@ -65,7 +65,7 @@ fn the_plane_mirrors_the_pieces() {
     let [of_plane, of_pieces] = hits_are_exact(&exact, &image, -1.0);
     assert!(of_plane == 0 && of_pieces > 1000, "{of_plane} {of_pieces}");
 
-    // A plane that does nothing but mirror shows what an eye sees that is the first one's image.
+    // A plane that only mirrors shows the view of the eye's mirror image.
     let mirror = [
         "plane reflection=1",
         "plane specular=0",
@@ -94,7 +94,7 @@ fn the_plane_mirrors_the_pieces() {
 
 #[test]
 fn what_mirrors_mirrors_the_plane() {
-    // From below the plane, whose underside shines in squares; above it nothing else is.
+    // Seen from below the plane: its underside shines in squares, and nothing stands above it.
     let model = Octahedron::new(Vec3::Y);
     let sets = [
         "plane distance=3",

@@ -1,4 +1,4 @@
-//! Masks and flags: who sees a piece, from which side, and whether it is cut.
+//! Masks and flags: which rays see a piece, from which side, and whether it is cut.
 
 use reference::hit::Hit;
 

@@ -99,7 +99,7 @@ fn squares_light_each_other_as_their_form_factors_say() {
 fn a_white_furnace_is_its_sky() {
     let sets = ["scene=furnace", "depth=256", "roulette=off"];
     let shown = picture("96x60", 4, &sets);
-    // What a path brings is 1, whatever way it takes: no chance, no rounding.
+    // Each path brings exactly 1, whichever way it takes: no chance, no rounding.
     let grey = shown.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
     assert_eq!(grey, 0, "pixels of the furnace that are not white");
     // They are long enough to see many turns.

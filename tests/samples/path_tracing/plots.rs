@@ -113,7 +113,7 @@ const SMALL: &str = "96x60";
 #[test]
 #[ignore = "prints what depth, minimum, roulette and clamp cost in error"]
 fn biases() {
-    // The same random numbers: what differs is what was left out, and no chance.
+    // The random numbers are the same: pictures differ only by what was left out, not by chance.
     let of =
         |sets: &[&str]| picture(SMALL, 64, &[&["roulette=off", "depth=32"][..], sets].concat());
     let all = of(&[]);

@@ -1,4 +1,4 @@
-//! Who sees what: every pixel of the rasteriser and of the rays, the reference deciding.
+//! Visibility: every pixel of the rasteriser and of the rays, held to the reference.
 
 use std::sync::LazyLock;
 

@@ -33,7 +33,7 @@ fn a_clip_cuts_open_and_an_intersection_caps() {
             of_closed.judge(&closed, ray, Stray::default(), capped);
             seen_inside += usize::from(open[0] >= 0.0 && open[3] == 1.0);
             lids += usize::from(capped[0] >= 0.0 && capped[1] as usize == members - 1);
-            // The lid hides the inside, and nothing else is there but what the clip has left.
+            // The lid hides the inside, and only the part that the clip has left is there.
             assert!(capped[0] < 0.0 || capped[3] == 0.0, "{name}: {capped:?}");
             assert!(open[0] < 0.0 || open[1] as usize != members - 1, "{name}: {open:?}");
         }

@@ -85,7 +85,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
                 let solid = counterpart(&shape(name), &[]);
                 let hits = stub.hits(view, name, &[&[&*set], more].concat());
                 for (ray, hit) in rays.iter().zip(&hits.pixels) {
-                    // The bounds of the best, and a hundred times that: what is right, t will tell.
+                    // A hundred times the bounds of the best rung: whether the answer is right, its t tells.
                     let stray = Stray { origin: 100.0 * U * ray.origin.length(), direction: 0.0 };
                     tally.judge(&solid, ray, stray, hit);
                 }

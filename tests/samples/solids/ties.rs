@@ -62,14 +62,14 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
         assert_eq!(overlap(&["show=hit"]), 0);
         wrong.overlap_of_halves += overlap(&["show=hit", "shared planes=off"]);
     }
-    // A crack between what is united has solid before it: it is seen from within.
+    // A crack between united halves has solid before it: one sees the crack from within.
     let within = ["camera eye=0.05,-0.35,-0.12", "camera target=0.6,0.1,0.3"];
     let cube = show("tilted cube", &within);
     assert_eq!(differing(&show("halves", &within), &cube), 0);
     let alone = [&within[..], &["shared planes=off"]].concat();
     wrong.halves_from_within = differing(&show("halves", &alone), &cube);
     println!("each plane alone: {wrong:?}: pixels of {0}, the last of {1}", 2 * 9000, 9000);
-    // What the rule is for: without it, all breaks but what is united and seen from outside.
+    // Without the rule all these pictures break, but for united halves seen from outside.
     let Alone { halves: _, grazed_cube, slotted_cube, overlap_of_halves, halves_from_within } =
         wrong;
     let found = json!({ "halves_from_within": halves_from_within, "grazed_cube": grazed_cube,
