@@ -210,13 +210,13 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    common::app::finish(parse().and_then(|arguments| run(&arguments)))
+    common::app::finish(|| run(&parse()?))
 }
 
 fn parse() -> Result<Arguments> {
     Arguments::try_parse().map_err(|error| {
         if !error.use_stderr() {
-            error.exit();
+            common::app::output::print_and_exit(&error.to_string());
         }
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.

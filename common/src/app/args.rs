@@ -173,11 +173,7 @@ impl Args {
         });
         let (args, more) = matches.map_err(|error| {
             if !error.use_stderr() {
-                let said = output::print(&error.to_string());
-                std::process::exit(i32::from(said.is_err_and(|error| {
-                    output::complain(&format!("error: {error:#}"));
-                    true
-                })));
+                output::print_and_exit(&error.to_string());
             }
             // clap spreads an error over a paragraph; its first block says it all.
             let text = error.to_string();

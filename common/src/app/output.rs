@@ -12,6 +12,13 @@ pub fn print(text: &str) -> Result<()> {
     write(text.as_bytes())
 }
 
+/// Prints what was asked for instead of a run, such as the help, and ends the process.
+pub fn print_and_exit(text: &str) -> ! {
+    let Err(error) = print(text) else { std::process::exit(0) };
+    complain(&format!("error: {error:#}"));
+    std::process::exit(1)
+}
+
 /// As [`print`], for what is no text.
 ///
 /// # Errors
