@@ -17,7 +17,6 @@
 
 mod agree;
 mod amount;
-mod anchor;
 mod attempt;
 mod body;
 mod book;
@@ -26,11 +25,9 @@ mod child;
 mod command;
 mod copy;
 mod crew;
-mod diff;
 mod edition;
 mod exercise;
 mod expectation;
-mod fault;
 mod figure;
 mod gallery;
 mod given;
@@ -43,12 +40,10 @@ mod mention;
 mod merge;
 mod missed;
 mod mistake;
-mod moved;
 mod named;
 mod new;
 mod note;
 mod number;
-mod page;
 mod passage;
 mod patch;
 mod picture;
@@ -56,10 +51,8 @@ mod placeholder;
 mod practice;
 mod program;
 mod progress;
-mod project;
 mod reference;
 mod seen;
-mod shader;
 mod sheet;
 mod shot;
 mod show;
@@ -87,6 +80,7 @@ use std::time::Duration;
 use anyhow::{Result, bail};
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
+use manuscript::{anchor, diff, fault, page, project, shader};
 
 use book::Book;
 use diff::Parts;
@@ -94,7 +88,7 @@ use fault::Fault;
 use new::New;
 use practice::Practice;
 use program::Programs;
-use project::{Chapter, Project};
+use project::{Chapter, Project, Unknown};
 use survey::Survey;
 
 /// Shows any two chapters side by side, and keeps the book's pages true to the code
@@ -210,7 +204,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    common::app::finish(parse().and_then(|arguments| run(&arguments)))
+    let done = parse().and_then(|arguments| run(&arguments));
+    // Whoever asks for a chapter that is not there has given a wrong argument.
+    common::app::finish(done.map_err(|error| match error.downcast() {
+        Ok(Unknown(line)) => Usage(line).into(),
+        Err(error) => error,
+    }))
 }
 
 fn parse() -> Result<Arguments> {
