@@ -8,8 +8,10 @@ struct Language {
     keywords: &'static [&'static str],
     /// Whether a line that begins with `#` is the preprocessor's.
     directives: bool,
-    /// Whether `'a` may be a lifetime, and `r"…"` a string.
+    /// Whether `'a` may be a lifetime, and `r#"…"#` a string.
     rust: bool,
+    /// Whether numbers and types are told apart, too.
+    words: bool,
 }
 
 const RUST: Language = Language {
@@ -23,6 +25,7 @@ const RUST: Language = Language {
     ],
     directives: false,
     rust: true,
+    words: true,
 };
 
 const GLSL: Language = Language {
@@ -37,6 +40,7 @@ const GLSL: Language = Language {
     ],
     directives: true,
     rust: false,
+    words: true,
 };
 
 const SHELL: Language = Language {
@@ -45,6 +49,7 @@ const SHELL: Language = Language {
     keywords: &[],
     directives: false,
     rust: false,
+    words: false,
 };
 
 /// The language of a file, as fenced blocks call it.
@@ -156,7 +161,7 @@ fn token(language: &Language, text: &str, begins: bool) -> (&'static str, usize)
             _ => ("", 1),
         };
     }
-    if first.is_ascii_digit() {
+    if first.is_ascii_digit() && language.words {
         // A range or a method may follow a number: 0..5, 1.max(2).
         let mut end = text.find(|c: char| !is_word(c) && c != '.').unwrap_or(text.len());
         if let Some(range) = text[..end].find("..") {
@@ -169,6 +174,7 @@ fn token(language: &Language, text: &str, begins: bool) -> (&'static str, usize)
         let word = &text[..end];
         let class = match word {
             _ if language.keywords.contains(&word) => "hljs-keyword",
+            _ if !language.words => "",
             _ if first.is_uppercase() && word.chars().any(char::is_lowercase) => "hljs-type",
             _ if is_glsl_type(language, word) => "hljs-type",
             _ => "",

@@ -130,24 +130,28 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
 
 /// mdBook's table of contents: a page's code is an item below it.
 fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String>) -> String {
-    let mut text = String::from("# Summary\n");
+    let (mut text, mut last) = (String::from("# Summary\n"), String::new());
     let mut part = None;
     for entry in entries {
         if entry.part != part {
             part.clone_from(&entry.part);
             let _ = writeln!(text, "\n# {}\n", part.as_deref().unwrap_or("To look up"));
         }
-        // Before the first part mdBook takes no lists, and its items no children.
+        // Before the first part mdBook takes no lists: what would stand below an item stands last.
         let numbered = text.contains("\n# ");
         let item = format!("[{}]({}.md)", entry.title, entry.name);
         let _ = if numbered { writeln!(text, "- {item}") } else { writeln!(text, "\n{item}") };
         if codes.contains_key(&entry.name) {
             let (title, name) = (link::code_title(project, entry), link::code_name(entry));
-            let indent = if numbered { "  - " } else { "\n" };
-            let _ = writeln!(text, "{indent}[{title}]({name}.md)");
+            let item = format!("- [{title}]({name}.md)\n");
+            if numbered {
+                let _ = write!(text, "  {item}");
+            } else {
+                last.push_str(&item);
+            }
         }
     }
-    text
+    text + &last
 }
 
 /// The links behind a page: to its code, to the page before and the page after.

@@ -114,7 +114,7 @@ pub fn id(file: &str) -> String {
 pub fn code_title(project: &Project, entry: &Entry) -> String {
     match project.chapters.iter().find(|chapter| chapter.page() == entry.file) {
         Some(chapter) => format!("Code of {}", chapter.number()),
-        None if entry.file == README => "Files".to_owned(),
+        None if entry.file == README => "Files of the first page".to_owned(),
         None => format!("Files of {}", entry.title),
     }
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use manuscript::fault::Fault;
 use manuscript::page::{Kind, Page};
 use manuscript::project::Project;
-use pulldown_cmark::{CodeBlockKind, CowStr, Event, LinkType, Options, Parser, Tag, TagEnd};
+use pulldown_cmark::{CodeBlockKind, Event, LinkType, Options, Parser, Tag, TagEnd};
 
 use crate::color::{self, escaped};
 use crate::contents::Entry;
@@ -118,7 +118,10 @@ impl Composer<'_> {
                 }
                 Event::End(TagEnd::CodeBlock) => {
                     let Some((language, text)) = code.take() else { continue };
-                    self.code(span, &language, &text);
+                    match &*language {
+                        "math" => self.formula(index, span, text.trim(), true),
+                        _ => self.code(span, &language, &text),
+                    }
                 }
                 Event::Start(Tag::HtmlBlock) => self.html(index, span),
                 Event::InlineHtml(html) if html.starts_with("<!--") => {
@@ -128,6 +131,10 @@ impl Composer<'_> {
                     let into = code.as_mut().map(|(_, text)| text);
                     if let Some(into) = into.or(picture.as_mut().map(|(_, _, words)| words)) {
                         into.push_str(&text);
+                    } else if text.contains('$') && self.text[span.start..].starts_with('$') {
+                        // A brace that is not closed, say: Markdown takes it for text.
+                        let what = "a '$' begins a formula that does not end";
+                        self.fault(index, what, "close it and its braces, or write it as code");
                     }
                 }
                 _ => {}
@@ -179,10 +186,13 @@ impl Composer<'_> {
     }
 
     fn fault(&mut self, index: usize, what: impl Into<String>, remedy: &str) {
-        self.done.faults.push(Fault::new(&*self.entry.file, index + 1, what, remedy));
+        let fault = Fault::new(&*self.entry.file, index + 1, what, remedy);
+        if self.done.faults.last() != Some(&fault) {
+            self.done.faults.push(fault);
+        }
     }
 
-    fn formula(&mut self, index: usize, span: Range<usize>, tex: &CowStr, display: bool) {
+    fn formula(&mut self, index: usize, span: Range<usize>, tex: &str, display: bool) {
         self.done.formulas += 1;
         match formula::mathml(tex, display) {
             Ok(html) => self.edits.push((span, html)),
