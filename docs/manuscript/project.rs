@@ -1,8 +1,8 @@
 //! The project: its root, what `Cargo.toml` says of the chapters, and its files.
 
 use std::collections::BTreeMap;
-use std::{fmt, fs};
 use std::path::{Path, PathBuf};
+use std::{fmt, fs};
 
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};

@@ -18,10 +18,10 @@ const RUST: Language = Language {
     line_comments: &["//"],
     block_comments: true,
     keywords: &[
-        "as", "async", "await", "break", "const", "continue", "crate", "dyn", "else", "enum", "extern",
-        "false", "fn", "for", "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub",
-        "ref", "return", "self", "Self", "static", "struct", "super", "trait", "true", "type", "unsafe",
-        "use", "where", "while",
+        "as", "async", "await", "break", "const", "continue", "crate", "dyn", "else", "enum",
+        "extern", "false", "fn", "for", "if", "impl", "in", "let", "loop", "match", "mod", "move",
+        "mut", "pub", "ref", "return", "self", "Self", "static", "struct", "super", "trait",
+        "true", "type", "unsafe", "use", "where", "while",
     ],
     directives: false,
     rust: true,
@@ -32,11 +32,47 @@ const GLSL: Language = Language {
     line_comments: &["//"],
     block_comments: true,
     keywords: &[
-        "bool", "break", "buffer", "coherent", "const", "constant_id", "continue", "discard", "do",
-        "double", "else", "false", "flat", "float", "for", "hitAttributeEXT", "if", "in", "inout",
-        "int", "layout", "out", "precise", "rayPayloadEXT", "rayPayloadInEXT", "callableDataEXT",
-        "callableDataInEXT", "readonly", "restrict", "return", "shaderRecordEXT", "struct", "switch",
-        "case", "default", "true", "uint", "uniform", "void", "while", "writeonly",
+        "bool",
+        "break",
+        "buffer",
+        "coherent",
+        "const",
+        "constant_id",
+        "continue",
+        "discard",
+        "do",
+        "double",
+        "else",
+        "false",
+        "flat",
+        "float",
+        "for",
+        "hitAttributeEXT",
+        "if",
+        "in",
+        "inout",
+        "int",
+        "layout",
+        "out",
+        "precise",
+        "rayPayloadEXT",
+        "rayPayloadInEXT",
+        "callableDataEXT",
+        "callableDataInEXT",
+        "readonly",
+        "restrict",
+        "return",
+        "shaderRecordEXT",
+        "struct",
+        "switch",
+        "case",
+        "default",
+        "true",
+        "uint",
+        "uniform",
+        "void",
+        "while",
+        "writeonly",
     ],
     directives: true,
     rust: false,
@@ -128,8 +164,7 @@ fn token(language: &Language, text: &str, begins: bool) -> (&'static str, usize)
     let first = text.chars().next().unwrap_or(' ');
     let to_end = |end: &str| text.find(end).unwrap_or(text.len());
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    if language.line_comments.iter().any(|mark| text.starts_with(mark))
-        && (first != '#' || begins)
+    if language.line_comments.iter().any(|mark| text.starts_with(mark)) && (first != '#' || begins)
     {
         return ("hljs-comment", to_end("\n"));
     }
@@ -191,7 +226,8 @@ fn is_glsl_type(language: &Language, word: &str) -> bool {
     let stem = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == 'x');
     language.directives
         && stem != word
-        && ["vec", "ivec", "uvec", "bvec", "dvec", "u64vec", "mat", "f64vec", "dmat"].contains(&stem)
+        && ["vec", "ivec", "uvec", "bvec", "dvec", "u64vec", "mat", "f64vec", "dmat"]
+            .contains(&stem)
 }
 
 /// The length of a string from its opening mark.

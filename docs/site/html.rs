@@ -49,9 +49,14 @@ fn tag<'a>(mut rest: &'a str, tag: &str, found: &mut Vec<Attribute>) -> &'a str 
         };
         let (value, after) = match value.chars().next() {
             Some(mark @ ('"' | '\'')) => value[1..].split_once(mark).unwrap_or((&value[1..], "")),
-            _ => value.split_at(value.find(|c: char| c.is_whitespace() || c == '>').unwrap_or(value.len())),
+            _ => value.split_at(
+                value.find(|c: char| c.is_whitespace() || c == '>').unwrap_or(value.len()),
+            ),
         };
-        let value = value.replace("&amp;", "&").replace("&quot;", "\"").replace("&#39;", "'");
+        let value = match value.contains('&') {
+            true => value.replace("&quot;", "\"").replace("&#39;", "'").replace("&amp;", "&"),
+            false => value.to_owned(),
+        };
         found.push(Attribute { tag: tag.to_owned(), name: name.to_owned(), value });
         rest = after;
     }

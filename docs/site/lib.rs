@@ -18,8 +18,8 @@ pub mod slider;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::{fmt, fs};
 use std::path::Path;
+use std::{fmt, fs};
 
 use anyhow::{Context, Result};
 use manuscript::fault::Fault;
@@ -113,7 +113,8 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let mut settings = SETTINGS.to_owned();
     for name in codes.keys() {
         // A search should find what is explained.
-        let _ = write!(settings, "\n[output.html.search.chapter.'{name}-code.md']\nenable = false\n");
+        let _ =
+            write!(settings, "\n[output.html.search.chapter.'{name}-code.md']\nenable = false\n");
     }
     let mut config: Config = settings.parse().context("docs/book.toml")?;
     config.set("book.src", "src")?;
@@ -121,7 +122,8 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     for (name, text) in ADDED {
         fs::write(work.path().join(name), text)?;
     }
-    let book = MDBook::load_with_config(work.path(), config).context("mdBook cannot read the pages")?;
+    let book =
+        MDBook::load_with_config(work.path(), config).context("mdBook cannot read the pages")?;
     book.build().context("mdBook cannot make the site")?;
 
     faults.extend(broken(made, &wanted)?);

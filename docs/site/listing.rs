@@ -19,7 +19,11 @@ use crate::link;
 ///
 /// # Errors
 /// If a file cannot be read, or its anchors are not in order.
-pub fn compose(project: &Project, entry: &Entry, files: &BTreeSet<String>) -> Result<Option<String>> {
+pub fn compose(
+    project: &Project,
+    entry: &Entry,
+    files: &BTreeSet<String>,
+) -> Result<Option<String>> {
     let chapter = project.chapters.iter().find(|chapter| chapter.page() == entry.file);
     if chapter.is_none() && files.is_empty() {
         return Ok(None);
@@ -134,6 +138,8 @@ impl Shown<'_> {
         let new = Painted::new(self.project, &diff.new)?;
         let mut html = String::new();
         for (changed, olds, news) in sides(diff) {
+            // What stands in a new file is all new.
+            let changed = changed && diff.old.path.is_some();
             let class = if changed { "change" } else { "same" };
             let _ = write!(html, "<div class=\"{class}\">{}", new.lines("new", news));
             if changed {
@@ -157,7 +163,8 @@ impl Shown<'_> {
 
     fn section(&mut self, file: &str, amount: &str, html: &str, open: bool) {
         let id = link::id(file);
-        let entry = format!("- [{file}](#{id}) <span class=\"amount\">{}</span>\n", escaped(amount));
+        let entry =
+            format!("- [{file}](#{id}) <span class=\"amount\">{}</span>\n", escaped(amount));
         self.contents.push_str(&entry);
         let open = if open { " open" } else { "" };
         self.body(&format!(

@@ -19,7 +19,8 @@ pub fn replace<T>(out: &Path, build: impl FnOnce(&Path) -> Result<T>) -> Result<
     let cannot = || format!("cannot write '{}'", out.display());
     fs::create_dir_all(&beside).with_context(cannot)?;
     // On the same disk, so that what is done can be renamed.
-    let work = tempfile::Builder::new().prefix(".book-").tempdir_in(&beside).with_context(cannot)?;
+    let work =
+        tempfile::Builder::new().prefix(".book-").tempdir_in(&beside).with_context(cannot)?;
     let (made, old) = (work.path().join("made"), work.path().join("old"));
     let built = build(&made)?;
     fs::write(made.join(MARK), "").with_context(cannot)?;
@@ -79,7 +80,9 @@ mod tests {
         let work = tempfile::tempdir().unwrap();
         fs::write(work.path().join("mine"), "kept").unwrap();
         for out in [work.path().to_owned(), work.path().join("mine")] {
-            let error = replace(&out, |_| -> Result<()> { panic!("nothing is built") }).unwrap_err().to_string();
+            let error = replace(&out, |_| -> Result<()> { panic!("nothing is built") })
+                .unwrap_err()
+                .to_string();
             assert!(error.ends_with("name another folder with --out"), "{error}");
         }
         assert_eq!(fs::read_to_string(work.path().join("mine")).unwrap(), "kept");

@@ -223,8 +223,11 @@ impl Composer<'_> {
                 let start = span.start + at + 1;
                 self.edits.push((start..start + target.len(), address));
             }
-            None => self.fault(index, format!("the link to '{target}' has no address beside it"),
-                "write [text](address)"),
+            None => self.fault(
+                index,
+                format!("the link to '{target}' has no address beside it"),
+                "write [text](address)",
+            ),
         }
     }
 
@@ -244,7 +247,8 @@ impl Composer<'_> {
         linked: bool,
         mistake: bool,
     ) {
-        let Some(file) = link::local(&self.entry.file, target).filter(|file| self.project.has(file))
+        let Some(file) =
+            link::local(&self.entry.file, target).filter(|file| self.project.has(file))
         else {
             return self.fault(index, format!("there is no picture '{target}'"), "correct it");
         };

@@ -100,7 +100,8 @@ pub fn size(path: &Path) -> Option<(u32, u32)> {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]).into_owned();
     let tag = &text[text.find("<svg")?..];
     let tag = &tag[..tag.find('>')?];
-    let value = |key: &str| tag.split_once(&format!(" {key}=\""))?.1.split('"').next()?.parse().ok();
+    let value =
+        |key: &str| tag.split_once(&format!(" {key}=\""))?.1.split('"').next()?.parse().ok();
     Some((value("width")?, value("height")?))
 }
 

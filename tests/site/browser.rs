@@ -141,14 +141,16 @@ impl Browser {
 
     /// Gives the page a size in CSS pixels.
     pub fn size(&mut self, width: u32, height: u32, phone: bool) {
-        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone });
+        let size =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone });
         self.call("Emulation.setDeviceMetricsOverride", &size);
     }
 
     /// Presses a key and lets it go, such as `Tab` or `ArrowRight`.
     pub fn press(&mut self, key: &str, code: u32) {
         for kind in ["rawKeyDown", "keyUp"] {
-            let press = json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code });
+            let press =
+                json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code });
             self.call("Input.dispatchKeyEvent", &press);
         }
     }

@@ -16,7 +16,10 @@ fn book(page: &str) -> TempDir {
         ("docs/SUMMARY.md", SUMMARY),
         ("docs/one.md", page),
         ("docs/two.md", "# Two\n\n## A place\n"),
-        ("docs/images/a.svg", "<svg width=\"10\" height=\"10\" xmlns=\"http://www.w3.org/2000/svg\"/>"),
+        (
+            "docs/images/a.svg",
+            "<svg width=\"10\" height=\"10\" xmlns=\"http://www.w3.org/2000/svg\"/>",
+        ),
         ("samples/x.rs", "// ANCHOR: a\nfn x() {}\n// ANCHOR_END: a\n"),
     ];
     for (path, text) in files {
@@ -67,10 +70,14 @@ fn every_fault_is_named_with_its_line() {
         ("{{#include a.md}}", "mdBook's {{#…}} is not filled in here"),
         ("<!-- slider -->\n\nNo picture.", "no picture follows the slider's mark"),
         ("<!-- slider b: x | y -->\n![A](images/a.svg)", "the slider takes 'docs/images/b.png'"),
-        ("<!-- snippet samples/x.rs#b -->\n```rust\n```\n<!-- /snippet -->",
-            "the link leads to 'one-code.html#samples-x-rs.b', and there is no such place"),
-        ("<!-- snippet samples/y.rs -->\n```rust\n```\n<!-- /snippet -->",
-            "the marker names 'samples/y.rs', which is no file"),
+        (
+            "<!-- snippet samples/x.rs#b -->\n```rust\n```\n<!-- /snippet -->",
+            "the link leads to 'one-code.html#samples-x-rs.b', and there is no such place",
+        ),
+        (
+            "<!-- snippet samples/y.rs -->\n```rust\n```\n<!-- /snippet -->",
+            "the marker names 'samples/y.rs', which is no file",
+        ),
     ];
     for (fault, expected) in cases {
         let error = built(book(&format!("# One\n\n{fault}\n")).path());
@@ -83,7 +90,8 @@ fn every_fault_is_named_with_its_line() {
         assert!(lines[0].contains("; "), "no remedy: {error}");
     }
     let folder = book("# One\n");
-    fs::write(folder.path().join("docs/SUMMARY.md"), format!("{SUMMARY}- [Three](three.md)\n")).unwrap();
+    fs::write(folder.path().join("docs/SUMMARY.md"), format!("{SUMMARY}- [Three](three.md)\n"))
+        .unwrap();
     let error = built(folder.path()).unwrap_err();
     assert!(error.starts_with("docs/SUMMARY.md:8: 'docs/three.md' does not exist; "), "{error}");
 }
