@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use manuscript::project::Project;
 
 use crate::color::escaped;
-use crate::page::image;
 use crate::picture::{Part, Picture};
 
 /// The cards of all parts as HTML, and their pictures.
@@ -20,7 +19,7 @@ pub fn cards(project: &Project) -> (String, BTreeSet<Picture>) {
                 html,
                 "<li><a href=\"{}.html\">{}<strong>{}</strong></a><span>{}</span></li>",
                 chapter.name,
-                image(project, &picture, "", true),
+                picture.html(project, "", true),
                 escaped(&chapter.heading()),
                 escaped(&chapter.teaches)
             );

@@ -119,6 +119,8 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let mut config: Config = settings.parse().context("docs/book.toml")?;
     config.set("book.src", "src")?;
     config.set("build.build-dir", made)?;
+    // mdBook would go on with its own settings.
+    config.html_config().context("docs/book.toml: [output.html] has what mdBook does not know")?;
     for (name, text) in ADDED {
         fs::write(work.path().join(name), text)?;
     }

@@ -1,5 +1,7 @@
 //! A page of the book as mdBook is to have it: its formulas, links, code, pictures and marks replaced.
 
+mod mark;
+
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -267,7 +269,7 @@ impl Composer<'_> {
         }
         let picture = Picture { from: file, part: Part::Whole };
         let first = self.done.pictures.is_empty();
-        let image = image(self.project, &picture, words, !first);
+        let image = picture.html(self.project, words, !first);
         let html = match linked {
             true => image,
             false => format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address()),
@@ -289,84 +291,4 @@ impl Composer<'_> {
         let ended = self.text[span.clone()].ends_with('\n');
         self.edits.push((span, if ended { html + "\n" } else { html }));
     }
-
-    /// A comment is a mark or nothing to a reader; other HTML stays.
-    fn html(&mut self, index: usize, span: Range<usize>) {
-        let comment = self.text[span.clone()].trim();
-        let Some(words) = comment.strip_prefix("<!--").and_then(|rest| rest.strip_suffix("-->"))
-        else {
-            return;
-        };
-        let (word, rest) = words.trim().split_once(' ').unwrap_or((words.trim(), ""));
-        let shown = match word {
-            "snippet" => self.caption(index, rest.trim()),
-            "diff" => self.change(index, rest),
-            "picture" => {
-                self.folded = true;
-                String::new()
-            }
-            "slider" => {
-                self.slider = Some((index, rest.trim().to_owned()));
-                String::new()
-            }
-            _ => String::new(),
-        };
-        // With its line: a blank one instead would make a list loose.
-        let start = self.text[..span.start].rfind('\n').map_or(0, |at| at + 1);
-        let end = if shown.is_empty() { String::new() } else { format!("{shown}\n") };
-        self.edits.push((start..span.end, end));
-    }
-
-    /// The line above a piece of code: its file, which leads to the whole.
-    fn caption(&mut self, index: usize, source: &str) -> String {
-        let (file, anchor) =
-            source.split_once('#').map_or((source, None), |(file, anchor)| (file, Some(anchor)));
-        if !self.project.has(file) {
-            self.fault(index, format!("the marker names '{file}', which is no file"), "correct it");
-            return String::new();
-        }
-        let address = link::shown(self.project, self.entries, self.entry, file, anchor);
-        if link::own(self.project, file).is_none() {
-            self.done.files.insert(file.to_owned());
-        }
-        self.want(index, &address);
-        format!("<div class=\"source\"><a href=\"{address}\">{}</a></div>", escaped(file))
-    }
-
-    /// The line above a diff: the two chapters, and where the whole is.
-    fn change(&mut self, index: usize, words: &str) -> String {
-        let words: Vec<&str> = words.split_whitespace().collect();
-        let [old, new, source] = words[..] else { return String::new() };
-        let role = source.split('#').next().unwrap_or_default();
-        let number = |name: &str| name.split('_').next().unwrap_or_default().to_owned();
-        let candidates = [format!("samples/{new}/{role}"), format!("shaders/{new}/{role}")];
-        let Some(file) = candidates.into_iter().find(|file| self.project.has(file)) else {
-            return String::new();
-        };
-        let address = link::shown(self.project, self.entries, self.entry, &file, None);
-        self.want(index, &address);
-        format!(
-            "<div class=\"source\"><a href=\"{address}\">{}</a>: {} against {}</div>",
-            escaped(&file),
-            number(new),
-            number(old)
-        )
-    }
-}
-
-/// A picture as HTML: with its size, so that nothing jumps while it loads.
-pub fn image(project: &Project, picture: &Picture, words: &str, lazy: bool) -> String {
-    let (width, height) = crate::picture::size(&project.root.join(&picture.from)).unwrap_or((0, 0));
-    let size = match picture.part {
-        _ if width == 0 => String::new(),
-        Part::Whole | Part::Small => format!(" width=\"{width}\" height=\"{height}\""),
-        Part::First | Part::Second => {
-            let [_, _, width, height] = crate::picture::panel((width, height), false);
-            format!(" width=\"{width}\" height=\"{height}\"")
-        }
-    };
-    let drawing = if picture.from.ends_with(".svg") { " class=\"drawing\"" } else { "" };
-    let lazy = if lazy { " loading=\"lazy\"" } else { "" };
-    let alt = escaped(words).replace('|', "&#124;");
-    format!("<img src=\"{}\" alt=\"{alt}\"{drawing}{size}{lazy}>", picture.address())
 }

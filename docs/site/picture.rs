@@ -5,6 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use image::{DynamicImage, imageops};
+use manuscript::project::Project;
+
+use crate::color::escaped;
 
 /// What of a picture is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,6 +77,23 @@ impl Picture {
             }
         };
         cut.save(&to).with_context(|| format!("cannot write '{}'", to.display()))
+    }
+
+    /// It as HTML: with its size, so that nothing jumps while it loads.
+    pub fn html(&self, project: &Project, words: &str, lazy: bool) -> String {
+        let (width, height) = size(&project.root.join(&self.from)).unwrap_or((0, 0));
+        let size = match self.part {
+            _ if width == 0 => String::new(),
+            Part::Whole | Part::Small => format!(" width=\"{width}\" height=\"{height}\""),
+            Part::First | Part::Second => {
+                let [_, _, width, height] = panel((width, height), false);
+                format!(" width=\"{width}\" height=\"{height}\"")
+            }
+        };
+        let drawing = if self.from.ends_with(".svg") { " class=\"drawing\"" } else { "" };
+        let lazy = if lazy { " loading=\"lazy\"" } else { "" };
+        let alt = escaped(words).replace('|', "&#124;");
+        format!("<img src=\"{}\" alt=\"{alt}\"{drawing}{size}{lazy}>", self.address())
     }
 }
 

@@ -7,7 +7,6 @@ use manuscript::page::Page;
 use manuscript::project::Project;
 
 use crate::color::escaped;
-use crate::page::image;
 use crate::picture::{Part, Picture, size};
 
 /// A slider as HTML in one line, and its pictures. Without a script both stand side by side.
@@ -53,7 +52,7 @@ pub fn html(
     // Small pictures show single pixels: they stay sharp at twice their size.
     let (wide, sharp) = if wide <= 400 { (2 * wide, " sharp") } else { (wide, "") };
     let figure = |picture: &Picture, label: &str, alt: &str| {
-        let image = image(project, picture, alt, true);
+        let image = picture.html(project, alt, true);
         format!("<span class=\"side\">{image}<span class=\"label\">{label}</span></span>")
     };
     let html = format!(

@@ -100,6 +100,28 @@ fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (u64, usize) {
 }
 
 #[test]
+fn a_page_with_faults_is_not_called_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    let text = "<!DOCTYPE html><body style=\"background: #111\"><main>\
+        <p style=\"color: #555\">grey on black</p><div style=\"width: 2000px\">a wide box</div>\
+        <math style=\"display: block; font-size: 1px; width: 1px\"><mi>x</mi></math></main>\
+        <script>console.error('said'); new Image().src = 'http://127.0.0.1:9/elsewhere.png'; \
+        document.body.append(lost);</script>";
+    fs::write(&page, text).unwrap();
+    let mut browser = Browser::start();
+    sized(&mut browser, PHONE);
+    let told = complaints(&browser.open(&format!("file://{}", page.display()))).join("\n");
+    for expected in ["said", "asks for http://127.0.0.1:9/elsewhere.png", "lost is not defined"] {
+        assert!(told.contains(expected), "'{expected}' is not in {told}");
+    }
+    let wrong = checked(&mut browser).0.join("\n");
+    for expected in ["grey on black has a contrast of ", " a wide box ends ", "formula 'x' is "] {
+        assert!(wrong.contains(expected), "'{expected}' is not in {wrong}");
+    }
+}
+
+#[test]
 fn every_picture_is_drawn() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);
