@@ -72,6 +72,7 @@ mod watch;
 mod window;
 mod workbench;
 
+use std::env;
 use std::io::{ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -287,7 +288,7 @@ fn run(arguments: &Arguments) -> Result<()> {
 
 /// Runs the program that makes the website: mdBook is compiled for it alone.
 fn site(project: &Project, out: Option<&Path>) -> Result<()> {
-    let mut cargo = process::Command::new(env!("CARGO"));
+    let mut cargo = process::Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["run", "--quiet", "--package", "site", "--manifest-path"]);
     cargo.arg(project.root.join("Cargo.toml")).arg("--").arg("--root").arg(&project.root);
     if let Some(out) = out {

@@ -115,7 +115,7 @@ impl Shown<'_> {
         let lines: Vec<(usize, &str)> = kept(&text).collect();
         let named = named(file, &text)?;
         let painted = color::lines(color::language(file), &text);
-        let mut html = String::from("<div class=\"same\"><div class=\"new\">");
+        let mut html = String::from("<div class=\"alone\"><div class=\"new\">");
         for (number, _) in &lines {
             let line = painted.get(number - 1).map_or("", String::as_str);
             html.push_str(&row(*number, line, "", named.get(number), file));
@@ -129,7 +129,7 @@ impl Shown<'_> {
         let Some(file) = &diff.new.path else {
             let old = Painted::new(self.project, &diff.old)?;
             let lines = old.lines("old", 0..diff.old.lines.len());
-            let html = format!("<div class=\"same\">{lines}</div>");
+            let html = format!("<div class=\"alone\">{lines}</div>");
             let path = diff.path().to_owned();
             self.section(&path, &format!("gone; {number} has it"), &html, false);
             return Ok(());
@@ -140,7 +140,11 @@ impl Shown<'_> {
         for (changed, olds, news) in sides(diff) {
             // What stands in a new file is all new.
             let changed = changed && diff.old.path.is_some();
-            let class = if changed { "change" } else { "same" };
+            let class = match (&diff.old.path, changed) {
+                (None, _) => "alone",
+                (_, true) => "change",
+                (_, false) => "same",
+            };
             let _ = write!(html, "<div class=\"{class}\">{}", new.lines("new", news));
             if changed {
                 html.push_str(&old.lines("old", olds));

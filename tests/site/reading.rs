@@ -277,6 +277,8 @@ fn pictures() {
         "05_shadow_miss",
         "05_shadow_miss-code",
         "wrong-pictures",
+        "09_instancing",
+        "21_heightfield",
         "11_path_tracing",
         "26_leaving_a_surface",
     ];
