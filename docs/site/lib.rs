@@ -59,7 +59,7 @@ impl fmt::Display for Faults {
 impl std::error::Error for Faults {}
 
 /// mdBook's settings.
-const SETTINGS: &str = include_str!("../book.toml");
+const SETTINGS: &str = include_str!("book.toml");
 
 /// What is added to mdBook's own pages.
 const ADDED: [(&str, &str); 2] =
@@ -116,11 +116,13 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
         let _ =
             write!(settings, "\n[output.html.search.chapter.'{name}-code.md']\nenable = false\n");
     }
-    let mut config: Config = settings.parse().context("docs/book.toml")?;
+    let mut config: Config = settings.parse().context("docs/site/book.toml")?;
     config.set("book.src", "src")?;
     config.set("build.build-dir", made)?;
     // mdBook would go on with its own settings.
-    config.html_config().context("docs/book.toml: [output.html] has what mdBook does not know")?;
+    config
+        .html_config()
+        .context("docs/site/book.toml: [output.html] has what mdBook does not know")?;
     for (name, text) in ADDED {
         fs::write(work.path().join(name), text)?;
     }
