@@ -9,8 +9,16 @@ use anyhow::{Context, Result};
 use crate::project::Project;
 
 /// The folders of which a copy that can be built and tested is made, and the files beside them.
-const FOLDERS: [&str; 6] =
-    ["common", "docs/chapters", "docs/drawings", "samples", "shaders", "tests"];
+const FOLDERS: [&str; 8] = [
+    "common",
+    "docs/chapters",
+    "docs/drawings",
+    "docs/manuscript",
+    "docs/site",
+    "samples",
+    "shaders",
+    "tests",
+];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 
 /// What some files of a copy hold in place of the project's, by their path from its root.

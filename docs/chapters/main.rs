@@ -9,6 +9,7 @@
 //! - `measure`: runs what gave the pages' figures, and fills those in
 //! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
 //! - `survey`: runs every chapter on this device and writes a report card
+//! - `book`: makes a website of the pages
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
 //!
@@ -17,7 +18,6 @@
 
 mod agree;
 mod amount;
-mod anchor;
 mod attempt;
 mod body;
 mod book;
@@ -26,11 +26,9 @@ mod child;
 mod command;
 mod copy;
 mod crew;
-mod diff;
 mod edition;
 mod exercise;
 mod expectation;
-mod fault;
 mod figure;
 mod gallery;
 mod given;
@@ -43,12 +41,10 @@ mod mention;
 mod merge;
 mod missed;
 mod mistake;
-mod moved;
 mod named;
 mod new;
 mod note;
 mod number;
-mod page;
 mod passage;
 mod patch;
 mod picture;
@@ -56,10 +52,8 @@ mod placeholder;
 mod practice;
 mod program;
 mod progress;
-mod project;
 mod reference;
 mod seen;
-mod shader;
 mod sheet;
 mod shot;
 mod show;
@@ -78,15 +72,17 @@ mod watch;
 mod window;
 mod workbench;
 
+use std::env;
 use std::io::{ErrorKind, Write};
 use std::ops::Range;
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
+use std::process::{self, ExitCode};
 use std::time::Duration;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
+use manuscript::{anchor, diff, fault, page, project, shader};
 
 use book::Book;
 use diff::Parts;
@@ -94,7 +90,7 @@ use fault::Fault;
 use new::New;
 use practice::Practice;
 use program::Programs;
-use project::{Chapter, Project};
+use project::{Chapter, Project, Unknown};
 use survey::Survey;
 
 /// Shows any two chapters side by side, and keeps the book's pages true to the code
@@ -205,12 +201,24 @@ enum Command {
         #[arg(long, value_name = "A..B", value_parser = common::app::range)]
         samples: Option<Range<u32>>,
     },
+    /// Make a website of the book with mdBook, to be read from a file or from any folder of a server
+    Book {
+        /// Where it goes: a folder that this command made before, or that is empty or new [default: book]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+    },
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
 
 fn main() -> ExitCode {
-    common::app::finish(|| run(&parse()?))
+    common::app::finish(|| {
+        // Whoever asks for a chapter that is not there has given a wrong argument.
+        run(&parse()?).map_err(|error| match error.downcast() {
+            Ok(Unknown(line)) => Usage(line).into(),
+            Err(error) => error,
+        })
+    })
 }
 
 fn parse() -> Result<Arguments> {
@@ -226,7 +234,7 @@ fn parse() -> Result<Arguments> {
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
         let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, check",
+            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })
@@ -270,12 +278,26 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Exercise(practice) => practice.run(&project),
         Command::Measure { names } => measure(&project, names),
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
+        Command::Book { out } => site(&project, out.as_deref()),
         Command::Merge { out, files, samples } => print(&merge::run(out, files, samples.clone())?),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;
             report(&Book::open(&project, &programs)?.check())
         }
     }
+}
+
+/// Runs the program that makes the website: mdBook is compiled for it alone.
+fn site(project: &Project, out: Option<&Path>) -> Result<()> {
+    let mut cargo = process::Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["run", "--quiet", "--package", "site", "--manifest-path"]);
+    cargo.arg(project.root.join("Cargo.toml")).arg("--").arg("--root").arg(&project.root);
+    if let Some(out) = out {
+        cargo.arg("--out").arg(out);
+    }
+    let status = cargo.status().context("cargo does not start")?;
+    // It has said itself what is wrong.
+    if status.success() { Ok(()) } else { process::exit(status.code().unwrap_or(1)) }
 }
 
 fn list(project: &Project, json: bool) -> Result<String> {

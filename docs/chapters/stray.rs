@@ -57,7 +57,6 @@ fn why(
                 sources.below(&folder.replacen("shaders/", "samples/", 1), &format!("\"{name}\""));
             (own || sources.code_says(&format!("\"{below}\"")), "no program names it")
         }
-        _ if folder == "docs" && name == "book.toml" => (true, ""),
         // Whether they are whole, their own check says.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),

@@ -146,7 +146,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Everything but what is copied from the real project.
-const FILES: [(&str, &str); 16] = [
+const FILES: [(&str, &str); 15] = [
     (
         "Cargo.toml",
         r#"[package]
@@ -339,7 +339,6 @@ Expect: same
 "#,
     ),
     ("docs/chapters/main.rs", "fn main() {}\n"),
-    ("docs/book.toml", "[book]\n"),
     ("tests/samples/main.rs", "mod basic;\nmod one;\n"),
     ("tests/samples/one.rs", "const GOLDEN: &str = \"01_one\";\n"),
     ("tests/samples/basic.rs", "const GOLDEN: &str = \"02_basic\";\n\n#[test]\nfn first() {}\n"),

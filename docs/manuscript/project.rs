@@ -1,11 +1,10 @@
 //! The project: its root, what `Cargo.toml` says of the chapters, and its files.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fmt, fs};
 
 use anyhow::{Context, Result};
-use common::usage::Usage;
 use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
@@ -74,6 +73,18 @@ pub struct Target {
     pub path: String,
 }
 
+/// A chapter that is asked for and is not there: a line that lists those that are.
+#[derive(Debug)]
+pub struct Unknown(pub String);
+
+impl fmt::Display for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Unknown {}
+
 /// A project on disk. Paths are text, from the root, with `/` on every system.
 pub struct Project {
     /// Where it lies.
@@ -135,7 +146,7 @@ impl Project {
     ///
     /// # Errors
     /// If there is none; the line lists those that there are.
-    pub fn chapter(&self, given: &str) -> Result<&Chapter, Usage> {
+    pub fn chapter(&self, given: &str) -> Result<&Chapter, Unknown> {
         let number = |text: &str| text.parse::<u32>().ok();
         let meant = |chapter: &&Chapter| {
             [&*chapter.name, chapter.module()].contains(&given)
@@ -143,7 +154,7 @@ impl Project {
         };
         self.chapters.iter().find(meant).ok_or_else(|| {
             let names: Vec<&str> = self.chapters.iter().map(|chapter| &*chapter.name).collect();
-            Usage(format!("no chapter '{given}'; there is {}", names.join(", ")))
+            Unknown(format!("no chapter '{given}'; there is {}", names.join(", ")))
         })
     }
 

@@ -1,0 +1,79 @@
+//! The order of the pages: what `docs/SUMMARY.md` lists, with the README before it.
+
+use anyhow::Result;
+use manuscript::fault::Fault;
+use manuscript::project::{Project, README, SUMMARY};
+
+/// A page of the site.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// What the contents call it.
+    pub title: String,
+    /// Its file, from the project's root.
+    pub file: String,
+    /// Its name on the site, without an extension.
+    pub name: String,
+    /// The heading of its part, such as `II · Shapes`; none before and after the parts.
+    pub part: Option<String>,
+}
+
+impl Entry {
+    fn new(title: &str, file: &str, name: &str, part: Option<&str>) -> Self {
+        let part = part.map(str::to_owned);
+        Self { title: title.to_owned(), file: file.to_owned(), name: name.to_owned(), part }
+    }
+
+    /// Its address, from the site's root.
+    pub fn address(&self) -> String {
+        format!("{}.html", self.name)
+    }
+}
+
+/// All pages in the order in which they are read.
+///
+/// # Errors
+/// If a line of the summary is no heading and no link, with the line.
+pub fn read(project: &Project) -> Result<Vec<Entry>> {
+    let mut entries = Vec::new();
+    if project.has(README) {
+        entries.push(Entry::new("All chapters", README, "index", None));
+    }
+    let mut part = None;
+    for (index, line) in project.read(SUMMARY)?.lines().enumerate() {
+        let line = line.trim_end();
+        if let Some(heading) = line.strip_prefix("# ") {
+            part = Some(heading.to_owned()).filter(|heading| heading != "Summary");
+            continue;
+        }
+        if line.is_empty() {
+            continue;
+        }
+        // A link that is no item of a list stands before or after the parts.
+        if !line.starts_with("- ") {
+            part = None;
+        }
+        let link = line.trim_start_matches("- ").strip_prefix('[');
+        let link = link.and_then(|rest| rest.strip_suffix(')')?.split_once("]("));
+        let Some((title, name)) =
+            link.and_then(|(title, file)| Some((title, file.strip_suffix(".md")?)))
+        else {
+            let what = format!("'{line}' is no heading and no link to a page");
+            return Err(Fault::new(SUMMARY, index + 1, what, "run: cargo chapters sync").error());
+        };
+        let file = format!("docs/{name}.md");
+        if !project.has(&file) {
+            let what = format!("'{file}' does not exist");
+            return Err(Fault::new(SUMMARY, index + 1, what, "run: cargo chapters sync").error());
+        }
+        entries.push(Entry::new(title, &file, name, part.as_deref()));
+    }
+    for (title, file, name) in [
+        ("Contributing", "CONTRIBUTING.md", "contributing"),
+        ("Changelog", "CHANGELOG.md", "changelog"),
+    ] {
+        if project.has(file) {
+            entries.push(Entry::new(title, file, name, None));
+        }
+    }
+    Ok(entries)
+}

@@ -1,0 +1,225 @@
+//! The book as a website, made by mdBook from the pages as they stand in `docs/`.
+//!
+//! [`contents`] gives the order, [`page`] composes each page for mdBook ([`formula`], [`color`], [`slider`],
+//! [`gallery`]; [`link`] says where its links lead), [`listing`] the pages of code. [`output`] puts the site
+//! in its place when all of it is right.
+
+pub mod color;
+pub mod contents;
+pub mod formula;
+pub mod gallery;
+pub mod html;
+pub mod link;
+pub mod listing;
+pub mod output;
+pub mod page;
+pub mod picture;
+pub mod slider;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::{fmt, fs};
+
+use anyhow::{Context, Result};
+use manuscript::fault::Fault;
+use manuscript::project::Project;
+use mdbook_driver::MDBook;
+use mdbook_driver::config::Config;
+
+use contents::Entry;
+use link::Wanted;
+
+/// What of a site is counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Pages of the book.
+    pub pages: usize,
+    /// Pages of code.
+    pub code: usize,
+    /// Pictures, panels that are cut and small ones among them.
+    pub pictures: usize,
+    /// Formulas.
+    pub formulas: usize,
+    /// Sliders.
+    pub sliders: usize,
+}
+
+/// Everything that is wrong with the pages, a line each.
+#[derive(Debug)]
+pub struct Faults(pub Vec<Fault>);
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let lines: Vec<String> = self.0.iter().map(Fault::to_string).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for Faults {}
+
+/// mdBook's settings.
+const SETTINGS: &str = include_str!("book.toml");
+
+/// What is added to mdBook's own pages.
+const ADDED: [(&str, &str); 2] =
+    [("site.css", include_str!("site.css")), ("site.js", include_str!("site.js"))];
+
+/// Builds the site of the project in `root`, in the folder `made`, which does not exist yet.
+///
+/// # Errors
+/// If a file cannot be read or written; [`Faults`] if something on the pages is wrong.
+pub fn build(root: &Path, made: &Path) -> Result<Counts> {
+    let project = Project::open(root)?;
+    let entries = contents::read(&project)?;
+    let work = tempfile::tempdir().context("cannot make a temporary folder")?;
+    let source = work.path().join("src");
+    fs::create_dir(&source)?;
+
+    let mut counts = Counts { pages: entries.len(), ..Counts::default() };
+    let (mut faults, mut wanted, mut pictures) = (Vec::new(), Vec::new(), BTreeSet::new());
+    let mut codes = BTreeMap::new();
+    let mut texts = Vec::new();
+    for entry in &entries {
+        let text = project.read(&entry.file)?;
+        let page = page::compose(&project, &entries, entry, &text);
+        counts.formulas += page.formulas;
+        counts.sliders += page.sliders;
+        faults.extend(page.faults);
+        wanted.extend(page.wanted);
+        pictures.extend(page.pictures);
+        if let Some(code) = listing::compose(&project, entry, &page.files)? {
+            codes.insert(entry.name.clone(), code);
+        }
+        texts.push((entry, page.markdown));
+    }
+    for (entry, text) in &texts {
+        let code = codes.contains_key(&entry.name);
+        let text = text.clone() + &around(&project, &entries, entry, code);
+        fs::write(source.join(format!("{}.md", entry.name)), text)?;
+    }
+    for entry in &entries {
+        if let Some(code) = codes.get(&entry.name) {
+            let text = code.clone() + &behind(&entries, entry);
+            fs::write(source.join(format!("{}.md", link::code_name(entry))), text)?;
+        }
+    }
+    fs::write(source.join("SUMMARY.md"), summary(&project, &entries, &codes))?;
+    for picture in &pictures {
+        picture.write(root, &source)?;
+    }
+    (counts.code, counts.pictures) = (codes.len(), pictures.len());
+
+    let mut settings = SETTINGS.to_owned();
+    for name in codes.keys() {
+        // A search should find what is explained.
+        let _ =
+            write!(settings, "\n[output.html.search.chapter.'{name}-code.md']\nenable = false\n");
+    }
+    let mut config: Config = settings.parse().context("docs/site/book.toml")?;
+    config.set("book.src", "src")?;
+    config.set("build.build-dir", made)?;
+    // mdBook would go on with its own settings.
+    config
+        .html_config()
+        .context("docs/site/book.toml: [output.html] has what mdBook does not know")?;
+    for (name, text) in ADDED {
+        fs::write(work.path().join(name), text)?;
+    }
+    let book =
+        MDBook::load_with_config(work.path(), config).context("mdBook cannot read the pages")?;
+    book.build().context("mdBook cannot make the site")?;
+
+    faults.extend(broken(made, &wanted)?);
+    if faults.is_empty() { Ok(counts) } else { Err(Faults(faults).into()) }
+}
+
+/// mdBook's table of contents: a page's code is an item below it.
+fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String>) -> String {
+    let (mut text, mut last) = (String::from("# Summary\n"), String::new());
+    let mut part = None;
+    for entry in entries {
+        if entry.part != part {
+            part.clone_from(&entry.part);
+            let _ = writeln!(text, "\n# {}\n", part.as_deref().unwrap_or("To look up"));
+        }
+        // Before the first part mdBook takes no lists: what would stand below an item stands last.
+        let numbered = text.contains("\n# ");
+        let item = format!("[{}]({}.md)", entry.title, entry.name);
+        let _ = if numbered { writeln!(text, "- {item}") } else { writeln!(text, "\n{item}") };
+        if codes.contains_key(&entry.name) {
+            let (title, name) = (link::code_title(project, entry), link::code_name(entry));
+            let item = format!("- [{title}]({name}.md)\n");
+            if numbered {
+                let _ = write!(text, "  {item}");
+            } else {
+                last.push_str(&item);
+            }
+        }
+    }
+    text + &last
+}
+
+/// The links behind a page: to its code, to the page before and the page after.
+fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> String {
+    let at = entries.iter().position(|other| other == entry).unwrap_or(0);
+    let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
+    if code {
+        let title = match project.chapters.iter().any(|chapter| chapter.page() == entry.file) {
+            true => "The whole code, beside that of the chapter before",
+            false => "The files that this page shows",
+        };
+        let name = link::code_name(entry);
+        let _ = writeln!(html, "<a class=\"whole\" href=\"{name}.html\">{title}</a>");
+    }
+    html.push_str(&step("previous", at.checked_sub(1).map(|at| &entries[at]), entry));
+    html.push_str(&step("next", entries.get(at + 1), entry));
+    html + "</nav>\n"
+}
+
+/// The links behind a page of code: back to its page, and to the next page.
+fn behind(entries: &[Entry], entry: &Entry) -> String {
+    let at = entries.iter().position(|other| other == entry).unwrap_or(0);
+    let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
+    html.push_str(&step("previous", Some(entry), entry));
+    html.push_str(&step("next", entries.get(at + 1), entry));
+    html + "</nav>\n"
+}
+
+fn step(class: &str, to: Option<&Entry>, from: &Entry) -> String {
+    let Some(to) = to else { return String::new() };
+    let part = match &to.part {
+        Some(part) if to.part != from.part => format!("<small>{}</small>", color::escaped(part)),
+        _ => String::new(),
+    };
+    let word = if class == "next" { "Next" } else { "Back" };
+    format!(
+        "<a class=\"{class}\" href=\"{}\"><small>{word}</small>{part}<span>{}</span></a>\n",
+        to.address(),
+        color::escaped(&to.title)
+    )
+}
+
+/// The links that lead nowhere, now that the site is there.
+fn broken(made: &Path, wanted: &[Wanted]) -> Result<Vec<Fault>> {
+    let mut places: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for Wanted { file, line, page, id } in wanted {
+        if !places.contains_key(&**page) {
+            let path = made.join(page);
+            if !path.is_file() {
+                let what = format!("the link leads to '{page}', which the site does not have");
+                faults.push(Fault::new(&**file, *line, what, "correct it"));
+                continue;
+            }
+            let found = html::attributes(&fs::read_to_string(&path)?);
+            let ids = found.into_iter().filter(|attribute| attribute.name == "id");
+            places.insert(page, ids.map(|attribute| attribute.value).collect());
+        }
+        if let Some(id) = id.as_ref().filter(|id| !places[&**page].contains(*id)) {
+            let what = format!("the link leads to '{page}#{id}', and there is no such place");
+            faults.push(Fault::new(&**file, *line, what, "correct it"));
+        }
+    }
+    Ok(faults)
+}

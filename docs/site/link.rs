@@ -1,0 +1,120 @@
+//! Where a page's links lead on the site.
+
+use std::path::{Component, Path, PathBuf};
+
+use manuscript::project::{Chapter, Project, README};
+
+use crate::contents::Entry;
+
+/// Where a link leads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Out of the site.
+    Web,
+    /// To an address of the site.
+    Site(String),
+    /// To a file that is no page, from the project's root.
+    File(String),
+}
+
+/// A place of the site that must exist, and who leads there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// The page's file, from the project's root.
+    pub file: String,
+    /// Its line, from 1.
+    pub line: usize,
+    /// The address of the page it leads to.
+    pub page: String,
+    /// The place on it.
+    pub id: Option<String>,
+}
+
+/// The file that a link leads to, from the project's root; `None` if it leads to the web or stays.
+pub fn local(from: &str, target: &str) -> Option<String> {
+    let target = target.split(['#', '?']).next().unwrap_or_default();
+    let scheme = target.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
+    if target.is_empty() || scheme || target.starts_with("//") {
+        return None;
+    }
+    let mut path = PathBuf::from(from);
+    path.pop();
+    for part in Path::new(target).components() {
+        match part {
+            Component::ParentDir if path.pop() => {}
+            Component::ParentDir => path.push(".."),
+            Component::Normal(part) => path.push(part),
+            _ => {}
+        }
+    }
+    Some(path.to_string_lossy().replace('\\', "/"))
+}
+
+/// Where a link of a page leads.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn resolve(
+    project: &Project,
+    entries: &[Entry],
+    from: &Entry,
+    target: &str,
+) -> Result<Target, String> {
+    let id = target.split_once('#').map_or(String::new(), |(_, id)| format!("#{id}"));
+    let Some(file) = local(&from.file, target) else {
+        return Ok(match target.starts_with('#') {
+            true => Target::Site(target.to_owned()),
+            false => Target::Web,
+        });
+    };
+    if let Some(entry) = entries.iter().find(|entry| entry.file == file) {
+        return Ok(Target::Site(entry.address() + &id));
+    }
+    match project.has(&file) {
+        true => Ok(Target::File(file)),
+        false => Err(format!("the link leads to '{file}', which is no file")),
+    }
+}
+
+/// The chapter in whose folders a file lies.
+pub fn own<'a>(project: &'a Project, file: &str) -> Option<&'a Chapter> {
+    let mut parts = file.split('/');
+    let folder = parts.next()?;
+    let name = parts.next()?;
+    parts.next()?;
+    let here = ["samples", "shaders"].contains(&folder);
+    project.chapters.iter().find(|chapter| here && chapter.name == name)
+}
+
+/// The address where a file is shown: with the code of its chapter, else with that of the page itself.
+pub fn shown(
+    project: &Project,
+    entries: &[Entry],
+    from: &Entry,
+    file: &str,
+    anchor: Option<&str>,
+) -> String {
+    let owner = own(project, file).map(Chapter::page);
+    let entry = entries.iter().find(|entry| Some(&entry.file) == owner.as_ref()).unwrap_or(from);
+    let anchor = anchor.map_or(String::new(), |anchor| format!(".{anchor}"));
+    format!("{}.html#{}{anchor}", code_name(entry), id(file))
+}
+
+/// The name of the page with a page's code.
+pub fn code_name(entry: &Entry) -> String {
+    format!("{}-code", entry.name)
+}
+
+/// The place of a file on the page that shows it.
+pub fn id(file: &str) -> String {
+    file.replace(|c: char| !c.is_ascii_alphanumeric() && c != '_', "-")
+}
+
+/// The title of the page with a page's code.
+pub fn code_title(project: &Project, entry: &Entry) -> String {
+    match project.chapters.iter().find(|chapter| chapter.page() == entry.file) {
+        Some(chapter) => format!("Code of {}", chapter.number()),
+        None if entry.file == README => "Files of the first page".to_owned(),
+        None => format!("Files of {}", entry.title),
+    }
+}

@@ -1,0 +1,39 @@
+//! Makes a website of the book; see the library.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+/// Makes a website of the book, to be read from a file or from any folder of a server
+#[derive(Debug, Parser)]
+#[command(name = "site", disable_version_flag = true)]
+struct Arguments {
+    /// Where it goes: a folder that this command made before, or that is empty or new
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+
+    /// The project's root
+    #[arg(long, value_name = "DIR", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), hide_default_value = true)]
+    root: PathBuf,
+}
+
+fn main() -> ExitCode {
+    let Arguments { out, root } = Arguments::parse();
+    let out = out.unwrap_or_else(|| root.join("book"));
+    match site::output::replace(&out, |made| site::build(&root, made)) {
+        Ok(site::Counts { pages, code, pictures, formulas, sliders }) => {
+            println!(
+                "{}: {pages} pages, {code} of code; {pictures} pictures, {formulas} formulas, {sliders} sliders",
+                out.join("index.html").display()
+            );
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            for line in format!("{error:#}").lines() {
+                eprintln!("error: {line}");
+            }
+            ExitCode::FAILURE
+        }
+    }
+}

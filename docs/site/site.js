@@ -1,0 +1,46 @@
+"use strict";
+
+// Sliders: without this script both pictures stand side by side.
+for (const slider of document.querySelectorAll(".slider")) {
+    const input = slider.querySelector("input");
+    const [before, after] = [...slider.querySelectorAll(".label")].map(label => label.textContent);
+    const show = () => {
+        slider.style.setProperty("--at", `${input.value}%`);
+        input.setAttribute("aria-valuetext", `${input.value} % ${before}, ${100 - input.value} % ${after}`);
+    };
+    input.addEventListener("input", show);
+    input.hidden = false;
+    slider.classList.add("moves");
+    show();
+}
+
+// The arrows at mdBook's edges and the arrow keys go where the links behind the page go, and say where.
+for (const direction of ["previous", "next"]) {
+    const ours = document.querySelector(`nav.pages .${direction}`);
+    for (const arrow of document.querySelectorAll(`.nav-chapters.${direction}`)) {
+        if (ours) {
+            arrow.href = ours.href;
+            arrow.title = ours.querySelector("span").textContent;
+            arrow.setAttribute("aria-label", arrow.title);
+        } else {
+            arrow.remove();
+        }
+    }
+}
+
+// The first stop of the Tab key, and a button that is only a label in mdBook.
+const skip = document.createElement("a");
+skip.className = "skip";
+skip.href = "#mdbook-content";
+skip.textContent = "Skip to the text";
+document.getElementById("mdbook-content").tabIndex = -1;
+document.body.prepend(skip);
+const contents = document.getElementById("mdbook-sidebar-toggle");
+contents.tabIndex = 0;
+contents.setAttribute("role", "button");
+contents.addEventListener("keydown", event => {
+    if (event.key === "Enter" || event.key === " ") {
+        event.preventDefault();
+        contents.click();
+    }
+});

@@ -1,0 +1,103 @@
+//! What is wrong on a page is said in a line with its place, and then there is no site.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::TempDir;
+
+const MANIFEST: &str = "[package]\nname = \"book\"\n\n[workspace]\nmembers = []\n";
+const SUMMARY: &str = "# Summary\n\n[One](one.md)\n\n# I · Part\n\n- [Two](two.md)\n";
+
+/// A book of two pages, the first as given.
+fn book(page: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [
+        ("Cargo.toml", MANIFEST),
+        ("docs/SUMMARY.md", SUMMARY),
+        ("docs/one.md", page),
+        ("docs/two.md", "# Two\n\n## A place\n"),
+        (
+            "docs/images/a.svg",
+            "<svg width=\"10\" height=\"10\" xmlns=\"http://www.w3.org/2000/svg\"/>",
+        ),
+        ("samples/x.rs", "// ANCHOR: a\nfn x() {}\n// ANCHOR_END: a\n"),
+    ];
+    for (path, text) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+fn built(folder: &Path) -> Result<String, String> {
+    let out = folder.join("book");
+    let result = site::output::replace(&out, |made| site::build(folder, made));
+    match result {
+        Ok(_) => Ok(fs::read_to_string(out.join("one.html")).unwrap()),
+        Err(error) => {
+            assert!(!out.exists(), "half a site is left");
+            let left = fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name());
+            assert_eq!(left.filter(|name| name.to_string_lossy().starts_with(".book")).count(), 0);
+            Err(format!("{error:#}"))
+        }
+    }
+}
+
+#[test]
+fn a_page_without_fault_is_built() {
+    let page = "# One\n\n[There](two.md#a-place), ![A](images/a.svg), $x^2$.\n\n\
+                <!-- snippet samples/x.rs#a -->\n```rust\nfn x() {}\n```\n<!-- /snippet -->\n\n\
+                - an item\n  <!-- explains 3 -->\n- and another\n";
+    let html = built(book(page).path()).unwrap();
+    assert!(html.contains("two.html#a-place") && html.contains("<msup>"), "{html}");
+    assert!(html.contains("one-code.html#samples-x-rs.a"), "{html}");
+    // No comment is left, nor the blank line of one, which would make the list loose.
+    assert!(!html.contains("explains") && html.contains("<li>an item</li>"), "{html}");
+    assert!(html.contains("<span class=\"hljs-keyword\">fn</span>"), "{html}");
+}
+
+#[test]
+fn every_fault_is_named_with_its_line() {
+    let cases = [
+        ("![A](images/b.png)", "there is no picture 'images/b.png'"),
+        ("[a](three.md)", "the link leads to 'docs/three.md', which is no file"),
+        ("[a](two.md#nowhere)", "the link leads to 'two.html#nowhere', and there is no such place"),
+        ("[a](#nowhere)", "the link leads to 'one.html#nowhere', and there is no such place"),
+        ("[a](../samples/y.rs)", "the link leads to 'samples/y.rs', which is no file"),
+        ("$\\nonsense$", "the formula '\\nonsense' cannot be drawn: "),
+        ("$$\\frac{1}{2$$", "a '$' begins a formula that does not end"),
+        ("{{#include a.md}}", "mdBook's {{#…}} is not filled in here"),
+        ("<!-- slider -->\n\nNo picture.", "no picture follows the slider's mark"),
+        ("<!-- slider b: x | y -->\n![A](images/a.svg)", "the slider takes 'docs/images/b.png'"),
+        (
+            "<!-- snippet samples/x.rs#b -->\n```rust\n```\n<!-- /snippet -->",
+            "the link leads to 'one-code.html#samples-x-rs.b', and there is no such place",
+        ),
+        (
+            "<!-- snippet samples/y.rs -->\n```rust\n```\n<!-- /snippet -->",
+            "the marker names 'samples/y.rs', which is no file",
+        ),
+    ];
+    for (fault, expected) in cases {
+        let error = built(book(&format!("# One\n\n{fault}\n")).path());
+        let error = error.expect_err(fault);
+        let lines: Vec<&str> = error.lines().collect();
+        // A slider's fault is its picture's, one line below the mark.
+        let place = if expected.contains("the slider takes") { 4 } else { 3 };
+        let expected = format!("docs/one.md:{place}: {expected}");
+        assert!(lines.len() == 1 && lines[0].starts_with(&expected), "{expected}: {error}");
+        assert!(lines[0].contains("; "), "no remedy: {error}");
+    }
+    let folder = book("# One\n");
+    fs::write(folder.path().join("docs/SUMMARY.md"), format!("{SUMMARY}- [Three](three.md)\n"))
+        .unwrap();
+    let error = built(folder.path()).unwrap_err();
+    assert!(error.starts_with("docs/SUMMARY.md:8: 'docs/three.md' does not exist; "), "{error}");
+}
+
+#[test]
+fn all_faults_are_named_at_once() {
+    let error = built(book("# One\n\n$\\a$ [a](b.md)\n\n![A](c.png)\n").path()).unwrap_err();
+    assert_eq!(error.lines().count(), 3, "{error}");
+}

@@ -1,0 +1,55 @@
+//! The website of the book: built whole, then read as text and in a browser without a window.
+//!
+//! `SHOTS=FOLDER cargo test --test site pictures -- --ignored` writes pictures of three pages to look at.
+
+#[cfg(unix)]
+mod browser;
+mod faults;
+mod pages;
+#[cfg(unix)]
+mod reading;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use site::Counts;
+use site::html::{Attribute, attributes};
+
+/// The built site.
+struct Built {
+    folder: PathBuf,
+    counts: Counts,
+    /// Every page: its address, its text, its attributes.
+    pages: BTreeMap<String, (String, Vec<Attribute>)>,
+}
+
+/// The site of this project, built once for all tests, and left to be looked at.
+fn built() -> &'static Built {
+    static BUILT: OnceLock<Built> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        // As a code host serves it: below a name.
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("site/a book");
+        let counts = site::output::replace(&folder, |made| site::build(&root, made))
+            .unwrap_or_else(|error| panic!("{error:#}"));
+        let mut pages = BTreeMap::new();
+        for file in fs::read_dir(&folder).unwrap() {
+            let name = file.unwrap().file_name().into_string().unwrap();
+            if name.ends_with(".html") {
+                let text = fs::read_to_string(folder.join(&name)).unwrap();
+                let mut found = attributes(&text);
+                // Of the spans of code there are a hundred thousand.
+                found.retain(|attribute| !["class", "data-n"].contains(&&*attribute.name));
+                pages.insert(name, (text, found));
+            }
+        }
+        Built { folder, counts, pages }
+    })
+}
+
+/// The addresses of the pages that are read, and not only shown in a frame where there is no script.
+fn addresses() -> impl Iterator<Item = &'static String> {
+    built().pages.keys().filter(|name| *name != "toc.html")
+}

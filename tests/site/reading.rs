@@ -1,0 +1,314 @@
+//! The site in Chromium, as it is read: on a desk and on a phone, by light and by dark, with the keyboard.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::browser::Browser;
+use crate::{addresses, built};
+
+const CHECKS: &str = include_str!("checks.js");
+const DESK: (u32, u32, bool) = (1280, 900, false);
+const PHONE: (u32, u32, bool) = (390, 844, true);
+
+fn address(page: &str) -> String {
+    let path = fs::canonicalize(&built().folder).unwrap().join(page);
+    format!("file://{}", path.display().to_string().replace(' ', "%20"))
+}
+
+fn sized(browser: &mut Browser, (width, height, phone): (u32, u32, bool)) {
+    browser.size(width, height, phone);
+}
+
+/// What went wrong while a page was open, and what it asked of another machine.
+fn complaints(told: &[Value]) -> Vec<String> {
+    let mut found = Vec::new();
+    for event in told {
+        let parameters = &event["params"];
+        match event["method"].as_str().unwrap_or_default() {
+            "Runtime.exceptionThrown" => found.push(parameters["exceptionDetails"].to_string()),
+            "Runtime.consoleAPICalled" => {
+                let kind = parameters["type"].as_str().unwrap_or_default();
+                let wrong = ["error", "warning", "assert"].contains(&kind);
+                found.extend(wrong.then(|| parameters["args"].to_string()));
+            }
+            "Log.entryAdded" => found.push(parameters["entry"].to_string()),
+            "Network.loadingFailed" => found.push(parameters.to_string()),
+            "Network.requestWillBeSent" => {
+                let url = parameters["request"]["url"].as_str().unwrap_or_default();
+                if !["file://", "data:"].iter().any(|scheme| url.starts_with(scheme)) {
+                    found.push(format!("asks for {url}"));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+fn theme(browser: &mut Browser, name: &str) {
+    browser.run(&format!("document.getElementById('mdbook-theme-{name}').click()"));
+}
+
+/// Runs the checks, and gives what is wrong and how many kinds of text were seen.
+fn checked(browser: &mut Browser) -> (Vec<String>, u64) {
+    let found = browser.run(CHECKS);
+    let wrong = found["wrong"].as_array().into_iter().flatten();
+    (
+        wrong.map(|line| line.as_str().unwrap_or_default().to_owned()).collect(),
+        found["kinds"].as_u64().unwrap(),
+    )
+}
+
+#[test]
+fn every_page_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
+    let (kinds, asked) = read(addresses().filter(|page| !page.ends_with("-code.html")));
+    // The checks have seen something.
+    assert!(kinds > 1500 && asked > 500, "{kinds} kinds of text, {asked} requests");
+}
+
+#[test]
+fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
+    let (kinds, asked) = read(addresses().filter(|page| page.ends_with("-code.html")));
+    assert!(kinds > 800 && asked > 300, "{kinds} kinds of text, {asked} requests");
+}
+
+/// Opens pages and looks for faults; how many kinds of text were seen, and what was asked for.
+fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (u64, usize) {
+    let mut browser = Browser::start();
+    let mut faults = Vec::new();
+    let (mut kinds, mut asked) = (0, 0);
+    for page in pages {
+        sized(&mut browser, PHONE);
+        let told = browser.open(&address(page));
+        asked += told.iter().filter(|event| event["method"] == "Network.requestWillBeSent").count();
+        faults.extend(complaints(&told).into_iter().map(|what| format!("{page}: {what}")));
+        for (size, on) in [(PHONE, "a phone"), (DESK, "a desk")] {
+            sized(&mut browser, size);
+            let name = if size == PHONE { "navy" } else { "light" };
+            theme(&mut browser, name);
+            let (wrong, seen) = checked(&mut browser);
+            faults.extend(wrong.into_iter().map(|what| format!("{page} on {on}, {name}: {what}")));
+            kinds += seen;
+        }
+        let later = browser.told();
+        faults.extend(complaints(&later).into_iter().map(|what| format!("{page}: {what}")));
+    }
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+    (kinds, asked)
+}
+
+#[test]
+fn a_page_with_faults_is_not_called_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    let text = "<!DOCTYPE html><body style=\"background: #111\"><main>\
+        <p style=\"color: #555\">grey on black</p><div style=\"width: 2000px\">a wide box</div>\
+        <math style=\"display: block; font-size: 1px; width: 1px\"><mi>x</mi></math></main>\
+        <script>console.error('said'); new Image().src = 'http://127.0.0.1:9/elsewhere.png'; \
+        document.body.append(lost);</script>";
+    fs::write(&page, text).unwrap();
+    let mut browser = Browser::start();
+    sized(&mut browser, PHONE);
+    let told = complaints(&browser.open(&format!("file://{}", page.display()))).join("\n");
+    for expected in ["said", "asks for http://127.0.0.1:9/elsewhere.png", "lost is not defined"] {
+        assert!(told.contains(expected), "'{expected}' is not in {told}");
+    }
+    let wrong = checked(&mut browser).0.join("\n");
+    for expected in ["grey on black has a contrast of ", " a wide box ends ", "formula 'x' is "] {
+        assert!(wrong.contains(expected), "'{expected}' is not in {wrong}");
+    }
+}
+
+#[test]
+fn every_picture_is_drawn() {
+    let mut browser = Browser::start();
+    sized(&mut browser, DESK);
+    for page in addresses().filter(|page| built().pages[*page].0.contains("<img ")) {
+        browser.open(&address(page));
+        let lost = browser.run(
+            "Promise.all([...document.images].map(async image => {
+                image.loading = 'eager';
+                await image.decode().catch(() => {});
+                return image.naturalWidth > 0 ? '' : image.src;
+            })).then(all => all.filter(Boolean))",
+        );
+        assert_eq!(lost, serde_json::json!([]), "{page}");
+    }
+}
+
+#[test]
+fn a_slider_moves_by_the_arrow_keys() {
+    let mut browser = Browser::start();
+    sized(&mut browser, DESK);
+    let pages = addresses().filter(|page| built().pages[*page].0.contains("class=\"slider"));
+    let mut sliders = 0;
+    for page in pages {
+        browser.open(&address(page));
+        let count = browser.run("document.querySelectorAll('.slider.moves input').length");
+        for index in 0..count.as_u64().unwrap() {
+            let slider = format!("document.querySelectorAll('.slider')[{index}]");
+            let clip = format!(
+                "getComputedStyle({slider}.querySelectorAll('img')[1]).clipPath + \
+                 {slider}.querySelector('input').getAttribute('aria-valuetext')"
+            );
+            browser.run(&format!("{slider}.querySelector('input').focus()"));
+            let before = browser.run(&clip);
+            browser.press("ArrowRight", 39);
+            let after = browser.run(&clip);
+            assert!(before.as_str().unwrap().starts_with("inset(0px 0px 0px 50%)"), "{before}");
+            assert!(after.as_str().unwrap().starts_with("inset(0px 0px 0px 51%)"), "{after}");
+            let [size, label] = ["offsetWidth", "getAttribute('aria-label')"]
+                .map(|what| browser.run(&format!("{slider}.querySelector('input').{what}")));
+            assert!(size.as_u64() > Some(200), "{page}: {size}");
+            assert!(label.as_str().unwrap().contains(", before: "), "{label}");
+            sliders += 1;
+        }
+        // The arrow belongs to the slider: the page is the same.
+        assert!(browser.run("location.pathname").as_str().unwrap().ends_with(page.as_str()));
+    }
+    assert_eq!(sliders, built().counts.sliders);
+}
+
+#[test]
+fn the_tab_key_reaches_everything_and_shows_where_it_is() {
+    let mut browser = Browser::start();
+    sized(&mut browser, DESK);
+    browser.open(&address("05_shadow_miss.html"));
+    let mut reached = Vec::new();
+    loop {
+        browser.press("Tab", 9);
+        let at = browser.run(
+            "(() => {
+                const at = document.activeElement, style = getComputedStyle(at);
+                const line = parseFloat(style.outlineWidth) >= 2 && style.outlineStyle !== 'none';
+                return [at.id || at.className || at.textContent, line || style.outlineStyle === 'auto'];
+            })()",
+        );
+        if browser.run("document.activeElement === document.body") == true {
+            break; // behind the page's last stop
+        }
+        let name = at[0].as_str().unwrap().to_owned();
+        assert_eq!(at[1], true, "'{name}' does not show that it has the focus");
+        reached.push(name);
+    }
+    assert_eq!(reached[0], "skip");
+    let wanted =
+        ["mdbook-sidebar-toggle", "mdbook-theme-toggle", "mdbook-search-toggle", "whole", "next"];
+    for wanted in wanted {
+        assert!(reached.iter().any(|name| name == wanted), "{wanted} is not among {reached:?}");
+    }
+    // The first stop jumps over all that is the same on every page.
+    browser.run("document.querySelector('.skip').focus()");
+    browser.press("Enter", 13);
+    browser.press("Tab", 9);
+    assert_eq!(
+        browser.run("document.querySelector('main').contains(document.activeElement)"),
+        true
+    );
+    // The contents open and close without a mouse.
+    let open = "document.documentElement.classList.contains('sidebar-visible')";
+    let before = browser.run(open);
+    browser.run("document.getElementById('mdbook-sidebar-toggle').focus()");
+    browser.press("Enter", 13);
+    assert_ne!(browser.run(open), before);
+}
+
+#[test]
+fn the_search_answers_from_a_file() {
+    let mut browser = Browser::start();
+    sized(&mut browser, PHONE);
+    browser.open(&address("reading.html"));
+    let found = browser.run(
+        "(async () => {
+            document.getElementById('mdbook-search-toggle').click();
+            const bar = document.getElementById('mdbook-searchbar');
+            for (let tries = 0; tries < 500; tries++) {
+                bar.value = 'penumbra';
+                bar.dispatchEvent(new InputEvent('input', { bubbles: true }));
+                bar.dispatchEvent(new KeyboardEvent('keyup', { bubbles: true }));
+                await new Promise(done => setTimeout(done, 20));
+                const links = [...document.querySelectorAll('#mdbook-searchresults a')];
+                if (links.length > 0) {
+                    return links.map(link => link.getAttribute('href'));
+                }
+            }
+        })()",
+    );
+    let found = found.as_array().expect("no result within ten seconds");
+    assert!(
+        found.iter().any(|link| link.as_str().unwrap().contains("05_shadow_miss.html")),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_arrow_keys_turn_the_pages() {
+    let mut browser = Browser::start();
+    sized(&mut browser, DESK);
+    browser.open(&address("20_wireframe.html"));
+    let label =
+        browser.run("document.querySelector('.nav-chapters.next').getAttribute('aria-label')");
+    assert_eq!(label, "08 · Intersection");
+    browser.run("document.activeElement.blur()");
+    browser.press("ArrowRight", 39);
+    let there = browser.run("new Promise(done => setTimeout(() => done(location.pathname), 1))");
+    // The old page may still be there to answer.
+    let there = if there.as_str().unwrap().ends_with("20_wireframe.html") {
+        std::iter::repeat_with(|| browser.run("location.pathname"))
+            .take(200)
+            .find(|path| !path.as_str().unwrap().ends_with("20_wireframe.html"))
+            .unwrap()
+    } else {
+        there
+    };
+    assert!(there.as_str().unwrap().ends_with("08_intersection.html"), "{there}");
+}
+
+#[test]
+#[ignore = "writes pictures to look at"]
+fn pictures() {
+    let folder = std::path::PathBuf::from(std::env::var_os("SHOTS").expect("SHOTS names a folder"));
+    fs::create_dir_all(&folder).unwrap();
+    let mut browser = Browser::start();
+    let pages = [
+        "index",
+        "05_shadow_miss",
+        "05_shadow_miss-code",
+        "wrong-pictures",
+        "09_instancing",
+        "21_heightfield",
+        "11_path_tracing",
+        "26_leaving_a_surface",
+    ];
+    for page in pages {
+        for ((width, height, phone), on) in [((1280, 900, false), "desk"), (PHONE, "phone")] {
+            sized(&mut browser, (width, height, phone));
+            browser.open(&address(&format!("{page}.html")));
+            for (name, id) in [("light", "light"), ("dark", "navy")] {
+                theme(&mut browser, id);
+                for (part, at) in [("top", 0.0), ("middle", 0.45)] {
+                    browser
+                        .run(&format!("scrollTo(0, {at} * document.documentElement.scrollHeight)"));
+                    browser.run("new Promise(done => setTimeout(done, 300))");
+                    let file = folder.join(format!("{page}-{on}-{name}-{part}.png"));
+                    decode(&browser.picture(), &file);
+                }
+            }
+        }
+    }
+}
+
+/// Writes what base64 says into a file.
+fn decode(text: &str, file: &std::path::Path) {
+    use std::io::Write;
+    let mut child = Command::new("base64")
+        .arg("-d")
+        .stdin(Stdio::piped())
+        .stdout(fs::File::create(file).unwrap())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    assert!(child.wait().unwrap().success());
+}
