@@ -12,8 +12,8 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
     (random.between(low, high) * 100.0).round() / 100.0
 }
 
-/// What of a set a scene can call for: holes, textures and lines are on triangles, a size is a shadow's, and
-/// a mirror, a pattern and glass are on something.
+/// What of a set a scene can call for: holes, textures and lines are on triangles, a size is a shadow's,
+/// and a mirror, a pattern, glass and what shines are on something.
 pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
         set = set.without(Textures).without(CutOut).without(Wireframe);
@@ -23,6 +23,9 @@ pub fn possible(mut set: Effects) -> Effects {
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, Plane, Solids]) {
         set = set.without(Mirror);
+    }
+    if !set.has_any(&[Triangles, Spheres]) {
+        set = set.without(Emitters);
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, Solids]) {
         set = set.without(Patterns).without(Glass);
@@ -187,11 +190,19 @@ fn text(set: Effects, random: &mut Random) -> String {
             n(0.2, 1.0)
         );
     }
+    if has(Emitters) {
+        text += &format!(
+            "[[material]]\nname = \"lamp\"\ncolor = [{}, 0, 0]\nemission = [{}, 3, 2]\n",
+            n(0.0, 0.5),
+            n(1.0, 9.0)
+        );
+    }
     // Without one, every mesh of the model would be placed.
     if has(Triangles) {
         let pieces = [
             ("tent", "sheet", true),
             ("tent", "crystal", has(Glass)),
+            ("tent", "lamp", has(Emitters)),
             ("picture", "", has(Textures)),
             ("lattice", "", has(CutOut)),
         ];
@@ -240,6 +251,13 @@ fn text(set: Effects, random: &mut Random) -> String {
                 0.5 + number as f64
             );
         }
+    }
+    if has(Emitters) && has(Spheres) {
+        text += &format!(
+            "[[sphere]]\ncenter = [{}, {}, 1]\nradius = 0.25\nmaterial = \"lamp\"\n",
+            n(-2.0, 2.0),
+            n(0.3, 1.5)
+        );
     }
     if has(Heightfield) {
         text += &format!(
