@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use common::scene::{Camera, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
-use crate::{Box, Face, Finish, Solid, Sphere, is_glass};
+use crate::{Box, Face, Finish, Solid, Sphere, ThinLens, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,31 +59,13 @@ pub struct BoardPlane {
     pub reflection: f32,
 }
 
-common::shader_struct! {
-    /// What the camera looks through.
-    #[derive(PartialEq)]
-    pub struct Lens {
-        /// 0 for a pinhole.
-        pub diameter: f32,
-        /// How far along the camera's axis things are sharp.
-        pub focus: f32,
-        /// Blades that make its opening a polygon; below 3 for a disk.
-        pub blades: u32,
-    }
-}
-
-impl Lens {
-    /// A hole, through which everything is sharp.
-    pub const PINHOLE: Self = Self { diameter: 0.0, focus: 1.0, blades: 0 };
-}
-
 /// Everything that a picture is made from.
 #[derive(Clone)]
 pub struct Composition {
     /// Meshes in use, materials, instances, the camera.
     pub scene: Scene,
     /// What the camera looks through.
-    pub lens: Lens,
+    pub lens: ThinLens,
     /// A finish for each material; none for those that nothing wears.
     pub finishes: Vec<Finish>,
     /// At most [`MAX_LIGHTS`].
@@ -102,6 +84,8 @@ pub struct Composition {
     pub solid_bounds: Vec<(Vec3, Vec3)>,
     /// The landscape, if there is one.
     pub heightfield: Option<Heightfield>,
+    /// How bright the sky is, 0 to 1.
+    pub sky: f32,
     /// Rays a pixel.
     pub samples: u32,
     /// Shadow rays a hit, to a light that has a size.
@@ -123,7 +107,7 @@ impl Composition {
         let light = Light::directional(&Sun::default(), 0.0);
         let mut composition = Self {
             finishes: vec![Finish::NONE; scene.model.materials.len()],
-            lens: Lens { focus: focus_of(&scene.camera), ..Lens::PINHOLE },
+            lens: pinhole(&scene.camera),
             scene,
             lights: vec![SceneLight { light, shadows: true }],
             plane: None,
@@ -133,6 +117,7 @@ impl Composition {
             faces: Vec::new(),
             solid_bounds: Vec::new(),
             heightfield: None,
+            sky: 1.0,
             samples: 1,
             light_samples: 16,
             depth: 4,
@@ -199,9 +184,10 @@ pub(crate) fn close(material: &mut Material) {
     }
 }
 
-/// How far away the camera's target is, as far as a lens can be focused.
-pub(crate) fn focus_of(camera: &Camera) -> f32 {
-    (camera.eye.distance(camera.target) as f32).clamp(*FOCUS.start(), *FOCUS.end())
+/// A hole, through which everything is sharp; as a lens it is focused on the camera's target, as far as one can be.
+pub(crate) fn pinhole(camera: &Camera) -> ThinLens {
+    let focus = (camera.eye.distance(camera.target) as f32).clamp(*FOCUS.start(), *FOCUS.end());
+    ThinLens { diameter: 0.0, focus, blades: 0, rotation: 0.0 }
 }
 
 /// Keeps the items at these positions.

@@ -37,6 +37,8 @@ pub enum Effect {
     Bounces,
     /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).
     Glass,
+    /// Spheres and meshes that shine on others, `Ke` above 0 (29).
+    Emitters,
     /// Marble, wood or a checker that a surface is cut from (13).
     Patterns,
     /// Lines along the edges of triangles (20).
@@ -49,7 +51,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, by number: that of an effect is its bit.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Triangles,
         Textures,
         CutOut,
@@ -64,6 +66,7 @@ impl Effect {
         Mirror,
         Bounces,
         Glass,
+        Emitters,
         Patterns,
         Wireframe,
         AntiAliasing,
@@ -87,6 +90,7 @@ impl Effect {
             Mirror => "mirror",
             Bounces => "bounces",
             Glass => "glass",
+            Emitters => "emitters",
             Patterns => "patterns",
             Wireframe => "wireframe",
             AntiAliasing => "anti-aliasing",

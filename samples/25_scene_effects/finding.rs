@@ -87,6 +87,8 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         }
         Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
         Glass => worn(&is_glass, "has illum 4, 6, 7 or 9"),
+        Emitters if !scene.scatters() => None,
+        Emitters => scene.lamp().map(|m| format!("material `{}` shines", m.name)),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),
         Wireframe => finished(&|finish| (finish.lines > 0.0).then(|| "has lines".to_owned())),
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
@@ -112,6 +114,7 @@ fn why_not(effect: Effect) -> &'static str {
         Mirror => "nothing in use mirrors, or paths end at once",
         Bounces => "no bounces",
         Glass => "no material in use is glass, or paths end at once",
+        Emitters => "no sphere and no mesh shines, or nothing scatters light",
         Patterns => "no material in use has a pattern",
         Wireframe => "no material in use has lines",
         AntiAliasing => "one ray a pixel",

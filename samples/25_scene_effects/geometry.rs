@@ -4,7 +4,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
 use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
-use effects::{Composition, Sphere};
+use effects::{Composition, EmitterAddresses, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
 
 use crate::recipe::{Kind, Recipe};
@@ -61,6 +61,9 @@ impl SceneGeometry {
         let bounds: Vec<_> = from.spheres.iter().map(sphere_bounds).collect();
         let order = geometry.level(gpu, Kind::Sphere, &bounds)?;
         geometry.shapes.spheres = geometry.records(gpu, "spheres", &from.spheres, &order)?;
+        if let Some(lamps) = from.lamps()? {
+            geometry.shapes.emitters = Some(geometry.lamps(gpu, &lamps, &order)?);
+        }
         let bounds: Vec<_> = from.boxes.iter().map(|b| (b.low, b.high)).collect();
         let order = geometry.level(gpu, Kind::Box, &bounds)?;
         geometry.shapes.boxes = geometry.records(gpu, "boxes", &from.boxes, &order)?;
@@ -128,6 +131,22 @@ impl SceneGeometry {
         let address = buffer.address;
         self._buffers.push(buffer);
         Ok(address)
+    }
+
+    /// What shines; `order` is that of the spheres.
+    fn lamps(&mut self, gpu: &Gpu, lamps: &Lamps, order: &[u32]) -> Result<EmitterAddresses> {
+        let Lamps { emitters, of_instances, of_spheres } = lamps;
+        let as_they_come = |count: usize| (0..count as u32).collect::<Vec<_>>();
+        let (list, columns) = (&emitters.list, &emitters.table.columns);
+        let instances = as_they_come(of_instances.len());
+        Ok(EmitterAddresses {
+            emitters: self.records(gpu, "emitters", list, &as_they_come(list.len()))?.into(),
+            columns: self.records(gpu, "columns", columns, &as_they_come(columns.len()))?.into(),
+            first: self.records(gpu, "emitters of instances", of_instances, &instances)?.into(),
+            sphere_ids: self.records(gpu, "emitters of spheres", of_spheres, order)?.into(),
+            count: list.len() as u32,
+            column_count: columns.len() as u32,
+        })
     }
 
     // ANCHOR: top

@@ -1,20 +1,33 @@
 //! What scenes call for: effects, found from a scene alone, and the scene files that say what there is.
 //!
 //! Nothing here knows a device. The chapter makes its pipelines from these bits; its tests make scenes from
-//! them.
+//! them. What chapters 27, 28 and 29 teach of the host is read from their own files.
 
+#[path = "../29_emitters/alias.rs"]
+mod alias;
 mod composition;
 mod effect;
+#[path = "../29_emitters/emitters.rs"]
+mod emitters;
 mod file;
 mod finding;
 mod finish;
 mod glass;
+#[path = "../27_glass/glass.rs"]
+mod glass_of_27;
+mod lamps;
+#[path = "../28_depth_of_field/lens.rs"]
+mod lens;
 mod shapes;
 
-pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, Lens, MAX_LIGHTS, SceneLight};
+pub use alias::Column;
+pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, MAX_LIGHTS, SceneLight};
 pub use effect::{Effect, Effects};
+pub use emitters::{Emitter, EmitterAddresses, Emitters};
 pub use file::open;
 pub use finding::{Finding, findings, needed};
 pub use finish::{Finish, Pattern};
 pub use glass::{Glass, GlassKind, is_glass};
+pub use lamps::Lamps;
+pub use lens::{Lens, ThinLens};
 pub use shapes::{Box, Face, Solid, Sphere};

@@ -141,7 +141,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .skip(recipe.skipped(gpu))
         .raygen("camera.rgen")
         .miss("sky.rmiss");
-    if recipe.effects.has_any(&[PointShadows, DirectionalShadows]) {
+    if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters]) {
         builder = builder.miss("shadow.rmiss");
     }
     for kind in recipe.kinds() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 18] = [
+pub const SCENES: [&str; 19] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -22,14 +22,15 @@ pub const SCENES: [&str; 18] = [
     "painted room",
     "crystal",
     "close up",
+    "globes",
     "everything",
     "file",
 ];
 
 /// What the chapter begins with.
-pub const EVERYTHING: u32 = 16;
+pub const EVERYTHING: u32 = 17;
 /// Where `--scene` names a file.
-pub const FILE: u32 = 17;
+pub const FILE: u32 = 18;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

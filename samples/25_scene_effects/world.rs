@@ -1,10 +1,14 @@
 //! The world as shaders get it: addresses of shapes, plane, ground and lights, all in one buffer.
 
 use ash::vk;
+use bytemuck::Zeroable;
 use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
 use common::scene::{Light, LightKind};
-use effects::{BoardPlane, Composition, Face, Finish, Glass, Lens, MAX_LIGHTS, Solid, Sphere};
+use effects::{
+    BoardPlane, Column, Composition, Emitter, EmitterAddresses, Face, Finish, Glass, Lens,
+    MAX_LIGHTS, Solid, Sphere,
+};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::ground::{Ground, HeightfieldShape};
@@ -26,6 +30,8 @@ pub struct Shapes {
     pub glasses: vk::DeviceAddress,
     /// How many of those.
     pub glass_count: u32,
+    /// What shines, if anything does.
+    pub emitters: Option<EmitterAddresses>,
 }
 
 common::shader_struct! {
@@ -57,12 +63,14 @@ common::shader_struct! {
         pub faces: Address,
         pub finishes: Address,
         pub glasses: Address,
+        pub emitters: EmitterAddresses,
         pub plane: Plane,
         pub board: Board,
         pub ground: Ground,
         pub lens: Lens,
         pub media: [u32; 4],
         pub lights: [Light; MAX_LIGHTS],
+        pub sky: f32,
         pub light_count: u32,
         pub shadows: u32,
         pub light_samples: u32,
@@ -77,7 +85,7 @@ common::shader_struct! {
 }
 
 /// What lies behind the world's address.
-pub const LAYOUTS: [StructLayout; 13] = [
+pub const LAYOUTS: [StructLayout; 16] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -91,6 +99,9 @@ pub const LAYOUTS: [StructLayout; 13] = [
     Finish::LAYOUT,
     Glass::LAYOUT,
     Lens::LAYOUT,
+    EmitterAddresses::LAYOUT,
+    Emitter::LAYOUT,
+    Column::LAYOUT,
 ];
 
 impl World {
@@ -127,12 +138,14 @@ impl World {
             faces: shapes.faces.into(),
             finishes: shapes.finishes.into(),
             glasses: shapes.glasses.into(),
+            emitters: shapes.emitters.unwrap_or_else(Zeroable::zeroed),
             plane,
             board: Board::new(&board, &plane),
             ground: scene.heightfield.as_ref().map_or_else(Ground::none, Ground::new),
-            lens: scene.lens,
+            lens: scene.lens.shader(),
             media: scene.media_at(eye),
             lights,
+            sky: scene.sky,
             light_count: scene.lights.len() as u32,
             shadows,
             light_samples: scene.light_samples,

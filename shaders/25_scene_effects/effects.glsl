@@ -18,6 +18,7 @@
 #define EFFECT_MIRROR
 #define EFFECT_BOUNCES
 #define EFFECT_GLASS
+#define EFFECT_EMITTERS
 #define EFFECT_PATTERNS
 #define EFFECT_WIREFRAME
 #define EFFECT_ANTI_ALIASING
@@ -30,12 +31,19 @@
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
 #endif
+#if defined(SHADOWS) || defined(EFFECT_EMITTERS)
+#define SHADOW_RAYS
+#endif
 // Surfaces that send a ray on: a path has several.
 #if defined(EFFECT_MIRROR) || defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
 #define PATHS
 #endif
+// What shines is found in two ways: by shadow rays, and by chance.
+#if defined(EFFECT_EMITTERS) && defined(EFFECT_BOUNCES)
+#define CHANCES
+#endif
 // Surfaces that rays leave again: only there does it matter where exactly a ray starts.
-#if defined(SHADOWS) || defined(PATHS)
+#if defined(SHADOW_RAYS) || defined(PATHS)
 #define DEPARTURES
 #endif
 // Triangles that stand for a round surface: a shadow ray leaves that.

@@ -14,9 +14,9 @@ uvec4 media_of_camera() {
 }
 
 // What a ray's way through a body leaves of the light.
-vec3 left_on_way(uvec4 media, Hit hit) {
-    bool is_air = media.x == AIR || hit.t < 0.0;
-    return is_air ? vec3(1.0) : left_after(hit.t * push.world.glasses.at[media.x].absorption);
+vec3 left_on_way(uvec4 media, float way) {
+    bool is_air = media.x == AIR || way < 0.0;
+    return is_air ? vec3(1.0) : left_after(way * push.world.glasses.at[media.x].absorption);
 }
 
 // ANCHOR: pass

@@ -25,6 +25,9 @@ void main() {
 #ifdef LIFTS
     hit.lift = vec3(0.0);
 #endif
+#ifdef CHANCES
+    hit.emitter = NO_EMITTER;
+#endif
 #ifdef CURVES
     hit.curvature = 0.0;
 #endif

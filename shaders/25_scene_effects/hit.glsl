@@ -19,15 +19,21 @@ struct Hit {
 #ifdef EFFECT_GLASS
     bool entering;    // whether the ray came from outside of the body
 #endif
+#ifdef CHANCES
+    uint emitter;     // which emitter; or NO_EMITTER
+#endif
 #ifdef CURVES
     float curvature;  // by how much the normal turns in a unit of length
 #endif
 #ifdef EFFECT_WIREFRAME
     vec2 line;        // told to the shader: the ray's cone. Told by it, in x: how much of a pixel lines cover
 #endif
-};                    // 44 to 88 bytes
+};                    // 44 to 92 bytes
 // ANCHOR_END: hit
 
 // The ground and the plane are made of nothing that is in the list of materials.
 const uint MATERIAL_GROUND = -2;
 const uint MATERIAL_PLANE = -1;
+
+// What no shadow ray asks for light.
+const uint NO_EMITTER = -1;

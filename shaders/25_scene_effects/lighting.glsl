@@ -1,8 +1,10 @@
 // What the lights of the world do to a surface that a ray has met.
 
-#ifdef SHADOWS
+#ifdef SHADOW_RAYS
 #include "shadow.glsl"
+#endif
 
+#ifdef SHADOWS
 // Where shadow rays start.
 struct Start {
     vec3 origin;

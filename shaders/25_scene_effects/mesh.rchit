@@ -92,6 +92,13 @@ void main() {
     // A normal without faceforward looks out of the body.
     hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), placed.face) > 0.0;
 #endif
+#ifdef CHANCES
+    hit.emitter = NO_EMITTER;
+    if (push.world.emitters.column_count > 0) {
+        uint first = push.world.emitters.first.at[gl_InstanceCustomIndexEXT];
+        hit.emitter = first == NO_EMITTER ? NO_EMITTER : first + triangle;
+    }
+#endif
 #ifdef CURVES
     hit.curvature = curvature(instance, triangle);
 #endif

@@ -4,7 +4,8 @@
 #ifdef EFFECT_MIRROR
 #include "common/mirror.glsl"
 #endif
-#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
+#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS) || defined(EFFECT_EMITTERS)
+#define NUMBERS
 #include "common/numbers.glsl"
 #include "common/surface.glsl"
 #endif
@@ -24,7 +25,13 @@ struct Path {
 #ifdef EFFECT_GLASS
     uvec4 media;         // the bodies of glass that the next ray is in
 #endif
+#ifdef CHANCES
+    float density;       // of the next ray's direction; NO_OTHER if no shadow ray could have gone there
+#endif
 };
+
+// The camera, a mirror and glass leave no choice.
+const float NO_OTHER = -1.0;
 
 // Whether the next ray is worth tracing.
 bool goes_on(Path path) {
@@ -41,7 +48,7 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-#if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS)
+#ifdef NUMBERS
 vec2 numbers(Path path, uint dimension) {
     return numbers(pixel_id(), path.sample_index, path.bounce, dimension, 0);
 }
@@ -49,6 +56,9 @@ vec2 numbers(Path path, uint dimension) {
 
 #ifdef EFFECT_GLASS
 #include "glass.glsl"
+#endif
+#ifdef EFFECT_EMITTERS
+#include "emitters.glsl"
 #endif
 
 // What was met is made of, its colour apart; and what that mirrors, looked at straight.
@@ -75,14 +85,15 @@ MaterialRecord material_of(Hit hit, out vec3 reflection) {
 #ifdef EFFECT_BOUNCES
 // ANCHOR: scatters
 // A surface mirrors or scatters what comes next: one of the two, and the likelier the more light comes that
-// way (chapter 11). Returns whether it scatters.
-bool scatters(inout Path path, vec3 color, vec3 mirror) {
+// way (chapter 11). Returns whether it scatters, and with what probability it does.
+bool scatters(inout Path path, vec3 color, vec3 mirror, out float matte) {
     float mirrors = largest(mirror) / max(largest(mirror) + largest(color), 1e-30);
+    matte = 1.0 - mirrors;
     if (numbers(path, DIMENSION_CHOICE).x < mirrors) {
         path.throughput *= mirror / mirrors;
         return false;
     }
-    path.throughput *= color / (1.0 - mirrors);
+    path.throughput *= color / matte;
     return true;
 }
 // ANCHOR_END: scatters
@@ -100,8 +111,9 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     ray.width += ray.spread * hit.t;
 #endif
     uint way = WAY_MIRROR;
+    float matte = 0.0;   // with what probability the next ray is scattered
 #ifdef EFFECT_GLASS
-    path.throughput *= left_on_way(path.media, hit);
+    path.throughput *= left_on_way(path.media, hit.t);
     if (is_glass(hit)) {
         way = WAY_GLASS;
         hit.color = vec3(0.0);   // below its surface nothing scatters
@@ -124,22 +136,30 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         // What is reflected does not reach the colour below.
         hit.color *= 1.0 - mirror;
 #endif
-        vec3 around = ambient(hit.normal);
+        vec3 around = push.world.sky * ambient(hit.normal);
 #ifdef EFFECT_BOUNCES
         // A highlight that is met by chance would be a bright dot.
         material.specular *= path.bounces > 0 ? 0.0 : 1.0;
         if (path.bounces < push.world.bounces && hit.color != vec3(0.0)) {
             // The next ray finds out what comes from around; after the last one that is taken to be the sky's.
             around = vec3(0.0);
-            way = scatters(path, hit.color, mirror) ? WAY_BOUNCE : WAY_MIRROR;
+            way = scatters(path, hit.color, mirror, matte) ? WAY_BOUNCE : WAY_MIRROR;
         } else
 #endif
         if (way == WAY_MIRROR) {
             path.throughput *= mirror;
         }
+#ifdef CHANCES
+        if (material.emission != vec3(0.0)) {
+            material.emission *= part_by_chance(path, ray, hit);
+        }
+#endif
         path.color += reaching * (material.emission + hit.color * around);
         hit.color *= reaching;
         material.specular *= reaching;
+#ifdef EFFECT_EMITTERS
+        path.color += asked(path, hit, matte);
+#endif
 #ifdef SHADOWS
         Start start = shadow_start(hit);
 #endif
@@ -160,6 +180,9 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
 #ifdef PATHS
     float side = 1.0;
+#ifdef CHANCES
+    path.density = NO_OTHER;
+#endif
 #ifdef EFFECT_GLASS
     if (way == WAY_GLASS) {
         side = pass(path, ray, hit) ? -1.0 : 1.0;
@@ -169,6 +192,11 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     if (way == WAY_BOUNCE) {
         vec3 on = cosine_direction(numbers(path, DIMENSION_BOUNCE), hit.normal);
         ray.direction = kept_above(on, hit.face);
+#ifdef CHANCES
+        // The throughput was divided by `matte`: so that has not to be kept while lights are asked for.
+        float again = largest(hit.color) / max(largest(path.throughput), 1e-30);
+        path.density = again * likelihood(ray.direction, hit.normal, hit.face);
+#endif
         path.bounces++;
     } else
 #endif

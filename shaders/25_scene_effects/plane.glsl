@@ -40,6 +40,9 @@ Hit hit_of_plane(Ray ray, float t) {
 #ifdef LIFTS
     hit.lift = vec3(0.0);
 #endif
+#ifdef CHANCES
+    hit.emitter = NO_EMITTER;
+#endif
 #ifdef CURVES
     hit.curvature = 0.0;
 #endif

@@ -10,6 +10,8 @@
 #include "common/checker.glsl"
 #include "common/heightfield.glsl"
 #include "common/glass.glsl"
+#include "common/emitter.glsl"
+#include "common/lens.glsl"
 
 struct Sphere {
     vec3 center;
@@ -56,13 +58,6 @@ struct Finish {
     uint pattern;
 };
 
-// What the camera looks through.
-struct Lens {
-    float diameter;  // 0 for a pinhole
-    float focus;     // how far along the camera's axis things are sharp
-    uint blades;     // that its opening is made by; 0 for a disk
-};
-
 struct Ground {
     HeightfieldShape shape;
     vec3 low;
@@ -93,12 +88,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Faces faces;
     Finishes finishes;
     Glasses glasses;
+    EmitterAddresses emitters;
     Plane plane;
     Board board;
     Ground ground;
     Lens lens;
     uint media[4];        // the bodies of glass that the camera is in
     Light lights[MAX_LIGHTS];
+    float sky;            // how bright it is, 0 to 1
     uint light_count;
     uint shadows;         // bit i: light i casts shadows
     uint light_samples;   // shadow rays a hit, to a light that has a size

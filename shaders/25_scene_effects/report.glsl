@@ -30,6 +30,9 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #ifdef EFFECT_GLASS
     hit.entering = dot(outward, gl_WorldRayDirectionEXT) < 0.0;
 #endif
+#ifdef CHANCES
+    hit.emitter = NO_EMITTER;
+#endif
 #ifdef CURVES
     hit.curvature = curvature;
 #endif

@@ -39,5 +39,10 @@ void main() {
     }
 #endif
     hit = report(point, outward, own, curvature, number);
+#if defined(CHANCES) && defined(EFFECT_SPHERES)
+    if (gl_HitKindEXT == KIND_SPHERE && push.world.emitters.column_count > 0) {
+        hit.emitter = push.world.emitters.sphere_ids.at[gl_PrimitiveID];
+    }
+#endif
 }
 // ANCHOR_END: main

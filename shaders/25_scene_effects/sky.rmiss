@@ -11,5 +11,5 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 // The ray hit nothing: it sees the sky.
 void main() {
     hit.t = -1.0;
-    hit.color = sky(gl_WorldRayDirectionEXT);
+    hit.color = push.world.sky * sky(gl_WorldRayDirectionEXT);
 }

@@ -1,4 +1,4 @@
-// Taught by 26_leaving_a_surface; what 24 and 25 have of it: where a ray starts.
+// Taught by 26_leaving_a_surface; what 24 has of it: where a ray starts.
 
 struct Start {
     vec3 origin;

@@ -13,7 +13,7 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 }
 
 /// The effects of a set that a scene can call for together: holes, textures and lines need triangles, a
-/// light's size needs shadows, and a mirror, a pattern and glass need a surface.
+/// light's size needs shadows, and a mirror, a pattern, glass and an emitter need a surface.
 pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
         set = set.without(Textures).without(CutOut).without(Wireframe);
@@ -23,6 +23,9 @@ pub fn possible(mut set: Effects) -> Effects {
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, Plane, Solids]) {
         set = set.without(Mirror);
+    }
+    if !set.has_any(&[Triangles, Spheres]) {
+        set = set.without(Emitters);
     }
     if !set.has_any(&[Triangles, Spheres, Boxes, Solids]) {
         set = set.without(Patterns).without(Glass);
@@ -51,7 +54,7 @@ pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
 /// Each effect is in half of the sets, and never in the first: of two different halves neither holds the
 /// other, they have a set in common, and none has the first (Kleitman and Spencer, "Families of
 /// k-independent sets", 1973: that is enough for thousands of effects). [`possible`] takes some out again.
-/// So halves are drawn until no pair is lost.
+/// So halves are drawn until no pair is lost, and no ray leaves a surface in one of the sets.
 pub fn all_pairs() -> Vec<Effects> {
     let mut random = Random(16);
     let drawn = (0..100_000).map(|_| {
@@ -62,7 +65,14 @@ pub fn all_pairs() -> Vec<Effects> {
         };
         (0..16).map(set).map(possible).collect::<Vec<_>>()
     });
-    drawn.into_iter().find(|sets| unseen(sets).is_none()).expect("sixteen sets are enough")
+    let mut drawn = drawn.filter(|sets| unseen(sets).is_none());
+    drawn.find(|sets| sets.iter().any(leaves_nothing)).expect("sixteen sets are enough")
+}
+
+/// Whether there is something to see, and no ray leaves it: only a pipeline without such rays computes no start.
+fn leaves_nothing(set: &Effects) -> bool {
+    let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
+    set.has_any(&[Triangles, Spheres, Boxes, Solids]) && !set.has_any(&leaving)
 }
 
 /// Eight of sixteen, without the first.
@@ -187,11 +197,19 @@ fn text(set: Effects, random: &mut Random) -> String {
             n(0.2, 1.0)
         );
     }
+    if has(Emitters) {
+        text += &format!(
+            "[[material]]\nname = \"lamp\"\ncolor = [{}, 0, 0]\nemission = [{}, 3, 2]\n",
+            n(0.0, 0.5),
+            n(1.0, 9.0)
+        );
+    }
     // Without one, every mesh of the model would be placed.
     if has(Triangles) {
         let pieces = [
             ("tent", "sheet", true),
             ("tent", "crystal", has(Glass)),
+            ("tent", "lamp", has(Emitters)),
             ("picture", "", has(Textures)),
             ("lattice", "", has(CutOut)),
         ];
@@ -240,6 +258,13 @@ fn text(set: Effects, random: &mut Random) -> String {
                 0.5 + number as f64
             );
         }
+    }
+    if has(Emitters) && has(Spheres) {
+        text += &format!(
+            "[[sphere]]\ncenter = [{}, {}, 1]\nradius = 0.25\nmaterial = \"lamp\"\n",
+            n(-2.0, 2.0),
+            n(0.3, 1.5)
+        );
     }
     if has(Heightfield) {
         text += &format!(

@@ -1,15 +1,21 @@
-//! Bounces, glass and a lens against what can be said by hand.
+//! Bounces, glass, emitters and a lens against what can be said by hand.
 
 use std::fs;
+use std::path::Path;
 
 use common::app::Picture;
+use effects::{Effect, findings};
 
 use super::run;
 
 /// The picture of a scene, 32 by 20 pixels or as large as asked for.
 fn picture(size: &str, text: &str) -> Picture {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("s.toml");
+    picture_in(tempfile::tempdir().unwrap().path(), size, text)
+}
+
+/// As [`picture`], of a scene whose file is in a folder.
+fn picture_in(folder: &Path, size: &str, text: &str) -> Picture {
+    let file = folder.join("s.toml");
     fs::write(&file, format!("version = 1\n{text}")).unwrap();
     run(size, &["--scene", file.to_str().unwrap()], &[]).picture
 }
@@ -117,6 +123,91 @@ fn from_within_glass_a_flat_angle_is_reflected_as_a_whole() {
     let dark = seen("[0, 0.05, 1]", 1.5).iter().filter(|pixel| is_dark(pixel)).count();
     // A side reflects 4 %, and the side behind the camera lets that out.
     assert!(dark == 0, "{dark} pixels are dark, looking straight at a side");
+}
+
+/// The mean of a floor's red and of its blue, right below what shines, by night.
+fn lit_floor(bounces: u32, lamp: &str) -> [f64; 2] {
+    lit_floor_in(tempfile::tempdir().unwrap().path(), bounces, "", lamp)
+}
+
+fn lit_floor_in(folder: &Path, bounces: u32, keys: &str, lamp: &str) -> [f64; 2] {
+    let text = format!(
+        "sky = 0\n{keys}[picture]\nsamples = 64\nbounces = {bounces}\n[camera]\neye = [0, 4, 9]\n\
+         target = [0, 0, 0]\nfield_of_view = 1\n[[material]]\nname = \"floor\"\n\
+         color = [0.8, 0.8, 0.4]\n[[box]]\nlow = [-9, -1, -9]\nhigh = [9, 0, 9]\nmaterial = \"floor\"\n\
+         [[material]]\nname = \"lamp\"\ncolor = [0, 0, 0]\nemission = [5, 5, 5]\n{lamp}"
+    );
+    let pixels = picture_in(folder, "32x20", &text).pixels;
+    [0, 2].map(|channel| {
+        pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / pixels.len() as f64
+    })
+}
+
+const BALL: &str = "[[sphere]]\ncenter = [0, 3, 0]\nradius = 1\nmaterial = \"lamp\"\n";
+
+#[test]
+fn a_ball_lights_the_floor_by_the_square_of_its_sine() {
+    // Below its middle a ball that shines sends pi·L·(r/d)^2, of which the floor scatters a part over pi.
+    let expected = [0.8, 0.4].map(|color| color * 5.0 / 9.0);
+    for bounces in [0, 1, 4] {
+        // With bounces paths meet the ball by chance, too, and it is counted once.
+        for (found, expected) in lit_floor(bounces, BALL).into_iter().zip(expected) {
+            println!("{bounces} bounces: {found}, not {expected}");
+            assert!((found / expected - 1.0).abs() < 0.01, "{bounces}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn what_chance_alone_finds_is_as_bright() {
+    // No shadow ray asks a box; and none comes through glass, though this bends no ray and takes no light.
+    let glass = "[[material]]\nname = \"glass\"\nglass = \"thick\"\nindex = 1\n[[box]]\n\
+                 low = [-2, 1, -2]\nhigh = [2, 5, 2]\nmaterial = \"glass\"\n";
+    let [free, _] = lit_floor(1, BALL);
+    let [in_glass, _] = lit_floor(1, &format!("{BALL}{glass}"));
+    println!("a ball: {free}; in glass: {in_glass}");
+    // One path of nine meets it, of 41,000: three times the deviation is 0.04.
+    assert!((in_glass / free - 1.0).abs() < 0.04, "{in_glass}, not {free}");
+    let plate = "[[box]]\nlow = [-1, 2, -1]\nhigh = [1, 2.002, 1]\nmaterial = \"lamp\"\n";
+    let [by_chance, _] = lit_floor(1, plate);
+    let folder = tempfile::tempdir().unwrap();
+    let model = "o plate\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\nf 1 2 3 4\n";
+    let file = folder.path().join("plate.obj");
+    fs::write(&file, model).unwrap();
+    let piece = "[[piece]]\nmesh = \"plate\"\nat = [0, 0, 0]\nmaterial = \"lamp\"\n";
+    let [by_both, _] = lit_floor_in(folder.path(), 1, "model = \"plate.obj\"\n", piece);
+    println!("a plate by chance: {by_chance}; by both: {by_both}");
+    assert!((by_chance / by_both - 1.0).abs() < 0.04, "{by_chance}, not {by_both}");
+}
+
+#[test]
+fn what_shines_calls_for_shadow_rays_if_something_scatters_its_light() {
+    let needed = |text: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("s.toml");
+        let lamp = "[[material]]\nname = \"lamp\"\ncolor = [0, 0, 0]\nemission = [1, 0, 0]\n";
+        fs::write(&file, format!("version = 1\n{CAMERA}{lamp}{text}")).unwrap();
+        let found = findings(&effects::open(&file).unwrap());
+        let found = found.into_iter().find(|found| found.effect == Effect::Emitters).unwrap();
+        (found.needed, found.why)
+    };
+    let wall = "[[material]]\nname = \"wall\"\ncolor = [0, 0.1, 0]\n[[box]]\nlow = [0, 0, 0]\n\
+                high = [1, 1, 1]\nmaterial = \"wall\"\n";
+    let none = (false, "no sphere and no mesh shines, or nothing scatters light".to_owned());
+    assert_eq!(needed(BALL), none, "nothing has a colour");
+    assert_eq!(needed(wall), none, "nothing wears the lamp");
+    let shining = wall.replace("material = \"wall\"", "material = \"lamp\"");
+    assert_eq!(
+        needed(&format!(
+            "{shining}{}",
+            wall.replace("[[material]]\nname = \"wall\"\ncolor = [0, 0.1, 0]\n", "")
+        )),
+        none,
+        "a box is met by chance"
+    );
+    assert_eq!(needed(&format!("{BALL}{wall}")), (true, "material `lamp` shines".to_owned()));
+    let glass = wall.replace("[[box]]", "glass = \"thick\"\n[[box]]");
+    assert_eq!(needed(&format!("{BALL}{glass}")), none, "glass scatters nothing");
 }
 
 #[test]

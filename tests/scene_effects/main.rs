@@ -22,7 +22,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects that each calls for, and the stages, by hand. Every pipeline
 /// has `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 17] = [
+const SCENES: [(&str, &[Effect], &[&str]); 18] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -86,6 +86,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 17] = [
         "close up",
         &[Triangles, DirectionalShadows, AntiAliasing, DepthOfField],
         &["shadow.rmiss", "mesh.rchit"],
+    ),
+    (
+        "globes",
+        &[Triangles, Spheres, Plane, Mirror, Bounces, Glass, Emitters, AntiAliasing],
+        &["shadow.rmiss", "mesh.rchit", "sphere.rint", "shape.rchit"],
     ),
     ("everything", &Effect::ALL, &EVERY_STAGE),
 ];
@@ -154,7 +159,8 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     let expected: BTreeSet<String> =
         expected.iter().map(|stage| format!("{NAME}/{stage}")).collect();
     assert_eq!(paths, expected.iter().map(String::as_str).collect(), "{name}");
-    let shadows = effects.has_any(&[PointShadows, DirectionalShadows]);
+    let lifts = effects.has_any(&[PointShadows, DirectionalShadows]);
+    let shadows = lifts || effects.has(Emitters);
     for stage in stages {
         let (path, module) = (stage["path"].as_str().unwrap(), &stage["module"]);
         let place = format!("{name}: {path}");
@@ -180,14 +186,15 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
     // Position, distance, normal, material and colour; where rays leave, height and face; the way to the
-    // round surface; from where it came into a body; how round it is; and the ray's cone. A shadow ray has a
-    // payload of its own, of one bool.
+    // round surface; from where it came into a body; which emitter it is; how round it is; and the ray's cone. A
+    // shadow ray has a payload of its own, of one bool.
     let cones = effects.has_any(&[Plane, Heightfield, Wireframe]);
     let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
     let payload = 11
         + 4 * usize::from(leaves)
-        + 3 * usize::from(shadows && effects.has(Triangles))
+        + 3 * usize::from(lifts && effects.has(Triangles))
         + usize::from(effects.has(Glass))
+        + usize::from(effects.has(Emitters) && effects.has(Bounces))
         + usize::from(cones && effects.has_any(&[Mirror, Glass]))
         + 2 * usize::from(effects.has(Wireframe));
     for stage in stages {
@@ -199,7 +206,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         };
         assert_eq!(stage["module"]["payload"], 4 * floats, "{name}: {path}");
     }
-    assert!(4 * payload <= 88, "{name}");
+    assert!(4 * payload <= 92, "{name}");
 }
 
 fn set_of(effects: &[Effect]) -> Effects {

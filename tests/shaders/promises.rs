@@ -117,10 +117,11 @@ fn no_angle_is_beyond_pi() {
         "05_shadow_miss/light.glsl",
         "11_path_tracing/surface.glsl",
         "14_animation/flag.comp",
-        "25_scene_effects/opening.glsl",
         "28_depth_of_field/lens.glsl",
         "29_emitters/sphere_light.glsl",
+        "common/lens.glsl",
         "common/light.glsl",
+        "common/sphere_light.glsl",
         "common/surface.glsl",
     ];
     for function in ["sin", "cos"] {
@@ -140,42 +141,27 @@ fn no_angle_is_beyond_pi() {
 }
 
 #[test]
-fn no_point_of_a_lens_has_an_angle_beyond_pi() {
-    let noting = format!("{NOTING_ANGLES}#include \"25_scene_effects/opening.glsl\"\n");
-    // A disk, and all polygons; the first and the last number of a turn, and some between.
-    let body = "uint last = 16777215u;\n\
-                float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
-                float other = at.x < 17 ? 0.5 : 1.0 - 1.0 / 16777216.0;\n\
-                vec2 u = vec2(turn / 16777216.0, other);\n\
-                vec2 point = lens_point(at.x % 17 == 0 ? u.yx : u, at.x % 17);\n\
-                answer = vec4(widest, point, 0.0);";
-    let picture = run::evaluate(&noting, body, "34x64");
-    reaches_pi_at_most(&picture);
-    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
-}
-
-#[test]
 fn no_corner_of_a_blade_has_an_angle_beyond_pi() {
     // The camera and its rungs are none of the matter.
-    let noting = format!(
-        "{NOTING_ANGLES}struct Other {{ vec3 origin; vec3 right; vec3 up; vec3 forward; }};\n\
-         #define CameraBasis Other\n\
-         struct Lens {{ float radius; float inverse_focus; uint blades; float turn; }};\n\
-         const uint RUNG = 2, RUNG_EYE = 1, RUNG_START = 2;\n\
-         #include \"28_depth_of_field/lens.glsl\"\n\
-         #undef CameraBasis\n"
-    );
-    // All polygons and the disk; the first and the last number of a turn, and some between.
-    let body = "uint last = 16777215u;\n\
-                float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
-                vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
-                uint corners = uint(at.x) % 17;\n\
-                vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
-                                         : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
-                answer = vec4(widest, point, 0.0);";
-    let picture = run::evaluate(&noting, body, "34x64");
-    reaches_pi_at_most(&picture);
-    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
+    let own = "struct Lens { float radius; float inverse_focus; uint blades; float turn; };\n\
+               const uint RUNG = 2, RUNG_EYE = 1, RUNG_START = 2;\n";
+    for (more, file) in [(own, "28_depth_of_field/lens.glsl"), ("", "common/lens.glsl")] {
+        let noting = format!(
+            "{NOTING_ANGLES}struct Other {{ vec3 origin; vec3 right; vec3 up; vec3 forward; }};\n\
+             #define CameraBasis Other\n{more}#include \"{file}\"\n#undef CameraBasis\n"
+        );
+        // All polygons and the disk; the first and the last number of a turn, and some between.
+        let body = "uint last = 16777215u;\n\
+                    float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
+                    vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
+                    uint corners = uint(at.x) % 17;\n\
+                    vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
+                                             : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
+                    answer = vec4(widest, point, 0.0);";
+        let picture = run::evaluate(&noting, body, "34x64");
+        reaches_pi_at_most(&picture);
+        assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001), "{file}");
+    }
 }
 
 #[test]

@@ -13,8 +13,8 @@ use super::description::{Board, Description, Optics, Piece, View};
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
-use crate::composition::{close, focus_of};
-use crate::{Box, Composition, Finish, Lens, MAX_LIGHTS, Sphere, is_glass};
+use crate::composition::{close, pinhole};
+use crate::{Box, Composition, Finish, MAX_LIGHTS, Sphere, ThinLens, is_glass};
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
@@ -40,9 +40,9 @@ impl Description {
             return Err(source.error(self.camera.span().start, what));
         }
         let camera = Camera::new(eye, target, field_of_view);
-        let mut lens = Lens { focus: focus_of(&camera), ..Lens::PINHOLE };
+        let mut lens = pinhole(&camera);
         if let Some(Optics { diameter, focus, blades }) = view.lens {
-            lens = Lens { diameter, focus: focus.unwrap_or(lens.focus), blades };
+            lens = ThinLens { diameter, focus: focus.unwrap_or(lens.focus), blades, ..lens };
         }
         let instances = self.instances(&model, &materials, source)?;
         let lights = self.light.iter().map(|lamp| {
@@ -64,6 +64,7 @@ impl Description {
             faces: Vec::new(),
             solid_bounds: Vec::new(),
             heightfield: heightfield.transpose()?,
+            sky: self.sky,
             samples: self.picture.samples,
             light_samples: self.picture.light_samples,
             depth: self.picture.depth,

@@ -21,6 +21,8 @@ pub(super) struct Description {
     pub(super) _version: i64,
     pub(super) model: Option<Spanned<String>>,
     pub(super) position: Option<Spanned<String>>,
+    #[serde(default = "one", deserialize_with = "bounded::part")]
+    pub(super) sky: f32,
     #[serde(default)]
     pub(super) picture: Picture,
     pub(super) camera: Spanned<View>,

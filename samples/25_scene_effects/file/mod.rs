@@ -10,8 +10,9 @@ mod values;
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use common::scene::Scene;
+use common::scene::text::shown;
 use description::Description;
 use source::Source;
 
@@ -26,7 +27,7 @@ const VERSION: i64 = 1;
 /// If it is missing or wrong, in one line with file and line.
 pub fn open(path: &Path) -> Result<Composition> {
     if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        return Ok(Composition::of_meshes(Scene::open(path)?));
+        return checked(Composition::of_meshes(Scene::open(path)?), path);
     }
     let source = Source::open(path)?;
     // The version before the rest: what the rest means depends on it.
@@ -37,5 +38,11 @@ pub fn open(path: &Path) -> Result<Composition> {
             format!("a scene file has the key `version = {VERSION}`; no other version is known");
         return Err(source.error(at, &what));
     }
-    source.parse::<Description>()?.compose(path, &source)
+    checked(source.parse::<Description>()?.compose(path, &source)?, path)
+}
+
+/// Holds that what shines can be listed.
+fn checked(scene: Composition, path: &Path) -> Result<Composition> {
+    scene.lamps().with_context(|| shown(path))?;
+    Ok(scene)
 }

@@ -1,0 +1,84 @@
+//! What of a composition shines on the rest of it, as chapter 29 has it: its own files make the list.
+
+use anyhow::Result;
+use common::scene::Material;
+use glam::Vec3;
+
+use crate::emitters::{self, Emitters};
+use crate::{Composition, is_glass};
+
+/// The emitters of a composition.
+pub struct Lamps {
+    /// Spheres first, then the triangles of meshes, and the table that chooses one.
+    pub emitters: Emitters,
+    /// Of each instance, which emitter its triangle 0 is; [`NO_EMITTER`] if it is none.
+    pub of_instances: Vec<u32>,
+    /// Of each sphere, which emitter it is, or [`NO_EMITTER`].
+    pub of_spheres: Vec<u32>,
+}
+
+/// What no shadow ray asks for light.
+const NO_EMITTER: u32 = u32::MAX;
+
+// ANCHOR: lamp
+/// Whether shadow rays may ask a material for its light. They end before it: so they would not see whether
+/// they go through one of its holes.
+fn is_lamp(material: &Material) -> bool {
+    material.emission.max_element() > 0.0 && !material.has_cutout()
+}
+// ANCHOR_END: lamp
+
+impl Composition {
+    /// The first material of a sphere or a placed mesh that shines.
+    pub(crate) fn lamp(&self) -> Option<&Material> {
+        let meshes = self.scene.instances.iter().map(|instance| instance.material);
+        let spheres = self.spheres.iter().map(|sphere| sphere.material as usize);
+        let lamps = meshes.chain(spheres).map(|number| &self.scene.model.materials[number]);
+        lamps.into_iter().find(|material| is_lamp(material))
+    }
+
+    /// Whether anything scatters light: has a colour, and is no glass.
+    pub(crate) fn scatters(&self) -> bool {
+        let is_colored = |color: Vec3| color.max_element() > 0.0;
+        let glass = |material: &Material| is_glass(material) && self.depth > 0;
+        let plane = self.plane.is_some_and(|plane| is_colored(plane.light.max(plane.dark)));
+        self.in_use().into_iter().any(|number| {
+            let (material, finish) = (&self.scene.model.materials[number], &self.finishes[number]);
+            let other = finish.second.max(finish.ink);
+            !glass(material) && is_colored(material.base_color.max(other))
+        }) || plane
+            || self.heightfield.is_some()
+    }
+
+    /// What shadow rays may ask for light, if there is anything.
+    ///
+    /// # Errors
+    /// If there is too much of it.
+    pub fn lamps(&self) -> Result<Option<Lamps>> {
+        if self.lamp().is_none() {
+            return Ok(None);
+        }
+        let mut scene = self.scene.clone();
+        let materials = &mut scene.model.materials;
+        for material in materials.iter_mut().filter(|material| !is_lamp(material)) {
+            material.emission = Vec3::ZERO;
+        }
+        let shines = |material: usize| materials[material].emission != Vec3::ZERO;
+        let mut spheres = Vec::new();
+        let of_spheres = self.spheres.iter().map(|&crate::Sphere { center, radius, material }| {
+            let material = material as usize;
+            if !shines(material) {
+                return NO_EMITTER;
+            }
+            spheres.push(emitters::Sphere { center, radius, material });
+            spheres.len() as u32 - 1
+        });
+        let of_spheres = of_spheres.collect();
+        let dull: Vec<bool> = scene.instances.iter().map(|i| !shines(i.material)).collect();
+        let emitters = Emitters::new(&scene, &spheres)?;
+        let first = emitters.first.iter().zip(dull);
+        let of_instances =
+            first.map(|(&first, dull)| if dull { NO_EMITTER } else { first }).collect();
+        Ok(Some(Lamps { emitters, of_instances, of_spheres }))
+    }
+}

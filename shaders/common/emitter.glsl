@@ -1,0 +1,43 @@
+// Taught by 29_emitters; what 25 has of it: the list of all that shines, as a part of its world.
+//
+// What shines: spheres, and triangles of meshes; and the table by which one of them is chosen.
+
+// ANCHOR: emitter
+struct Emitter {
+    vec3 corner;          // a triangle's first; a sphere's centre
+    float radius;         // a sphere's; 0 for a triangle
+    vec3 across;          // from a triangle's first corner to its second
+    float probability;    // that it is chosen by its power
+    vec3 along;           // and to its third
+    uint material;
+    float height;         // a ray that ends so far above it, and `slack` times its length, does not meet it
+    float slack;
+};
+// ANCHOR_END: emitter
+
+// Where a shadow ray goes.
+struct Aim {
+    vec3 direction;    // to a point of the emitter
+    float angle;       // the solid angle that the direction stands for: 1 over its density
+    vec3 to;           // as far as the ray goes: to just above that point
+};
+
+// A column of the table: what part of it is its own emitter's, and whose the rest is.
+struct Column {
+    float own;
+    uint other;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Emitters { Emitter at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Columns { Column at[]; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Numbers { uint at[]; };
+
+struct EmitterAddresses {
+    Emitters emitters;    // spheres, then the triangles of each mesh that shines
+    Columns columns;
+    Numbers first;        // of each instance: which emitter its triangle 0 is
+    Numbers sphere_ids;   // of each sphere of the build: which emitter it is
+    uint count;           // of the emitters
+    uint column_count;    // a power of two, or 0 where nothing shines
+};
