@@ -83,3 +83,16 @@ fn samples_buy_less_where_the_lens_blurs() {
     assert!((-0.65..-0.45).contains(&slopes[1]), "a lens: {}", slopes[1]);
     figures::hold("28_depth_of_field/errors", table.into());
 }
+
+/// The time of a picture with a lens, in milliseconds.
+#[test]
+#[ignore = "takes seconds, and gives times"]
+fn price() {
+    let mut table = Map::new();
+    for frames in [1, 4, 16, 64, 256u32] {
+        let report = render(NAME, "240x150", &arguments(&[], frames, &[])).report;
+        let median = report["gpu_milliseconds"]["median"].as_f64().expect("a time");
+        table.insert(frames.to_string(), (median * f64::from(frames)).into());
+    }
+    figures::give_timed("28_depth_of_field/price", table.into());
+}

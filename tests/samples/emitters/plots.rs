@@ -18,8 +18,8 @@ fn estimators() {
         let sets = [
             &estimator(ESTIMATORS[i])[..],
             "depth=2",
-            "camera target=1.1,0.35,-0.35",
-            "field of view=17",
+            "camera target=-2.0,0.45,0.35",
+            "field of view=19",
         ];
         (names[i].to_owned(), picture("320x240", 64, &sets))
     };
