@@ -134,6 +134,8 @@ impl Edition {
         );
         let (mut cargo, _) = self.cargo("test", project, programs);
         cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
+        // What a reader changes gives other figures than the page's.
+        cargo.env("EXERCISE", "1");
         let ended = child::run(&mut cargo, LIMIT)?;
         if ended.status.is_none() {
             bail!("the tests '{filter}' do not end");

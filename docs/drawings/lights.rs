@@ -85,10 +85,11 @@ fn balance(s: &mut Sheet) {
     let xs = || (0..=100).map(|i| f64::from(i) / 100.0);
     let within: Vec<f64> = xs().filter(|x| by_lamp(*x) > 0.0).collect();
     let (first, last) = (within[0], within[within.len() - 1]);
-    let part = |x: f64| by_surface(x) / (by_surface(x) + by_lamp(x));
+    // The lamp's column is all the light: each way counts the part that its density has.
+    let part = |x: f64| by_lamp(x) * by_surface(x) / (by_surface(x) + by_lamp(x));
     let shared: Vec<Point> = within.iter().map(|&x| at(x, part(x))).collect();
     let lower = [&[at(first, 0.0)], &shared[..], &[at(last, 0.0)]].concat();
-    let upper = [&[at(first, 1.0)], &shared[..], &[at(last, 1.0)]].concat();
+    let upper = [&[at(first, 0.85)], &shared[..], &[at(last, 0.85)]].concat();
     s.polygon(&lower, GREEN, "none");
     s.polygon(&upper, BLUE, "none");
     let surface: Vec<Point> = xs().map(|x| at(x, by_surface(x))).collect();
@@ -109,8 +110,8 @@ fn balance(s: &mut Sheet) {
     s.note(at(0.2, 0.6), Middle, "p of the surface");
     s.say(at(0.65, 0.6), Middle, "light");
     s.say(at(0.65, 0.12), Middle, "BSDF");
-    s.note(at(0.65, 1.06), Middle, "p of the lamp");
+    s.note(at(0.65, 0.91), Middle, "p of the lamp");
     s.note(at(0.5, -0.11), Middle, "directions");
     s.title([left, 292.0], Start, "Two densities, one light.");
-    s.note([left, 311.0], Start, "its parts are as the densities");
+    s.note([left, 311.0], Start, "divided as the densities are");
 }

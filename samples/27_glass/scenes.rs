@@ -42,6 +42,9 @@ pub struct Staged {
     pub sky: Sky,
 }
 
+/// How far the pane leans back, in radians.
+const PANE: f32 = 1.2;
+
 /// How far a piece stands above the board: glass on wood has air below it.
 const GAP: f32 = 1e-3;
 
@@ -121,7 +124,8 @@ impl Staged {
             }
             SceneName::Pane => {
                 let pane = Material { illumination: 4, ..clear };
-                plain(alone(sheet(), pane, Affine3A::from_rotation_y(0.5), 5.0, 4.0), Sky::Day)
+                // It leans away, and mirrors the sky above the camera.
+                plain(alone(sheet(), pane, Affine3A::from_rotation_x(-PANE), 5.0, 40.0), Sky::Day)
             }
         }
     }

@@ -1,7 +1,7 @@
 //! 28 · Depth of field: rays start all over a lens, and what is not in the plane in focus is blurred.
 //!
 //! New since 04_jitter_camera: the lens and its blades, a place on it for every ray, and a direction that
-//! keeps its digits far from the origin. Of 04's sequences, scramblings and filters one each is left.
+//! keeps its digits far from the origin.
 
 mod lamps;
 mod lens;
@@ -11,8 +11,8 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, Image, RayTracingPipeline, Requirements, TextureTable,
-    Variant, Variants, barrier,
+    Binding, Buffer, Descriptor, Gpu, HitGroup, Image, Number, RayTracingPipeline, Requirements,
+    TextureTable, Variant, Variants, barrier,
 };
 use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOnGpu, Sun};
 use common::{Controls, Frame, Sample, Setup};
@@ -22,6 +22,9 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
+/// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
+const PIECES: usize = 1024;
+
 struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
@@ -29,14 +32,24 @@ struct Demo {
     sun: Sun,
     constants: Constants,
     lens: ThinLens,
+    sequence: Sequence,
+    scrambling: Scrambling,
+    filter: Filter,
     seed: u32,
     accumulate: bool,
     means: Image,
+    offsets: Buffer,
 }
 
 common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Origin = "ray origin", Direction = "ray direction" }
+    /// What places the rays in their pixels.
+    enum Sequence: SEQUENCE { Centre, Random, Halton = "Halton", R2 = "R2", Sobol = "Sobol" }
+    /// What makes the pixels' sequences differ.
+    enum Scrambling: SCRAMBLING { None, Rotation, Owen = "Owen" }
+    /// What weighs a pixel's neighbourhood.
+    enum Filter: FILTER { Box, Tent, BlackmanHarris = "Blackman-Harris" }
     /// From where a ray's point in focus is seen when its direction is computed: from the world's origin,
     /// from the eye, or from where the ray starts.
     enum Rung: RUNG { World, Eye, Start }
@@ -56,6 +69,9 @@ common::shader_struct! {
         scene: SceneAddresses,
         light: DirectionalLight,
         lens: Lens,
+        sequence: Number<Sequence>,
+        scrambling: Number<Scrambling>,
+        pixel_filter: Number<Filter>,
         seed: u32,
         frame: u32,
         accumulated: u32,
@@ -78,9 +94,14 @@ impl Sample for Demo {
             sun: Sun::default(),
             constants: Constants { show: Show::Picture, rung: Rung::Start },
             lens: ThinLens::focused_on_target(&camera),
+            sequence: Sequence::Sobol,
+            scrambling: Scrambling::Owen,
+            // Narrower than 04's default: what is in focus is sharper.
+            filter: Filter::Tent,
             seed: 0,
             accumulate: true,
             means: Image::storage(gpu, "means", vk::Extent2D { width: 1, height: 1 })?,
+            offsets: offsets(gpu)?,
         })
     }
 
@@ -89,6 +110,9 @@ impl Sample for Demo {
         c.choice("show", &mut self.constants.show);
         self.lens.controls(c);
         c.choice("rung", &mut self.constants.rung);
+        c.choice("sequence", &mut self.sequence);
+        c.choice("scrambling", &mut self.scrambling);
+        c.choice("filter", &mut self.filter);
         c.integer("seed", &mut self.seed, 0..=1000);
         c.checkbox("accumulate", &mut self.accumulate);
         c.sun(&mut self.sun);
@@ -110,6 +134,9 @@ impl Sample for Demo {
             scene: self.scene.addresses,
             light: self.sun.light(),
             lens: self.lens.shader(),
+            sequence: self.sequence.into(),
+            scrambling: self.scrambling.into(),
+            pixel_filter: self.filter.into(),
             seed: self.seed,
             frame: frame.index,
             accumulated: if self.accumulates() { frame.accumulated } else { 0 },
@@ -118,6 +145,7 @@ impl Sample for Demo {
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
             Descriptor::StorageImage(&self.means),
+            Descriptor::StorageBuffer(&self.offsets),
         ];
         let Variant { pipeline, sbt, .. } =
             self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
@@ -153,8 +181,38 @@ fn pipeline(
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
         .binding(Binding::StorageImage)
+        .binding(Binding::StorageBuffer)
         .textures(textures)
         .push_constants::<Push>()
         .build(gpu)
 }
 // ANCHOR_END: pipeline
+
+// ANCHOR: offsets
+/// The offsets, in pixels, below which a given part of the Blackman-Harris filter lies.
+///
+/// The filter is the window of Harris 1978 with four terms and a width of three pixels. Its integral is
+/// a sum of sines with no inverse in closed form, so it is found by bisection, once, in f64.
+fn offsets(gpu: &Gpu) -> Result<Buffer> {
+    const WIDTH: f64 = 3.0;
+    const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
+    let below = |offset: f64| {
+        let waves = (1..4).map(|k| {
+            let turn = std::f64::consts::TAU * f64::from(k);
+            TERMS[k as usize] / TERMS[0] * (turn * offset / WIDTH).sin() / turn
+        });
+        0.5 + offset / WIDTH + waves.sum::<f64>()
+    };
+    let inverse = |part: f64| {
+        let (mut low, mut high) = (-WIDTH / 2.0, WIDTH / 2.0);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + high);
+            if below(middle) < part { low = middle } else { high = middle }
+        }
+        high as f32
+    };
+    let offsets: Vec<f32> =
+        (0..=PIECES).map(|piece| inverse(piece as f64 / PIECES as f64)).collect();
+    Buffer::with_data(gpu, "offsets", &offsets, vk::BufferUsageFlags::STORAGE_BUFFER)
+}
+// ANCHOR_END: offsets

@@ -1,7 +1,5 @@
 //! The scenes of this chapter: one to look at, two that must be white, and those whose light is known.
 
-use std::f32::consts::FRAC_PI_2;
-
 use anyhow::{Context, Result};
 use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
@@ -44,41 +42,78 @@ pub struct Staged {
 }
 
 // ANCHOR: chess
-/// The chess set of gold and silver, ivory and red stone, among lamps and before a screen of paper.
+/// Gold, silver, ivory, red and blue stone by night, among lamps, embers on the board and screens of paper.
 pub fn chess() -> Result<Staged> {
     let mut scene = Scene::chess_of_metal()?;
     let Model { meshes, materials, .. } = &mut scene.model;
-    // The fretwork makes way for the screen, which shines.
-    let names: Vec<String> = meshes.iter().map(|mesh| mesh.name.clone()).collect();
-    scene.instances.retain(|instance| !names[instance.mesh].starts_with("screen"));
-    let black = materials.iter_mut().find(|material| material.name == "black");
-    black.context("the chess set has no material 'black'")?.base_color =
-        Vec3::new(0.5, 0.035, 0.02);
+    let named = |name: &str| {
+        let found = materials.iter().position(|material| material.name == name);
+        found.with_context(|| format!("the chess set has no material '{name}'"))
+    };
+    let [white, red, gold, wood] = ["white", "black", "gold", "frame"].map(named);
+    let (white, red, gold, wood) = (white?, red?, gold?, wood?);
+    // The fretwork makes way for the screens, which shine.
+    scene.instances.retain(|instance| !meshes[instance.mesh].name.starts_with("screen"));
+    for instance in &mut scene.instances {
+        let is_pawn = meshes[instance.mesh].name == "pawn";
+        if instance.material == white && !is_pawn {
+            instance.material = gold;
+        } else if instance.material == red && is_pawn {
+            instance.material = materials.len();
+        }
+    }
+    let blue = Vec3::new(0.02, 0.06, 0.34);
+    materials.push(Material { base_color: blue, ..materials[red].clone() });
+    materials[red].base_color = Vec3::new(0.5, 0.035, 0.02);
     let first = materials.len();
     materials.push(lamp("lamp", Vec3::new(5.4, 2.2, 0.62)));
     materials.push(lamp("ember", Vec3::new(11.0, 3.2, 0.6)));
-    materials.push(lamp("paper", Vec3::new(0.2, 0.3, 0.52)));
-    let screen = Affine3A::from_scale_rotation_translation(
-        Vec3::new(8.6, 2.3, 1.0),
-        Quat::from_rotation_y(FRAC_PI_2),
-        Vec3::new(-4.7, 1.35, -0.4),
-    );
+    materials.push(lamp("paper", Vec3::new(0.62, 0.43, 0.24)));
+    let mesh = meshes.len();
     meshes.push(square("paper", first + 2, Vec3::ZERO, Vec3::X, Vec3::Y));
-    let (mesh, material) = (meshes.len() - 1, first + 2);
-    scene.instances.push(Instance { mesh, transform: screen, material, record_offset: 0 });
+    // Behind the pieces; and behind the camera, where metal shows it.
+    for (middle, size) in [([5.6, 1.75, -2.3], [11.0, 3.3]), ([-9.0, 1.8, 3.8], [10.0, 5.0])] {
+        let place =
+            Affine3A::from_rotation_translation(Quat::from_rotation_y(-1.18), middle.into());
+        for (size, at, is_bar) in screen(size.into()) {
+            let own = Affine3A::from_scale_rotation_translation(size, Quat::IDENTITY, at);
+            let material = if is_bar { wood } else { first + 2 };
+            scene.instances.push(Instance {
+                mesh,
+                transform: place * own,
+                material,
+                record_offset: 0,
+            });
+        }
+    }
     let ball = |x, y, z, radius, material| Sphere { center: Vec3::new(x, y, z), radius, material };
     let spheres = vec![
-        ball(5.4, 3.6, 0.9, 1.15, first),
-        ball(4.2, 3.5, -5.2, 1.0, first),
-        ball(-1.2, 2.2, -0.5, 0.24, first),
-        ball(-2.6, 2.0, 1.9, 0.21, first),
-        ball(-2.4, 2.1, -2.6, 0.22, first),
-        ball(1.5, 0.13, -0.5, 0.13, first + 1),
-        ball(-0.5, 0.1, 1.5, 0.1, first + 1),
-        ball(2.5, 0.1, 1.5, 0.1, first + 1),
+        ball(-3.0, 4.4, -4.0, 1.1, first),
+        ball(-1.0, 4.6, 5.6, 1.0, first),
+        ball(-3.2, 0.12, 0.5, 0.12, first + 1),
+        ball(-1.9, 0.09, -0.3, 0.09, first + 1),
+        ball(-0.6, 0.1, -0.6, 0.1, first + 1),
+        ball(-0.5, 0.1, 1.4, 0.1, first + 1),
+        ball(-3.4, 0.08, -1.2, 0.08, first + 1),
     ];
-    scene.camera = Camera::new(DVec3::new(6.4, 2.5, -2.7), DVec3::new(0.2, 0.55, -1.1), 34.0);
+    scene.camera = Camera::new(DVec3::new(-6.3, 1.95, 2.5), DVec3::new(-0.9, 0.6, -0.1), 32.0);
     Ok(Staged { scene, spheres, sky: Sky::Night })
+}
+
+/// The squares of a screen: size and middle of each, and whether it is a bar or the paper between the bars.
+fn screen(size: Vec2) -> impl Iterator<Item = (Vec3, Vec3, bool)> {
+    let bars = [-1.0, 1.0].into_iter().flat_map(move |side| {
+        let upright = (0..=10).map(move |i| {
+            let at = Vec3::new(size.x * (0.1 * i as f32 - 0.5), 0.0, 0.05 * side);
+            (Vec3::new(0.08, size.y + 0.08, 1.0), at, true)
+        });
+        let level = (0..=3).map(move |i| {
+            let at = Vec3::new(0.0, size.y * (i as f32 / 3.0 - 0.5), 0.06 * side);
+            (Vec3::new(size.x + 0.08, 0.08, 1.0), at, true)
+        });
+        upright.chain(level)
+    });
+    std::iter::once((size.extend(1.0), Vec3::ZERO, false)).chain(bars)
 }
 
 /// What shines and reflects nothing.

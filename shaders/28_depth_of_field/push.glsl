@@ -16,6 +16,9 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     DirectionalLight light;
     Lens lens;
+    uint sequence;
+    uint scrambling;
+    uint pixel_filter;
     uint seed;
     uint frame;           // since anything changed: which point of the sequence
     uint accumulated;     // how many frames are in the mean

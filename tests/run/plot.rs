@@ -116,6 +116,8 @@ fn draw_one<'a>(
     let font = ("sans-serif", 15);
     let mut context = ChartBuilder::on(area)
         .margin(12)
+        // Half of the last number stands beyond the axis.
+        .margin_right(24)
         .caption(title, ("sans-serif", 17))
         .x_label_area_size(if x.label.is_empty() { 24 } else { 42 })
         .y_label_area_size(if y.label.is_empty() { 34 } else { 66 })

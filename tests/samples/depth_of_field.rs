@@ -69,6 +69,14 @@ fn a_lens_of_size_0_gives_the_picture_of_04() {
         assert!(lens(&[focus, "blades=5"], &few) == picture, "{focus}, blades");
     }
     assert!(lens(&["rung=eye"], &few) == picture, "the rung of the eye");
+    for sets in [
+        ["sequence=Halton", "scrambling=rotation", "filter=Blackman-Harris"],
+        ["sequence=R2", "scrambling=none", "filter=box"],
+        ["sequence=random", "scrambling=Owen", "filter=tent"],
+        ["sequence=centre", "scrambling=none", "filter=box"],
+    ] {
+        assert!(lens(&sets, &few) == pinhole(&sets, &few), "{sets:?}");
+    }
     assert!(lens(&[], &parts) == pinhole(&[], &parts), "samples");
     for show in ["show=hit", "show=ray direction"] {
         assert!(lens(&[show], &few) == pinhole(&[show], &few), "{show}");

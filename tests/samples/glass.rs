@@ -35,6 +35,14 @@ fn the_picture_is_the_golden_one_and_repeats() {
 }
 
 #[test]
+fn the_pane_is_the_golden_one() {
+    // Its upper edge lies before the sky, and below it the sky is mirrored.
+    let pane = picture("160x100", 64, &["scene=pane"]);
+    // As above.
+    golden("27_glass_pane", &pane, 0.002);
+}
+
+#[test]
 fn clear_glass_cannot_be_seen_in_a_white_sky() {
     // From outside, and from within the ball.
     let mut lost = [0.0; 2];

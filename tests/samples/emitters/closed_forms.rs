@@ -133,6 +133,9 @@ fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
         let squares = single.iter().zip(&expected).map(|(s, e)| (s - e).powi(2)).sum::<f64>();
         let deviation = (squares / expected.len() as f64).sqrt();
         println!("{choice}: one sample is off by {deviation:.4}");
+        let rays = brightness(&picture("64x64", 1, &[&sets[..], &["show=rays"]].concat()));
+        let rays = 16.0 * Estimate::of(&rays).mean;
+        held.insert(format!("{}.rays", choice.replace(' ', "-")), rays.into());
         held.insert(format!("{choice}.mean"), estimate.mean.into());
         held.insert(format!("{choice}.confidence"), estimate.confidence.into());
         held.insert(format!("{}.single", choice.replace(' ', "-")), deviation.into());

@@ -1,6 +1,7 @@
 //! What the page of 29_emitters shows beside its picture. Drawn when asked for:
 //! `cargo test --test samples emitters::plots -- --ignored --nocapture`.
 
+use common::app::Picture;
 use serde_json::Map;
 
 use super::closed_forms::{lit_by_balls, mean_variances};
@@ -17,19 +18,24 @@ fn estimators() {
         let sets = [
             &estimator(ESTIMATORS[i])[..],
             "depth=2",
-            "camera target=1.1,0.35,-0.35",
-            "field of view=17",
+            "camera target=-2.0,0.45,0.35",
+            "field of view=19",
         ];
         (names[i].to_owned(), picture("320x240", 64, &sets))
     };
     draw_panels("29_estimators.png", 1, &[Shown::row(&[0, 1, 2].map(show))]);
 }
 
+/// The rays of a path, in the mean: a sixteenth of white each.
+fn rays(picture: &Picture) -> f64 {
+    16.0 * Estimate::of(&brightness(picture)).mean
+}
+
 /// A title, and the curves of a chart: a name and its points.
 type Curves = (&'static str, Vec<(&'static str, Vec<[f64; 2]>)>);
 
 const FRAMES: [u32; 5] = [1, 4, 16, 64, 256];
-const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0];
+const ERRORS: &[f64] = &[0.0001, 0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0];
 
 /// The root of the mean squared error over that of what is expected.
 fn relative(shown: &[f64], expected: &[f64]) -> f64 {
@@ -51,14 +57,13 @@ fn errors() {
     let mut held = Map::new();
     let mut charts = Vec::new();
     for (scene, expected) in &scenes {
-        let mut series = Vec::new();
+        let (mut series, mut lines) = (Vec::new(), Vec::new());
         let scale = (expected.iter().map(|e| e * e).sum::<f64>() / expected.len() as f64).sqrt();
         let theories = if *scene == "ball" { mean_variances(side).to_vec() } else { vec![] };
         let set = format!("scene={scene}");
         for (i, name) in ESTIMATORS.iter().enumerate() {
             let sets = [&set[..], &estimator(name), "depth=1"];
-            let rays = brightness(&picture("32x32", 4, &[&sets[..], &["show=rays"]].concat()));
-            let rays = Estimate::of(&rays).mean;
+            let rays = rays(&picture("32x32", 4, &[&sets[..], &["show=rays"]].concat()));
             let mut points = Vec::new();
             for frames in FRAMES {
                 let error = relative(&brightness(&picture("32x32", frames, &sets)), expected);
@@ -76,11 +81,12 @@ fn errors() {
                 // A sample alone is as far off as theory says; Sobol's points are not worse.
                 assert!((points[0][1] / of(1)[1] - 1.0).abs() < 0.15, "{name}: {}", points[0][1]);
                 assert!(points.iter().zip(FRAMES).all(|(p, frames)| p[1] < 1.15 * of(frames)[1]));
-                series.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
+                lines.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
             }
-            series.push((name, points, true));
+            series.push((*name, points, true));
         }
-        let series = series.into_iter().map(|(name, points, dots)| Series {
+        // Last, so that an estimator has one colour in all charts.
+        let series = series.into_iter().chain(lines).map(|(name, points, dots)| Series {
             name,
             points,
             line: true,
@@ -94,6 +100,25 @@ fn errors() {
 }
 
 const SMALL: &str = "96x60";
+
+/// What a depth leaves out: by the same random numbers, so that chance has no part in it.
+#[test]
+fn a_depth_leaves_out_what_its_paths_do_not_reach() {
+    let of = |depth: u32| brightness(&picture(SMALL, 16, &[&format!("depth={depth}")]));
+    let all = of(256);
+    let mut held = Map::new();
+    let mut last = f64::INFINITY;
+    for depth in [0, 1, 2, 4, 8, 16] {
+        let shown = of(depth);
+        assert!(shown.iter().zip(&all).all(|(some, all)| some <= all), "{depth} adds light");
+        let error = relative(&shown, &all);
+        println!("depth {depth}: {error:.5}");
+        assert!(error < last, "depth {depth}: {error}");
+        last = error;
+        held.insert(depth.to_string(), error.into());
+    }
+    figures::hold("29_emitters/left_out", held.into());
+}
 
 /// The set by lamp light: error against rays and against time, beside a picture of many more samples.
 #[test]
@@ -112,7 +137,7 @@ fn price() {
         vec![("error against rays", vec![]), ("error against time", vec![])];
     for name in ESTIMATORS {
         let set = estimator(name);
-        let rays = Estimate::of(&brightness(&of(&[&set, "show=rays"], 4).picture)).mean;
+        let rays = rays(&of(&[&set, "show=rays"], 4).picture);
         let mut curves = [vec![], vec![]];
         for frames in [1, 4, 16, 64] {
             let run = of(&[&set], frames);
@@ -132,12 +157,16 @@ fn price() {
             chart.1.push((name, curve));
         }
     }
-    let rays =
-        Axis { label: "rays a pixel", ticks: &[1.0, 10.0, 100.0, 1000.0], logarithmic: true };
-    let time = Axis { label: "seconds", ticks: &[0.01, 0.1, 1.0, 10.0, 100.0], logarithmic: true };
+    let rays = Axis {
+        label: "rays a pixel",
+        ticks: &[1.0, 3.0, 10.0, 30.0, 100.0, 300.0],
+        logarithmic: true,
+    };
+    let time =
+        Axis { label: "seconds", ticks: &[0.01, 0.03, 0.1, 0.3, 1.0, 3.0], logarithmic: true };
     let y = Axis {
         label: "error, relative",
-        ticks: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0],
+        ticks: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0],
         logarithmic: true,
     };
     let charts: Vec<Chart> = charts

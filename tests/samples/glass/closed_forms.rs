@@ -168,3 +168,54 @@ fn a_camera_within_the_ball_sees_what_refraction_lets_in() {
     // The place is off by the sagitta, and so is the normal.
     assert!(worst < 8.0 * (std::f64::consts::TAU / 512.0).powi(2) / 4.0, "{worst}");
 }
+
+/// The sky by day, of common/shade.glsl: its mean over the colours.
+fn sky(direction: DVec3) -> f64 {
+    let mean = |color: [f64; 3]| color.iter().sum::<f64>() / 3.0;
+    let (horizon, y) = (mean([0.84, 0.87, 0.90]), direction.y);
+    let (other, part) = match y > 0.0 {
+        true => (mean([0.23, 0.38, 0.62]), y.sqrt()),
+        false => {
+            let x = (-y / 0.45).min(1.0);
+            (mean([0.20, 0.245, 0.29]), x * x * (3.0 - 2.0 * x))
+        }
+    };
+    horizon + part * (other - horizon)
+}
+
+#[test]
+fn a_pane_shows_the_sky_behind_it_and_mirrors_the_sky_above() {
+    const FRAMES: u32 = 256;
+    let camera = Camera::new(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 40.0);
+    let normal = DVec3::new(0.0, 1.2f64.sin(), 1.2f64.cos());
+    let shown = picture("64x40", FRAMES, &["scene=pane"]);
+    let (mut off, mut variance, mut mirrored, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for ((eye, ray), pixel) in rays(&camera, (64, 40)).into_iter().zip(&shown.pixels) {
+        let cosine = -ray.dot(normal);
+        let on = eye + ray * (eye.dot(normal) / cosine);
+        // Not where the edge of the pane or the horizon goes through the pixel.
+        if on.x.abs() > 4.8 || on.cross(normal).x.abs() > 4.8 || ray.y.abs() < 0.02 {
+            continue;
+        }
+        let within = (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
+        let across = (cosine - INDEX * within) / (cosine + INDEX * within);
+        let along = (INDEX * cosine - within) / (INDEX * cosine + within);
+        let one = 0.5 * (across * across + along * along);
+        let part = 2.0 * one / (1.0 + one);
+        let (behind, above) = (sky(ray), sky(ray + 2.0 * cosine * normal));
+        let value = pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
+        off += value - (behind + part * (above - behind));
+        // A sample takes one of the two.
+        variance += part * (1.0 - part) * (above - behind).powi(2) / f64::from(FRAMES);
+        mirrored += part;
+        count += 1.0;
+    }
+    let (off, confidence) = (off / count, 4.0 * f64::sqrt(variance) / count);
+    println!(
+        "{count} pixels, {:.3} mirrored: off by {off:.6}, ± {confidence:.6}",
+        mirrored / count
+    );
+    // It would be seen if the sheet had one side only: its part would be nearly half as large.
+    assert!(count > 1000.0 && mirrored / count > 0.1, "{count} {mirrored}");
+    assert!(off.abs() < confidence, "{off}, not within {confidence}");
+}
