@@ -282,8 +282,13 @@ fn a_furnace_is_white_whoever_finds_its_light() {
         estimate.is(1.0, &format!("furnace, {name}"));
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
-            // What a path brings is 1, whatever way it takes: no chance, no rounding. A path that this driver's
-            // traversal lets into a closed piece never comes out: it has all the rays that a depth allows.
+            // What a path brings is 1, whatever way it takes: no chance, no rounding.
+            let other = picture("96x60", 16, &[&sets[..], &["seed=1"]].concat());
+            let grey = other.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
+            assert_eq!(grey, 0, "pixels of the furnace that are not white");
+            // With seed 0 some paths get into a closed piece on llvmpipe, whose own triangle test is not
+            // watertight (24); that this is the cause has not been shown. A path inside never comes out: it
+            // has all the rays that a depth allows.
             let rays = picture("96x60", 16, &[&sets[..], &["show=rays"]].concat());
             let mut lost = 0.0;
             for (pixel, rays) in shown.pixels.iter().zip(&rays.pixels) {
