@@ -10,7 +10,6 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::chapters;
 
 /// What is recorded of a chapter for a family. In all but the waves, more is worse.
 const FIGURES: [&str; 6] =

@@ -1,7 +1,7 @@
 //! Every chapter in the worst arithmetic that conforms: finite pictures, near the driver's own.
 
 use common::app::Picture;
-use run::{Run, bits, flip, render, root};
+use run::{Run, bits, flip, render};
 
 const SIZE: &str = "96x60";
 
