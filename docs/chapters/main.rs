@@ -212,7 +212,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    common::app::finish(|| {
+    common::app::exit_code(|| {
         // Whoever asks for a chapter that is not there has given a wrong argument.
         run(&parse()?).map_err(|error| match error.downcast() {
             Ok(Unknown(line)) => Usage(line).into(),

@@ -225,7 +225,7 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     }
     let camera = "target/exercises/02.1/02_basic/camera.rgen";
     // Half an edit.
-    fixture.replace(camera, "payload);", "payload");
+    fixture.replace(camera, "payload);", "payload; // half");
     let outcome = ask(&["--check"]);
     let start = "error: 02.1 is not solved yet: shader does not compile: 02_basic/camera.rgen:";
     assert!(outcome.code == 1 && outcome.err.starts_with(start), "{}", outcome.err);
@@ -235,7 +235,7 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     let misfit = "error: the solution does not fit shaders/02_basic/camera.rgen in target/exercises/02.1 any \
                   more: undo what you have changed there, or delete it to begin anew\n";
     assert_eq!((outcome.code, &*outcome.err), (1, misfit));
-    fixture.replace(camera, "payload\n", "vec4(1.0)); // mine\n");
+    fixture.replace(camera, "payload; // half", "vec4(1.0)); // mine");
     let outcome = ask(&["--check"]);
     let solved = "02.1 is solved.\nCheck: The picture is white, all 1,500 pixels of it.\n\
                   Why: The picture is what is stored.\n";

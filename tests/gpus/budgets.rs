@@ -10,7 +10,6 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-
 /// What is recorded of a chapter for a family. In all but the waves, more is worse.
 const FIGURES: [&str; 6] =
     ["programs", "instructions", "registers", "spilled_registers", "scratch_bytes", "waves"];

@@ -200,10 +200,16 @@ pub fn run<S: Sample>(name: &'static str) -> ExitCode {
     finish(|| start::<S>(name, &Args::parse_for(name)?))
 }
 
-/// Runs a program and returns its exit code; whatever ends it is printed as one line.
+/// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
+/// half-written file.
 pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
-    last_words::for_panics();
     interrupt::watch();
+    exit_code(program)
+}
+
+/// As [`finish`], for a program that heeds signals itself.
+pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    last_words::for_panics();
     let Err(error) = program() else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
     if error.is::<Stopped>() {
