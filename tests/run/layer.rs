@@ -41,7 +41,10 @@ impl Layer {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let place = folder.path().join("vulkan/explicit_layer.d");
         std::fs::create_dir_all(&place).expect("a folder");
+        // One program may hold both layers' code: each has a name of its own for where the loader enters.
+        let entry = format!("{library}_negotiate");
         let layer = serde_json::json!({
+            "functions": { "vkNegotiateLoaderLayerInterfaceVersion": entry },
             "name": name,
             "type": "GLOBAL",
             "library_path": path(library),

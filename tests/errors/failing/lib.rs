@@ -32,10 +32,7 @@ static DESTROY_INSTANCE: Mutex<Option<vk::PFN_vkDestroyInstance>> = Mutex::new(N
 /// # Safety
 /// `negotiation` can be written.
 #[unsafe(no_mangle)]
-#[allow(non_snake_case, reason = "the loader looks for this name")]
-pub unsafe extern "system" fn vkNegotiateLoaderLayerInterfaceVersion(
-    negotiation: *mut Negotiation,
-) -> vk::Result {
+pub unsafe extern "system" fn failing_negotiate(negotiation: *mut Negotiation) -> vk::Result {
     // SAFETY: the caller's promise.
     unsafe { (*negotiation).settle(of_instance, of_device) }
 }

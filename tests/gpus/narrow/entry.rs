@@ -12,10 +12,7 @@ use crate::{below, device, memory, physical, queues};
 /// # Safety
 /// `negotiation` can be written.
 #[unsafe(no_mangle)]
-#[allow(non_snake_case, reason = "the loader looks for this name")]
-pub unsafe extern "system" fn vkNegotiateLoaderLayerInterfaceVersion(
-    negotiation: *mut Negotiation,
-) -> vk::Result {
+pub unsafe extern "system" fn narrow_negotiate(negotiation: *mut Negotiation) -> vk::Result {
     // SAFETY: the caller's promise.
     unsafe { (*negotiation).settle(get_instance_proc_addr, get_device_proc_addr) }
 }

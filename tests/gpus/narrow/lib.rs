@@ -31,4 +31,4 @@ mod queues;
 /// The layer's name in its manifest.
 pub const NAME: &str = "VK_LAYER_TESTS_narrow";
 
-pub use entry::vkNegotiateLoaderLayerInterfaceVersion;
+pub use entry::narrow_negotiate;
