@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 /// Bytes of a scene file.
-const FILE_BYTES: u64 = 1 << 20;
+const FILE_BYTES: u64 = 16 << 20;
 
 /// The text and its name.
 pub(super) struct Source {
