@@ -3,7 +3,8 @@
 //! - [`app`]: a program: arguments, controls, window, headless run, picture, report
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
 //! - [`scene`]: camera, light, mesh, material, OBJ and scene files, effects, chess, upload
-//! - [`files`], [`usage`]: files written whole; the error that means "wrong arguments"
+//! - [`files`], [`output`], [`usage`]: files written whole; what a program says; the error that means "wrong
+//!   arguments"
 //!
 //! Arrows point one way: samples → app → gpu; `scene` uses `gpu` only to upload. The crate `reference`,
 //! what the GPU is held to, knows none of them.
@@ -13,8 +14,10 @@
 extern crate self as common;
 
 pub mod app;
+mod child;
 pub mod files;
 pub mod gpu;
+pub mod output;
 pub mod scene;
 pub mod usage;
 

@@ -5,19 +5,17 @@
 //! ([`gpu::null`](crate::gpu::null)). The figures are that compiler's estimates, not times.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use ash::vk;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::output;
 use crate::gpu::null::{self, Answer};
 use crate::gpu::{Blueprint, Executable, Requirements};
+use crate::{child, output};
 
 /// A family of GPUs that RADV compiles ray tracing pipelines for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -138,30 +136,16 @@ pub fn answer(requirements: &Requirements) -> Result<()> {
 }
 
 fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
-    let this = std::env::current_exe().context("cannot tell where this program lies")?;
-    let mut child = Command::new(this)
+    let mut command = child::command()?;
+    command
         .arg("--answer-compile-for")
         .env("RADV_FORCE_FAMILY", family)
         .env("VK_DRIVER_FILES", manifest)
         .env_remove("VK_ICD_FILENAMES")
         .env_remove("VK_INSTANCE_LAYERS")
-        .env_remove("VULKAN_LOADER")
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .context("cannot start this program again")?;
-    let mut stdin = child.stdin.take().context("a child without standard input")?;
-    // A child that has failed reads no further; its own words say why.
-    let _ = stdin.write_all(question);
-    drop(stdin);
-    let output = child.wait_with_output()?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        let why = said.lines().find_map(|line| line.strip_prefix("error: "));
-        bail!("{}", why.map_or_else(|| output.status.to_string(), str::to_owned));
-    }
-    serde_json::from_slice(&output.stdout).context("the child's answer is none")
+        .env_remove("VULKAN_LOADER");
+    let answer = child::ask(&mut command, question)?;
+    serde_json::from_slice(&answer).context("the child's answer is none")
 }
 
 /// RADV's manifest, by which the loader finds it.

@@ -11,7 +11,6 @@ mod headless;
 mod interrupt;
 mod last_words;
 mod lighting;
-pub mod output;
 mod picture;
 mod playback;
 mod progress;
@@ -27,6 +26,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 
+pub use crate::output;
 pub use args::Args;
 pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};

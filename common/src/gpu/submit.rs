@@ -7,7 +7,7 @@ use anyhow::{Context, Result, anyhow};
 use ash::vk;
 
 use super::Gpu;
-use crate::app::output;
+use crate::output;
 
 /// How long one submission may take: far longer than systems let a device work without an answer, and
 /// than a software driver builds the largest model in.

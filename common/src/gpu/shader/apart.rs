@@ -1,13 +1,11 @@
 //! The shader compiler in a process of its own: it may abort on an edit, and a window must not.
 
-use std::io::Write;
-use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
-use crate::app::output;
+use crate::{child, output};
 
 /// What the child is asked to compile.
 #[derive(Serialize, Deserialize)]
@@ -38,28 +36,8 @@ pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec
     let question =
         Question { path: path.to_owned(), text: text.to_owned(), defines: defines.collect() };
     let question = serde_json::to_vec(&question)?;
-    let start = || {
-        Command::new(std::env::current_exe()?)
-            .arg("--answer-compile")
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-    };
-    let mut child = start().context("cannot start the shader compiler")?;
-    let mut stdin = child.stdin.take().context("a child without standard input")?;
-    // A child that has failed reads no further; its own words say why.
-    let _ = stdin.write_all(&question);
-    drop(stdin);
-    let output = child.wait_with_output().context("cannot wait for the shader compiler")?;
-    if output.status.success() {
-        return Ok(bytemuck::pod_collect_to_vec(&output.stdout));
-    }
-    let said = String::from_utf8_lossy(&output.stderr);
-    match said.lines().find_map(|line| line.strip_prefix("error: ")) {
-        Some(error) => bail!("{error}"),
-        None => bail!("shader '{path}': the compiler crashed ({})", output.status),
-    }
+    let words = child::ask(child::command()?.arg("--answer-compile"), &question)?;
+    Ok(bytemuck::pod_collect_to_vec(&words))
 }
 
 /// The child's part: reads a text from standard input, and writes its words to standard output.
