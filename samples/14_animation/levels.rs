@@ -133,8 +133,8 @@ impl Levels {
         let level = |level: &AccelerationStructure, number: usize| {
             serde_json::json!({
                 "bytes": level.size,
-                "build_scratch_bytes": level.build_scratch,
-                "update_scratch_bytes": level.update_scratch,
+                "build_scratch_bytes": level.build_scratch(),
+                "update_scratch_bytes": level.update_scratch(),
                 "build_milliseconds": self.costs.median(number, true),
                 "update_milliseconds": self.costs.median(number, false),
             })

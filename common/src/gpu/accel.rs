@@ -1,16 +1,17 @@
 //! Acceleration structures: bottom levels of triangles or boxes, top levels of instances.
 //!
 //! A build needs three sizes from the driver (structure, build scratch, update scratch), a buffer for
-//! the structure and one for the scratch. Compaction copies a structure into a buffer of the size that
+//! the structure and one for the scratch; structures that are built together share both. Compaction copies a structure into a buffer of the size that
 //! it turned out to need; an update moves primitives without changing which there are.
 
+mod batch;
 mod compaction;
 mod input;
 mod update;
 
-use std::time::Instant;
+use std::sync::Arc;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::geometry::Geometry;
@@ -30,25 +31,33 @@ pub struct BuildOptions {
     pub data_access: bool,
 }
 
-/// A `VkAccelerationStructureKHR` of either level with its buffer, freed on drop.
+/// A `VkAccelerationStructureKHR` of either level with its share of a buffer, freed on drop.
 pub struct AccelerationStructure {
     /// The Vulkan handle.
     pub handle: vk::AccelerationStructureKHR,
     /// What an instance names a bottom level by.
     pub address: vk::DeviceAddress,
-    /// Bytes of its buffer.
+    /// Bytes that it takes of a buffer.
     pub size: u64,
-    /// Bytes that a build needs beside it.
-    pub build_scratch: u64,
-    /// Bytes that an update needs beside it.
-    pub update_scratch: u64,
+    /// What it was built from and with.
+    plan: Plan,
+    /// Where it lies, others that were built with it beside it.
+    _buffer: Arc<Buffer>,
+    gpu: Gpu,
+}
+
+/// What is known of a structure before it is built, and what a build in its place or an update must know.
+#[derive(Clone)]
+struct Plan {
     name: String,
     options: BuildOptions,
     shape: Shape,
-    /// Bytes that a build in its place would take: more than it has, once it is compacted.
-    build_size: u64,
-    _buffer: Buffer,
-    gpu: Gpu,
+    /// Bytes that a build needs for the structure: more than it has, once it is compacted.
+    size: u64,
+    /// Bytes that a build needs beside it.
+    build_scratch: u64,
+    /// Bytes that an update needs beside it.
+    update_scratch: u64,
 }
 
 impl AccelerationStructure {
@@ -62,11 +71,37 @@ impl AccelerationStructure {
         input: &[Geometry],
         options: BuildOptions,
     ) -> Result<Self> {
-        let total: u64 = input.iter().map(|geometry| u64::from(geometry.count())).sum();
+        Ok(Self::bottoms(gpu, &[(name, input)], options)?.remove(0))
+    }
+
+    /// Builds bottom levels, each from its name and its geometries: many at a time, which keeps a device
+    /// busy that one small build does not, and in few buffers, as each buffer costs time and memory.
+    ///
+    /// # Errors
+    /// As [`AccelerationStructure::bottom`].
+    pub fn bottoms(
+        gpu: &Gpu,
+        inputs: &[(&str, &[Geometry])],
+        options: BuildOptions,
+    ) -> Result<Vec<Self>> {
         let limit = gpu.limits.max_primitive_count;
-        ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
-        let built = Self::build(gpu, name, Input::Geometries(input), options)?;
-        if options.compact { built.compacted() } else { Ok(built) }
+        for (name, geometries) in inputs {
+            let total: u64 = geometries.iter().map(|geometry| u64::from(geometry.count())).sum();
+            ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
+        }
+        let inputs: Vec<_> =
+            inputs.iter().map(|&(name, list)| (name, Input::Geometries(list))).collect();
+        batch::build(gpu, &inputs, options)
+    }
+
+    /// Bytes that a build in its place needs beside it.
+    pub fn build_scratch(&self) -> u64 {
+        self.plan.build_scratch
+    }
+
+    /// Bytes that an update needs beside it.
+    pub fn update_scratch(&self) -> u64 {
+        self.plan.update_scratch
     }
 
     /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
@@ -88,82 +123,8 @@ impl AccelerationStructure {
             "'{name}' has {count} instances; {} takes {limit}",
             gpu.name
         );
-        Self::build(gpu, name, Input::Instances(instances.address, count), options)
-    }
-
-    fn build(gpu: &Gpu, name: &str, input: Input, options: BuildOptions) -> Result<Self> {
-        let (geometries, counts) = (input.described(), input.counts());
-        let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
-            .ty(input.level())
-            .flags(flags(options))
-            .mode(vk::BuildAccelerationStructureModeKHR::BUILD)
-            .geometries(&geometries);
-        let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
-        // SAFETY: info and counts describe the same geometries.
-        unsafe {
-            gpu.acceleration_structure.get_acceleration_structure_build_sizes(
-                vk::AccelerationStructureBuildTypeKHR::DEVICE,
-                &info,
-                &counts,
-                &mut sizes,
-            );
-        }
-        let size = sizes.acceleration_structure_size;
-        let mut built = Self::empty(gpu, name, input.shape(), options, size)?;
-        built.build_scratch = sizes.build_scratch_size;
-        built.update_scratch = sizes.update_scratch_size;
-        let scratch = scratch_buffer(gpu, sizes.build_scratch_size)?;
-        let info = info
-            .dst_acceleration_structure(built.handle)
-            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
-        let start = Instant::now();
-        gpu.submit(|cmd| {
-            record_build(gpu, cmd, info, &counts);
-            Ok(())
-        })
-        .with_context(|| format!("cannot build '{name}'"))?;
-        gpu.count(|statistics| statistics.build_time += start.elapsed());
-        Ok(built)
-    }
-
-    fn empty(
-        gpu: &Gpu,
-        name: &str,
-        shape: Shape,
-        options: BuildOptions,
-        size: u64,
-    ) -> Result<Self> {
-        let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
-            | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-        // An acceleration structure's offset in memory must be a multiple of 256 bytes.
-        let buffer = Buffer::aligned(gpu, name, size, usage, 256)?;
-        let info = vk::AccelerationStructureCreateInfoKHR::default()
-            .ty(shape.level())
-            .buffer(buffer.handle)
-            .size(size);
-        // SAFETY: the buffer is large enough and lives beside the structure.
-        let handle =
-            unsafe { gpu.acceleration_structure.create_acceleration_structure(&info, None)? };
-        let info =
-            vk::AccelerationStructureDeviceAddressInfoKHR::default().acceleration_structure(handle);
-        // SAFETY: the structure is alive.
-        let address =
-            unsafe { gpu.acceleration_structure.get_acceleration_structure_device_address(&info) };
-        gpu.name_object(handle, name);
-        gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
-        Ok(Self {
-            handle,
-            address,
-            size,
-            build_scratch: 0,
-            update_scratch: 0,
-            name: name.to_owned(),
-            options,
-            shape,
-            build_size: size,
-            _buffer: buffer,
-            gpu: gpu.clone(),
-        })
+        let input = Input::Instances(instances.address, count);
+        Ok(batch::build(gpu, &[(name, input)], options)?.remove(0))
     }
 }
 
@@ -197,22 +158,22 @@ fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
     Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment)
 }
 
-fn record_build(
+fn ranges(counts: &[u32]) -> Vec<vk::AccelerationStructureBuildRangeInfoKHR> {
+    let range = vk::AccelerationStructureBuildRangeInfoKHR::default();
+    counts.iter().map(|&count| range.primitive_count(count)).collect()
+}
+
+/// Records builds that do not depend on each other, each with scratch of its own.
+fn record_builds(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,
-    info: vk::AccelerationStructureBuildGeometryInfoKHR,
-    counts: &[u32],
+    infos: &[vk::AccelerationStructureBuildGeometryInfoKHR],
+    ranges: &[&[vk::AccelerationStructureBuildRangeInfoKHR]],
 ) {
-    let ranges: Vec<_> = counts
-        .iter()
-        .map(|&count| vk::AccelerationStructureBuildRangeInfoKHR::default().primitive_count(count))
-        .collect();
     barrier::trace_to_build(gpu, cmd);
     barrier::between_builds(gpu, cmd);
-    // SAFETY: every address in info belongs to a buffer that outlives the submission.
-    unsafe {
-        gpu.acceleration_structure.cmd_build_acceleration_structures(cmd, &[info], &[&ranges]);
-    }
+    // SAFETY: every address in infos belongs to a buffer that outlives the submission.
+    unsafe { gpu.acceleration_structure.cmd_build_acceleration_structures(cmd, infos, ranges) };
     barrier::between_builds(gpu, cmd);
     barrier::build_to_trace(gpu, cmd);
 }

@@ -14,6 +14,9 @@ use super::{Gpu, barrier};
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
 const MOST_UPDATED: usize = 65_536;
 
+/// How many bytes a staging buffer has at most: what is larger goes in parts, and memory does not hold it twice.
+const MOST_STAGED: u64 = 32 << 20;
+
 /// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
 /// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
 /// ask of their input, 16 for instances and 8 for boxes.
@@ -163,16 +166,27 @@ impl Buffer {
             bytes.len(),
             self.size
         );
-        let mut staging = Self::mapped(
-            &self.gpu,
-            "staging",
-            bytes.len() as u64,
-            vk::BufferUsageFlags::TRANSFER_SRC,
-            MemoryLocation::CpuToGpu,
-        )?;
-        staging.mapped_bytes()[..bytes.len()].copy_from_slice(bytes);
+        let mut staging = Self::staging(&self.gpu, bytes.len() as u64)?;
+        let mut at = offset;
+        for part in bytes.chunks(MOST_STAGED as usize) {
+            staging.mapped_bytes()[..part.len()].copy_from_slice(part);
+            self.copy_from(&staging, part.len() as u64, at)?;
+            at += part.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// A mapped buffer for [`Buffer::copy_from`]: as large as what is to be copied, but no larger than a few
+    /// copies one after the other need.
+    pub(super) fn staging(gpu: &Gpu, size: u64) -> Result<Self> {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+        Self::mapped(gpu, "staging", size.min(MOST_STAGED), usage, MemoryLocation::CpuToGpu)
+    }
+
+    /// Copies the first bytes of `staging` to the buffer, `offset` bytes from its start, and waits for it.
+    pub(super) fn copy_from(&self, staging: &Self, size: u64, offset: u64) -> Result<()> {
         self.gpu.submit(|cmd| {
-            let region = vk::BufferCopy::default().dst_offset(offset).size(bytes.len() as u64);
+            let region = vk::BufferCopy::default().dst_offset(offset).size(size);
             // SAFETY: both buffers outlive the submission, which is waited for.
             unsafe {
                 self.gpu.device.cmd_copy_buffer(cmd, staging.handle, self.handle, &[region]);

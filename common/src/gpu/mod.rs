@@ -19,6 +19,7 @@ mod limits;
 mod margin;
 pub mod null;
 pub mod order;
+mod pack;
 mod pipeline;
 mod pipeline_cache;
 mod reflection;
@@ -48,6 +49,7 @@ pub use instance::{WindowHandles, load};
 pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use limits::Limits;
 pub use margin::{margin, padded};
+pub use pack::Pack;
 pub use pipeline::{
     Band, Binding, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,
     PipelineBuilder, RayTracingPipeline,

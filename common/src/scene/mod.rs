@@ -8,6 +8,7 @@ mod light;
 mod limits;
 mod material;
 mod mesh;
+mod meshes;
 mod mtl;
 pub mod obj;
 mod obj_check;
@@ -25,12 +26,13 @@ pub use chess::{assets, place_position};
 pub use light::{DirectionalLight, Light, LightKind, PointLight, ShadowRays, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, Vertex};
+pub use meshes::triangle_order;
 pub use obj::Model;
 pub use placement::{Moved, Placement, Size};
 pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
 pub use texture::Texture;
 pub use upload::{
     SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_bytes,
-    instance_on_gpu, transform, triangle_order,
+    instance_on_gpu, transform,
 };
 pub use world::{Instance, Scene};

@@ -6,10 +6,9 @@ use anyhow::{Result, ensure};
 use ash::vk;
 use glam::Vec3;
 
-use super::{InstanceRecord, MaterialRecord, Mesh, Scene, SceneAddresses, Vertex};
-use crate::gpu::{
-    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, Image, TextureTable, order,
-};
+use super::meshes::MeshesOnGpu;
+use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
+use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Image, TextureTable, order};
 
 /// A scene in device memory, ready to be traced.
 pub struct SceneOnGpu {
@@ -102,18 +101,8 @@ impl SceneOnGpu {
         ensure!(instances.len() < 1 << 24, "{} instances are too many", instances.len());
         let offset = instances.iter().map(|instance| instance.record_offset).max().unwrap_or(0);
         ensure!(offset < 1 << 24, "a record offset of {offset} takes more than 24 bits");
-        let mut buffers = Vec::new();
-        let mut blas = Vec::new();
-        let mut meshes = Vec::new();
-        for (index, mesh) in model.meshes.iter().enumerate() {
-            // An any-hit shader is worth calling only where it can say no.
-            let mut placed = instances.iter().filter(|instance| instance.mesh == index);
-            let opaque = placed.all(|instance| !model.materials[instance.material].has_cutout());
-            let on_gpu = MeshOnGpu::new(gpu, mesh, opaque, options)?;
-            meshes.push(InstanceRecord { mesh: index as u32, ..on_gpu.addresses });
-            blas.push(on_gpu.blas);
-            buffers.extend(on_gpu.buffers);
-        }
+        let MeshesOnGpu { blas, records: meshes, mut buffers } =
+            MeshesOnGpu::new(gpu, scene, options)?;
         let records = instances.iter().map(|instance| InstanceRecord {
             material: instance.material as u32,
             ..meshes[instance.mesh]
@@ -128,8 +117,7 @@ impl SceneOnGpu {
         };
         buffers.extend([records, materials]);
 
-        let bounds: Vec<_> = instances.iter().map(|one| scene.instance_bounds(one)).collect();
-        let order = order::for_build(gpu, &bounds, options.ordering);
+        let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
         let placed = order.into_iter().map(|index| {
             let instance = &instances[index as usize];
             // The custom index stays the scene's, whatever the order of the build.
@@ -214,58 +202,4 @@ pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer
         }
     }
     Buffer::with_data(gpu, name, &boxes, input_usage())
-}
-
-/// Which triangle of a mesh each primitive of the build is.
-///
-/// A device may offer a triangle more than once, unless that is ruled out: with the worst arithmetic each is
-/// in the list twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
-pub fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
-    let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
-    let is_twice = gpu.arithmetic.is_worst() && !options.no_duplicate_any_hit;
-    let times = if is_twice { 2 } else { 1 };
-    order.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect()
-}
-
-struct MeshOnGpu {
-    blas: AccelerationStructure,
-    addresses: InstanceRecord,
-    buffers: Vec<Buffer>,
-}
-
-impl MeshOnGpu {
-    fn new(gpu: &Gpu, mesh: &Mesh, opaque: bool, options: SceneOptions) -> Result<Self> {
-        let name = &mesh.name;
-        let permutation = triangle_order(gpu, mesh, options);
-        let ordered: Vec<[u32; 3]> =
-            permutation.iter().map(|&i| mesh.triangles[i as usize]).collect();
-        let vertices = Buffer::with_data(gpu, name, &mesh.vertices, input_usage())?;
-        let triangles = Buffer::with_data(gpu, name, &mesh.triangles, input_usage())?;
-        let original = Buffer::with_data(gpu, name, &permutation, input_usage())?;
-        // Only the build reads the ordered copy; it is freed at the end of this function.
-        let build_input = Buffer::with_data(gpu, name, &ordered, input_usage())?;
-        let geometry = Geometry::Triangles {
-            vertices: vertices.address,
-            vertex_stride: size_of::<Vertex>() as u64,
-            vertex_count: mesh.vertices.len() as u32,
-            indices: build_input.address,
-            count: ordered.len() as u32,
-            opaque,
-            no_duplicate_any_hit: options.no_duplicate_any_hit,
-        };
-        let fetch = options.position_fetch;
-        let options = BuildOptions { compact: true, data_access: fetch, ..BuildOptions::default() };
-        let blas = AccelerationStructure::bottom(gpu, name, &[geometry], options)?;
-        let kept = (!fetch).then_some(vertices);
-        let vertices = kept.as_ref().map_or(Address::default(), |kept| kept.address.into());
-        let addresses = InstanceRecord {
-            vertices,
-            triangles: triangles.address.into(),
-            original: original.address.into(),
-            material: 0,
-            mesh: 0,
-        };
-        let buffers = [triangles, original].into_iter().chain(kept).collect();
-        Ok(Self { blas, addresses, buffers })
-    }
 }

@@ -66,22 +66,23 @@ impl Scene {
 
     /// Corners of the box around everything, in world space.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let boxes = self.instances.iter().map(|instance| self.instance_bounds(instance));
+        let boxes = self.bounds_of_instances().into_iter();
         boxes.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), (l, h)| {
             (low.min(l), high.max(h))
         })
     }
 
+    /// Corners of the box around each instance, in world space, in the order of `instances`: each mesh is looked
+    /// at once, however often it stands somewhere.
+    pub fn bounds_of_instances(&self) -> Vec<(Vec3, Vec3)> {
+        let meshes: Vec<_> = self.model.meshes.iter().map(Mesh::bounds).collect();
+        let around = |instance: &Instance| moved(meshes[instance.mesh], &instance.transform);
+        self.instances.iter().map(around).collect()
+    }
+
     /// Corners of the box around one instance, in world space.
     pub fn instance_bounds(&self, instance: &Instance) -> (Vec3, Vec3) {
-        let (low, high) = self.model.meshes[instance.mesh].bounds();
-        let middle = instance.transform.transform_point3a(((low + high) * 0.5).into());
-        let half = (high - low) * 0.5;
-        let matrix = instance.transform.matrix3;
-        let reach = matrix.x_axis.abs() * half.x
-            + matrix.y_axis.abs() * half.y
-            + matrix.z_axis.abs() * half.z;
-        ((middle - reach).into(), (middle + reach).into())
+        moved(self.model.meshes[instance.mesh].bounds(), &instance.transform)
     }
 
     fn camera_on_all(&self) -> Camera {
@@ -93,4 +94,14 @@ impl Scene {
         let from = DVec3::new(0.5, 0.45, 1.0).normalize();
         Camera::new(middle + from * distance, middle, fov_y)
     }
+}
+
+/// Corners of the box around a box that a transform has moved.
+fn moved((low, high): (Vec3, Vec3), transform: &Affine3A) -> (Vec3, Vec3) {
+    let middle = transform.transform_point3a(((low + high) * 0.5).into());
+    let half = (high - low) * 0.5;
+    let matrix = transform.matrix3;
+    let reach =
+        matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
+    ((middle - reach).into(), (middle + reach).into())
 }

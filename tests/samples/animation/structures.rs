@@ -71,7 +71,7 @@ fn what_may_not_be_updated_is_refused_before_vulkan_is_asked() {
         assert!(refused.contains(words), "{refused}");
     }
     let small = Buffer::new(&gpu, "small", 1, input_usage()).unwrap();
-    if moving.update_scratch > 1 {
+    if moving.update_scratch() > 1 {
         let refused = update(&moving, &same, &small).unwrap_err();
         assert!(refused.contains("bytes of scratch, and the buffer has 1"), "{refused}");
     }

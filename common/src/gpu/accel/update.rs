@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::{AccelerationStructure, Input, flags, record_build, scratch_buffer};
+use super::{AccelerationStructure, Input, flags, ranges, record_builds, scratch_buffer};
 use crate::gpu::Buffer;
 
 impl AccelerationStructure {
@@ -17,11 +17,11 @@ impl AccelerationStructure {
     /// small.
     pub fn rebuild(&self, cmd: vk::CommandBuffer, input: Input, scratch: &Buffer) -> Result<()> {
         ensure!(
-            self.size >= self.build_size,
+            self.size >= self.plan.size,
             "'{}' was compacted to {} bytes, and a build takes {}: build another",
-            self.name,
+            self.plan.name,
             self.size,
-            self.build_size
+            self.plan.size
         );
         self.record(cmd, input, scratch, vk::BuildAccelerationStructureModeKHR::BUILD)
     }
@@ -36,9 +36,9 @@ impl AccelerationStructure {
     /// If the structure is not updatable, `input` has another shape, or `scratch` is too small.
     pub fn update(&self, cmd: vk::CommandBuffer, input: Input, scratch: &Buffer) -> Result<()> {
         ensure!(
-            self.options.updatable,
+            self.plan.options.updatable,
             "'{}' was not built to be updated: that takes BuildOptions::updatable, ALLOW_UPDATE in Vulkan",
-            self.name
+            self.plan.name
         );
         self.record(cmd, input, scratch, vk::BuildAccelerationStructureModeKHR::UPDATE)
     }
@@ -48,7 +48,7 @@ impl AccelerationStructure {
     /// # Errors
     /// If memory is short.
     pub fn scratch(&self) -> Result<Buffer> {
-        scratch_buffer(&self.gpu, self.build_scratch.max(self.update_scratch))
+        scratch_buffer(&self.gpu, self.build_scratch().max(self.update_scratch()))
     }
 
     fn record(
@@ -58,27 +58,27 @@ impl AccelerationStructure {
         scratch: &Buffer,
         mode: vk::BuildAccelerationStructureModeKHR,
     ) -> Result<()> {
-        self.shape.check(&self.name, &input.shape())?;
+        self.plan.shape.check(&self.plan.name, &input.shape())?;
         let is_update = mode == vk::BuildAccelerationStructureModeKHR::UPDATE;
-        let needed = if is_update { self.update_scratch } else { self.build_scratch };
+        let needed = if is_update { self.update_scratch() } else { self.build_scratch() };
         ensure!(
             scratch.size >= needed,
             "'{}' needs {needed} bytes of scratch, and the buffer has {}",
-            self.name,
+            self.plan.name,
             scratch.size
         );
         let geometries = input.described();
         let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
             .ty(input.level())
             // The same as those of the build, whatever they were.
-            .flags(flags(self.options))
+            .flags(flags(self.plan.options))
             .mode(mode)
             .geometries(&geometries)
             .dst_acceleration_structure(self.handle)
             .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
         let source = if is_update { self.handle } else { vk::AccelerationStructureKHR::null() };
         let info = info.src_acceleration_structure(source);
-        record_build(&self.gpu, cmd, info, &input.counts());
+        record_builds(&self.gpu, cmd, &[info], &[&ranges(&input.counts())]);
         Ok(())
     }
 }
