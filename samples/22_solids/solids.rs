@@ -116,8 +116,7 @@ impl SolidsOnGpu {
         build: Build,
     ) -> Result<Self> {
         let Build { modifiers, .. } = build;
-        let mut bounds: Vec<_> =
-            scene.instances.iter().map(|piece| scene.instance_bounds(piece)).collect();
+        let mut bounds = scene.bounds_of_instances();
         let pieces = scene.instances.iter().enumerate();
         let mut instances: Vec<_> = pieces
             .map(|(index, piece)| {

@@ -49,13 +49,14 @@ impl SceneGeometry {
             _levels: Vec::new(),
             _buffers: Vec::new(),
         };
-        for (index, instance) in from.scene.instances.iter().enumerate() {
+        let bounds = from.scene.bounds_of_instances();
+        for ((index, instance), bounds) in from.scene.instances.iter().enumerate().zip(bounds) {
             geometry.instances.push(Placed {
                 kind: Kind::Mesh,
                 transform: instance.transform,
                 custom_index: index as u32,
                 address: geometry.scene.blas[instance.mesh].address,
-                bounds: from.scene.instance_bounds(instance),
+                bounds,
             });
         }
         let bounds: Vec<_> = from.spheres.iter().map(sphere_bounds).collect();
@@ -203,7 +204,7 @@ fn around(bounds: &[order::Bounds]) -> order::Bounds {
 /// How far a ray may begin from a shape: at the eye, on the plane below the eye, or on the scene.
 /// Rounded up to a power of two, so that few steps of a camera change it.
 fn reach(scene: &Composition, eye: Vec3) -> f32 {
-    let meshes = scene.scene.instances.iter().map(|instance| scene.scene.instance_bounds(instance));
+    let meshes = scene.scene.bounds_of_instances().into_iter();
     let spheres = scene.spheres.iter().map(sphere_bounds);
     let boxes = scene.boxes.iter().map(|b| (b.low, b.high));
     let ground = scene.heightfield.iter().map(crate::ground::bounds);

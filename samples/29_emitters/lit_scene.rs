@@ -72,8 +72,7 @@ impl LitScene {
         let level = level.transpose()?;
         // ANCHOR_END: spheres
 
-        let mut around: Vec<order::Bounds> =
-            scene.instances.iter().map(|instance| scene.instance_bounds(instance)).collect();
+        let mut around = scene.bounds_of_instances();
         let placed = scene.instances.iter().enumerate().map(|(i, instance)| {
             instance_on_gpu(&instance.transform, i, 0, &on_gpu.blas[instance.mesh])
         });

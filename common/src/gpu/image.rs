@@ -1,12 +1,15 @@
 //! A two-dimensional image: the picture that rays write, a texture that they read, or what a rasteriser
 //! draws to.
 
+mod texels;
+
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::{Buffer, Gpu, barrier};
+pub use texels::Texels;
 
 /// A `VkImage` with one mip level, its memory and a view, freed on drop.
 pub struct Image {
@@ -48,47 +51,6 @@ impl Image {
                 );
             }
             barrier::fill_to_trace(gpu, cmd);
-            Ok(())
-        })?;
-        Ok(image)
-    }
-
-    /// A texture of 8-bit RGBA texels, rows from the top; `srgb` where they hold sRGB colour.
-    ///
-    /// # Errors
-    /// If `texels` is not four bytes a pixel, a side is out of range, or memory is short.
-    pub fn texture(
-        gpu: &Gpu,
-        name: &str,
-        extent: vk::Extent2D,
-        texels: &[u8],
-        srgb: bool,
-    ) -> Result<Self> {
-        let needed = 4 * extent.width as usize * extent.height as usize;
-        ensure!(
-            texels.len() == needed,
-            "texture '{name}' has {} bytes, not {needed}",
-            texels.len()
-        );
-        let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
-        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-        let image = Self::new(gpu, name, extent, format, format, usage)?;
-        let staging = Buffer::with_data(gpu, name, texels, vk::BufferUsageFlags::TRANSFER_SRC)?;
-        gpu.submit(|cmd| {
-            use vk::ImageLayout as Layout;
-            image.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
-            let region = image.copy_region();
-            // SAFETY: the staging buffer and the image outlive the submission.
-            unsafe {
-                gpu.device.cmd_copy_buffer_to_image(
-                    cmd,
-                    staging.handle,
-                    image.handle,
-                    Layout::TRANSFER_DST_OPTIMAL,
-                    &[region],
-                );
-            }
-            image.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::SHADER_READ_ONLY_OPTIMAL);
             Ok(())
         })?;
         Ok(image)

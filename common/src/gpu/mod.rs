@@ -44,7 +44,7 @@ pub use device::device_lines;
 pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
 pub use executable::Executable;
 pub use geometry::Geometry;
-pub use image::{Image, transition, whole};
+pub use image::{Image, Texels, transition, whole};
 pub use instance::{WindowHandles, load};
 pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use limits::Limits;

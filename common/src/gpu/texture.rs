@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use ash::{Device, vk};
 
-use super::{Gpu, Image};
+use super::{Gpu, Image, Texels};
 
 /// Set 1 of every pipeline that reads textures: binding 0, an array of combined image samplers.
 pub struct TextureTable {
@@ -18,18 +18,18 @@ pub struct TextureTable {
 }
 
 impl TextureTable {
-    /// A table of `images`, numbered by position, repeated beyond their edges and filtered linearly.
+    /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly.
     ///
     /// # Errors
     /// If the device has no room for so many.
-    pub fn new(gpu: &Gpu, mut images: Vec<Image>) -> Result<Self> {
+    pub fn new(gpu: &Gpu, textures: &[Texels]) -> Result<Self> {
         // Neither an array of no textures is allowed nor a slot that was never filled.
-        if images.is_empty() {
-            let texel = vk::Extent2D { width: 1, height: 1 };
-            images.push(Image::texture(gpu, "no texture", texel, &[255; 4], false)?);
-        }
-        let count = images.len() as u32;
+        let extent = vk::Extent2D { width: 1, height: 1 };
+        let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
+        let textures = if textures.is_empty() { &none } else { textures };
+        let count = textures.len() as u32;
         fits(count, gpu.limits.max_textures, &gpu.name)?;
+        let images = Image::textures(gpu, textures)?;
         let sizes = [vk::DescriptorPoolSize::default()
             .ty(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
             .descriptor_count(count)];

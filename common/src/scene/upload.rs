@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use super::meshes::MeshesOnGpu;
 use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
-use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Image, TextureTable, order};
+use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Texels, TextureTable, order};
 
 /// A scene in device memory, ready to be traced.
 pub struct SceneOnGpu {
@@ -58,11 +58,13 @@ impl SceneOnGpu {
     /// # Errors
     /// If memory is short, or an instance's index or record offset takes more than 24 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
-        let textures = scene.model.textures.iter().map(|texture| {
-            let extent = vk::Extent2D { width: texture.width, height: texture.height };
-            Image::texture(gpu, &texture.name, extent, &texture.rgba, texture.srgb)
+        let textures = scene.model.textures.iter().map(|texture| Texels {
+            name: &texture.name,
+            extent: vk::Extent2D { width: texture.width, height: texture.height },
+            rgba: &texture.rgba,
+            srgb: texture.srgb,
         });
-        let textures = TextureTable::new(gpu, textures.collect::<Result<_>>()?)?;
+        let textures = TextureTable::new(gpu, &textures.collect::<Vec<_>>())?;
         Self::build(gpu, scene, options, Arc::new(textures))
     }
 
