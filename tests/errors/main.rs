@@ -4,6 +4,7 @@
 mod arguments;
 mod failures;
 mod machine;
+mod many;
 mod models;
 mod outputs;
 mod scenes;
