@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use common::app::Picture;
 use common::app::sums::{Header, merge};
@@ -155,18 +155,17 @@ fn a_task_that_is_asked_to_stop_saves_what_it_has() {
 #[test]
 fn a_task_that_is_asked_to_stop_before_its_first_sample_does_not_wait_for_it() {
     let parts = Parts::of("27_glass");
-    // A signal that comes before the sample has begun ends any program.
+    // A signal that comes before the sample has begun ends any program. Had it waited for the end of the sample,
+    // there would be a file, and another line.
     for wait in [1, 2, 4, 8, 16] {
         let mut task = command(parts.chapter);
-        task.args(["--size", "4000x4000", "--samples", "0..4", "--save", "part"]);
+        task.args(["--size", "1000x1000", "--samples", "0..4", "--save", "part"]);
         task.current_dir(&parts.folder).stderr(std::process::Stdio::piped());
         let child = task.spawn().expect("the sample starts");
         std::thread::sleep(Duration::from_secs(wait));
         let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         assert!(kill.expect("kill").success());
-        let asked = Instant::now();
         let output = child.wait_with_output().unwrap();
-        assert!(asked.elapsed() < Duration::from_secs(20), "{:?}", asked.elapsed());
         assert_eq!(parts.folder.path().read_dir().unwrap().count(), 0);
         let line = String::from_utf8_lossy(&output.stderr);
         if let Some(code) = output.status.code() {

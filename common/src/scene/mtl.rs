@@ -143,7 +143,7 @@ impl MaterialLibrary {
                         let most = color.max_element();
                         ensure!(
                             most <= BRIGHTEST,
-                            "Ke is {most}; it cannot be more than {BRIGHTEST}"
+                            "Ke is {most:?}; it cannot be more than {BRIGHTEST}"
                         );
                         material.emission = color;
                     }

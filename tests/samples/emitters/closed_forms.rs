@@ -5,7 +5,7 @@ use std::fs;
 
 use common::app::Picture;
 use glam::DVec3;
-use serde_json::{Map, json};
+use serde_json::Map;
 
 use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
