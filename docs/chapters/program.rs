@@ -69,7 +69,9 @@ impl Controls {
             }
             _ => true,
         };
-        (!possible).then(|| format!("'{name}' cannot be '{value}': it takes {}", control.possible))
+        let kind = if control.kind == "whole number" { "a whole number from " } else { "" };
+        let what = || format!("'{name}' cannot be '{value}': it takes {kind}{}", control.possible);
+        (!possible).then(what)
     }
 }
 

@@ -43,7 +43,7 @@ fn cone(s: &mut Sheet) {
     s.line(&arc(from, 38.0, axis, axis + half), SOFT, 1.2);
     s.dot(point(from), 4.5, LINE);
     s.dot(point(center), 3.0, BROWN);
-    s.say([110.0, 226.0], Start, "α");
+    s.say([96.0, 224.0], Start, "α");
     s.say([132.0, 168.0], Start, "d");
     s.say([222.0, 160.0], Start, "r");
     s.title([24.0, 292.0], Start, "A sphere fills a cone.");

@@ -61,7 +61,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         }
         Textures => worn(&|m| m.base_texture.is_some(), "has map_Kd"),
         CutOut => worn(&|m| m.opacity_texture.is_some(), "has map_d")
-            .or_else(|| worn(&|m| m.opacity < 1.0, "has d below 1")),
+            .or_else(|| worn(&|m| m.opacity < 1.0, "is not opaque")),
         Spheres => count(scene.spheres.len(), "sphere"),
         Boxes => count(scene.boxes.len(), "box").map(|n| n.replace("boxs", "boxes")),
         Heightfield => scene.heightfield.as_ref().map(|_| "there is a heightfield".to_owned()),
@@ -80,13 +80,13 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Mirror | Glass if scene.depth == 0 => None,
         Mirror => {
             let is_mirror = |m: &Material| m.is_mirror() && !is_glass(m);
-            worn(&is_mirror, "has illum 3 or more and Ks above 0").or_else(|| {
+            worn(&is_mirror, "mirrors").or_else(|| {
                 let mirrors = scene.plane.as_ref().is_some_and(|plane| plane.reflection > 0.0);
                 mirrors.then(|| "the plane mirrors".to_owned())
             })
         }
         Bounces => count(scene.bounces as usize, "bounce").map(|n| format!("{n} of light")),
-        Glass => worn(&is_glass, "has illum 4, 6, 7 or 9"),
+        Glass => worn(&is_glass, "is glass"),
         Emitters if !scene.scatters() => None,
         Emitters => scene.lamp().map(|m| format!("material `{}` shines", m.name)),
         Patterns => finished(&|finish| finish.pattern().map(|kind| format!("is {}", kind.word()))),

@@ -139,9 +139,15 @@ fn draw_one<'a>(
             context.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
         }
         let places: Vec<_> = points().map(|at| context.backend_coord(&at)).collect();
-        for (&name, (x, y)) in series.names.iter().zip(beside(&places, &series.names)) {
+        let corners = beside(&places, &series.names, context.plotting_area().get_pixel_range());
+        for ((&name, &dot), corner) in series.names.iter().zip(&places).zip(corners) {
             let style = TextStyle::from(SMALL).color(&color);
-            area.draw_text(name, &style, (x - origin.0, y - origin.1))?;
+            let here = |(x, y): (i32, i32)| (x - origin.0, y - origin.1);
+            if let Some(near) = leader(dot, corner, name) {
+                let line = vec![here(dot), here(near)];
+                area.draw(&PathElement::new(line, RGBColor(160, 160, 160)))?;
+            }
+            area.draw_text(name, &style, here(corner))?;
         }
         let dots = points().filter(|_| series.dots);
         let dots = context.draw_series(dots.map(|at| Circle::new(at, 3, color.filled())))?;
@@ -180,27 +186,51 @@ fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
     }
 }
 
-/// The left top corners of names beside their dots, none over a dot or another name while there is room.
-fn beside(dots: &[(i32, i32)], names: &[&str]) -> Vec<(i32, i32)> {
+/// The left top corners of names beside their dots, none over a dot or another name or outside of `area` while
+/// there is room: the farther from its dot, the later a place is tried.
+fn beside(dots: &[(i32, i32)], names: &[&str], area: (Range<i32>, Range<i32>)) -> Vec<(i32, i32)> {
     let font = FontDesc::from(SMALL);
     let mut taken: Vec<[i32; 4]> = dots.iter().map(|(x, y)| [x - 4, y - 4, x + 4, y + 4]).collect();
     let mut corners = Vec::new();
     for (name, (x, y)) in names.iter().zip(dots) {
         let (width, height) = font.box_size(name).expect("a font that is registered");
         let (width, height) = (width as i32, height as i32);
-        let places = [0, -8, 8, -14, 14, -20, 20].into_iter().flat_map(|shift| {
-            let top = y - height / 2 + shift;
-            [(x + 7, top), (x - 7 - width, top), (x - width / 2, top)]
+        let places = (0..12).flat_map(|ring: i32| {
+            let steps = move || (-ring..=ring).map(|step| 8 * step);
+            let ends = [-8 * ring, 8 * ring];
+            let aside = steps().flat_map(move |up| ends.map(|right| (right, up)));
+            let above = steps().flat_map(move |right| ends.map(|up| (right, up)));
+            let corner = move |(right, up): (i32, i32)| {
+                let left = match right.signum() {
+                    0 if ring > 1 => x - width / 2,
+                    -1 => x - 7 - width + right,
+                    _ => x + 7 + right,
+                };
+                (left, y - height / 2 + up)
+            };
+            let beside = [(x + 7, y - height / 2), (x - 7 - width, y - height / 2)];
+            beside.into_iter().chain(aside.chain(above).map(corner))
         });
         let free = |&(left, top): &(i32, i32)| {
             let [right, bottom] = [left + width, top + height];
-            !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
+            let is_inside = area.0.contains(&left) && area.0.contains(&right);
+            is_inside
+                && (area.1.contains(&top) && area.1.contains(&bottom))
+                && !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
         };
         let corner = places.clone().find(free).unwrap_or((x + 7, y - height / 2));
         taken.push([corner.0, corner.1, corner.0 + width, corner.1 + height]);
         corners.push(corner);
     }
     corners
+}
+
+/// The place of a box that is nearest to a point, and whether it is so far away that a line should lead there.
+fn leader((x, y): (i32, i32), (left, top): (i32, i32), name: &str) -> Option<(i32, i32)> {
+    let (width, height) = FontDesc::from(SMALL).box_size(name).ok()?;
+    let near = (x.clamp(left - 2, left + width as i32 + 2), y.clamp(top, top + height as i32));
+    let far = (near.0 - x).pow(2) + (near.1 - y).pow(2) > 10 * 10;
+    far.then_some(near)
 }
 
 /// A picture, or a part of it, under a label.

@@ -1,5 +1,6 @@
 //! 29_emitters: three ways to find the light of what shines agree with each other, and with closed forms.
 
+mod caught;
 mod closed_forms;
 mod directions;
 mod plots;

@@ -150,6 +150,34 @@ fn a_task_that_is_asked_to_stop_saves_what_it_has() {
     }
 }
 
+/// A sample of a slow scene may take minutes, and until it is complete there is nothing to save.
+#[cfg(unix)]
+#[test]
+fn a_task_that_is_asked_to_stop_before_its_first_sample_does_not_wait_for_it() {
+    let parts = Parts::of("27_glass");
+    // A signal that comes before the sample has begun ends any program. Had it waited for the end of the sample,
+    // there would be a file, and another line.
+    for wait in [1, 2, 4, 8, 16] {
+        let mut task = command(parts.chapter);
+        task.args(["--size", "1000x1000", "--samples", "0..4", "--save", "part"]);
+        task.current_dir(&parts.folder).stderr(std::process::Stdio::piped());
+        let child = task.spawn().expect("the sample starts");
+        std::thread::sleep(Duration::from_secs(wait));
+        let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(kill.expect("kill").success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(parts.folder.path().read_dir().unwrap().count(), 0);
+        let line = String::from_utf8_lossy(&output.stderr);
+        if let Some(code) = output.status.code() {
+            assert_eq!(line, "stopped before the first sample: nothing is saved\n");
+            assert_eq!(code, 3);
+            return;
+        }
+        assert_eq!(line, "");
+    }
+    panic!("no sample began within 16 s");
+}
+
 #[test]
 fn a_task_that_runs_twice_counts_once() {
     let parts = Parts::new();
@@ -323,42 +351,46 @@ fn what_does_not_fit_is_refused_by_name() {
         assert_eq!(actual, code, "{line}");
         words.iter().for_each(|word| assert!(line.contains(word), "'{word}' is not in {line}"));
     };
-    let resume = ["--samples", "0..4", "--resume", name];
+    let resume = ["--samples", "0..4", "--out", "never.exr", "--resume", name];
     let with = |more: &[&'static str]| [&resume, more].concat();
     refused(&with(&[]), 1, &["does not fit: the size is 24x16 in it and 960x600 here"]);
     let seed = with(&["--size", "24x16", "--set", "seed=1"]);
     refused(&seed, 1, &["part does not fit: 'seed' is '0' in it and '1' here"]);
     let scene = with(&["--size", "24x16", "--scene", "samples/assets/chess.obj"]);
-    refused(&scene, 1, &["'camera eye' is '-5.6,4.8,9.2' in it"]);
+    refused(&scene, 1, &["the CRC-32 of 'chess.obj' is "]);
     refused(&with(&["--size", "24x16", "--arithmetic", "worst"]), 1, &["--arithmetic is 'driver'"]);
     let unordered = with(&["--size", "24x16", "--unordered"]);
     refused(&unordered, 1, &["--unordered is false in it and true here"]);
+    let lost = ["--headless", "--samples", "0..4"];
+    refused(&lost, 2, &["--samples keeps nothing: name a file for the picture, --out, or for the"]);
     // Not even a file of the same command is written over.
     let again = ["--size", "24x16", "--samples", "0..2", "--save", name];
     refused(&again, 1, &["is there already: --resume '", "part' goes on with it"]);
     fs::write(parts.path("text"), "Once upon a time").unwrap();
     let text = parts.path("text");
-    let resume = ["--samples", "0..4", "--resume", text.to_str().unwrap()];
+    let kept = ["--samples", "0..4", "--out", "never.exr"];
+    let resume = [&kept[..], &["--resume", text.to_str().unwrap()]].concat();
     refused(&resume, 1, &["text: is no file of sums that --save has written"]);
     let gone = parts.path("gone");
-    let resume = ["--samples", "0..4", "--resume", gone.to_str().unwrap()];
+    let resume = [&kept[..], &["--resume", gone.to_str().unwrap()]].concat();
     refused(&resume, 1, &["gone: there is no such file"]);
     let mut bytes = fs::read(&file).unwrap();
     bytes.pop();
     fs::write(&file, bytes).unwrap();
-    refused(&["--samples", "0..4", "--resume", name], 1, &["part: is damaged: it is cut off, or"]);
+    let resume = [&kept[..], &["--resume", name]].concat();
+    refused(&resume, 1, &["part: is damaged: it is cut off, or"]);
     refused(&["--samples", "4..4"], 2, &["samples are A..B", "such as 0..64"]);
     refused(&["--headless", "--save", name], 2, &["--samples <A..B>"]);
     let picture = ["--samples", "0..4", "--save", "part.PNG"];
     refused(&picture, 2, &["--save part.PNG: sums of samples are no picture"]);
     refused(&["--samples", "0..4", "--frames", "4"], 2, &["cannot be used with"]);
-    let off = ["--samples", "0..4", "--set", "accumulate=off"];
+    let off = [&kept[..], &["--set", "accumulate=off"]].concat();
     refused(
         &off,
         2,
         &["04_jitter_camera takes no --samples: set like this, each of its frames is a picture"],
     );
-    let (code, line) = run::refused("02_basic", &["--samples", "0..4"]);
+    let (code, line) = run::refused("02_basic", &kept);
     assert!(code == 2 && line.contains("02_basic takes no --samples"), "{line}");
 }
 

@@ -70,7 +70,7 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
 fn a_depth_beyond_the_device_s_limit_is_refused() {
     let (code, line) = refused(NAME, &["--headless", "--set", "depth=9"]);
     assert_eq!(code, 2);
-    assert!(line.contains("'depth' cannot be '9': it takes 0 to 8"), "{line}");
+    assert!(line.contains("'depth' cannot be '9': it takes a whole number from 0 to 8"), "{line}");
     // No device at hand allows less than 10, so the check itself is asked for too much.
     let requirements = Requirements::ray_tracing().textures();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap();

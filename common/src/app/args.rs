@@ -146,6 +146,19 @@ impl Args {
         }
     }
 
+    /// Fails if a render would keep nothing of its samples, perhaps after days.
+    fn samples_are_kept(&self) -> Result<(), Usage> {
+        let asked = self.list_controls || self.compile_for.is_some();
+        let kept = self.out.is_some() || self.save.is_some() || self.report.is_some();
+        match self.samples.is_none() || asked || kept {
+            true => Ok(()),
+            false => Err(Usage(
+                "--samples keeps nothing: name a file for the picture, --out, or for the sums, --save"
+                    .to_owned(),
+            )),
+        }
+    }
+
     /// Parses the process's arguments.
     ///
     /// Prints the help and ends the process if that is asked for.
@@ -183,6 +196,7 @@ impl Args {
         })?;
         args.one_scene()?;
         args.sums_are_no_picture()?;
+        args.samples_are_kept()?;
         Ok((args, more))
     }
 }

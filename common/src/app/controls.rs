@@ -272,9 +272,10 @@ impl Visit for Settings<'_> {
         let (_, text) = self.waiting.remove(wanted);
         let before = value.text();
         if value.set(text).is_none() {
+            let kind = if let Value::Integer(..) = value { "a whole number from " } else { "" };
             let possible = value.possible();
             self.refused =
-                Some(format!("control '{name}' cannot be '{text}': it takes {possible}"));
+                Some(format!("control '{name}' cannot be '{text}': it takes {kind}{possible}"));
         }
         self.repeats || value.text() != before
     }

@@ -48,7 +48,8 @@ pub struct Gather {
     interrupt: Option<Interrupt>,
     /// What is gone on with, for messages.
     resumed: String,
-    shaders_checked: bool,
+    /// Whether this run has added a sample; the shaders are checked then.
+    has_added: bool,
 }
 
 /// Reads what `--resume` names, and refuses before the work what would be refused after it.
@@ -105,13 +106,27 @@ impl Gather {
             saved: Instant::now(),
             interrupt,
             resumed: file,
-            shaders_checked: false,
+            has_added: false,
         })
     }
 
     /// What is still to be rendered.
     pub fn missing(&self) -> Samples {
         self.missing.clone()
+    }
+
+    /// To be asked while a sample is rendered: the first one of a run need not be waited for.
+    ///
+    /// # Errors
+    /// [`Stopped`] if a signal has come before there is anything new to save.
+    pub fn heed(&self) -> Result<()> {
+        let came = self.interrupt.as_ref().is_some_and(Interrupt::came);
+        match came && !self.has_added {
+            true => {
+                Err(Stopped("stopped before the first sample: nothing is saved".to_owned()).into())
+            }
+            false => Ok(()),
+        }
     }
 
     /// Adds the sample of this number, which is the picture; writes the file if that is due.
@@ -151,7 +166,7 @@ impl Gather {
     /// Holds the shaders against those of the sums so far. They are known only now: a sample makes its
     /// pipelines when it renders.
     fn check_shaders(&mut self, gpu: &Gpu) -> Result<()> {
-        if std::mem::replace(&mut self.shaders_checked, true) {
+        if std::mem::replace(&mut self.has_added, true) {
             return Ok(());
         }
         let shaders = Some(crc_of(&gpu.statistics().blueprints));

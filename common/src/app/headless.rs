@@ -53,12 +53,18 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
 
     let image = Image::storage(&gpu, "picture", args.size)?;
     let timer = Timer::new(&gpu)?;
-    let render = |sample: &mut S, bands: &mut Bands, index, accumulated| -> Result<f64> {
+    let heed = |gather: &Option<Gather>| gather.as_ref().map_or(Ok(()), Gather::heed);
+    let render = |sample: &mut S,
+                  bands: &mut Bands,
+                  frame: (u32, u32),
+                  gather: &Option<Gather>|
+     -> Result<f64> {
         bands.begin(args.size, true);
-        let frame = (&image, index, accumulated);
+        let frame = (&image, frame.0, frame.1);
         let mut sum = 0.0;
         while let Some(milliseconds) = bands.trace(sample, (&gpu, &timer), frame)? {
             sum += milliseconds;
+            heed(gather)?;
         }
         Ok(sum)
     };
@@ -73,7 +79,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
                 controls::set_beside(&args.sets, &control, value, |c| sample.controls(c))?;
                 progress.step();
                 sample.changed(&gpu)?;
-                render(&mut sample, bands.entry(value.to_owned()).or_default(), 0, 0)
+                render(&mut sample, bands.entry(value.to_owned()).or_default(), (0, 0), &None)
             })?)
         }
     };
@@ -98,7 +104,7 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
         }
         // Samples are pictures alone: their mean is the sums'.
         let accumulated = gather.as_ref().map_or(index, |_| 0);
-        times.push(render(&mut sample, &mut bands, index, accumulated)?);
+        times.push(render(&mut sample, &mut bands, (index, accumulated), &gather)?);
         band_times.extend(&bands.times);
         if first_frame.is_zero() {
             first_frame = start.elapsed();

@@ -84,11 +84,15 @@ impl Origin {
             .map(|(name, value)| named((name, value)))
             .into();
         facts.push(("the size".to_owned(), format!("{width}x{height}")));
-        let settings = self.settings.iter();
-        facts.extend(settings.map(|(name, value)| (format!("'{name}'"), format!("'{value}'"))));
+        // A scene brings settings of its own, and is named before them.
+        let (scene, others): (Vec<_>, Vec<_>) =
+            self.settings.iter().partition(|(name, _)| *name == "scene");
+        let set = |(name, value): (&String, &String)| (format!("'{name}'"), format!("'{value}'"));
+        facts.extend(scene.into_iter().map(set));
         let crc = |crc: &u32| format!("{crc:08x}");
         let files = self.scene.iter();
         facts.extend(files.map(|(name, sum)| (format!("the CRC-32 of '{name}'"), crc(sum))));
+        facts.extend(others.into_iter().map(set));
         facts.push(("--unordered".to_owned(), self.unordered.to_string()));
         facts.extend(self.shaders.map(|sum| ("the CRC-32 of the shaders".to_owned(), crc(&sum))));
         let device = [("the device", device), ("the driver", driver)];

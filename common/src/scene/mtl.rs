@@ -14,6 +14,10 @@ use super::text::{
 use super::texture::{Role, Texture, TextureFiles};
 use super::warnings::{Kind, Warnings};
 
+/// The most that a material may shine, as the largest strength of a light in a scene file: sums of many
+/// samples have to bear it.
+const BRIGHTEST: f32 = 1e6;
+
 /// The materials that an OBJ file has met so far.
 ///
 /// MTL is read here and not by the parser of the OBJ file, which has no line numbers either, panics
@@ -135,7 +139,14 @@ impl MaterialLibrary {
                     }
                     "Ks" => material.specular = color,
                     "Tf" => material.transmission = color,
-                    _ => material.emission = color,
+                    _ => {
+                        let most = color.max_element();
+                        ensure!(
+                            most <= BRIGHTEST,
+                            "Ke is {most:?}; it cannot be more than {BRIGHTEST}"
+                        );
+                        material.emission = color;
+                    }
                 }
             }
             "Ns" => material.shininess = number(keyword, rest, f32::MAX)?,

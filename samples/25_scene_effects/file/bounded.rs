@@ -245,12 +245,9 @@ pub fn bounces<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 8)
 }
 
-/// Blades around a lens, or none.
+/// Blades around a lens; fewer than three make no polygon, but leave a disk (28).
 pub fn blades<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
-    match whole(from, 0, 16)? {
-        1 | 2 => Err(D::Error::custom("blades make a polygon: 3 to 16 of them, or 0 for a disk")),
-        count => Ok(count),
-    }
+    whole(from, 0, 12)
 }
 
 /// How far away a lens is in focus.

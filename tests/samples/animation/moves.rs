@@ -116,7 +116,7 @@ fn the_sample_says_so_and_takes_nothing_else() {
     let (code, line) = refused(NAME, &["--headless", "--scene", "nowhere.txt"]);
     assert!(code == 1 && line.contains("nowhere.txt: there is no such file"), "{line}");
     let (code, line) = refused(NAME, &["--headless", "--set", "frame=1825"]);
-    assert!(code == 2 && line.contains("it takes 0 to 1824"), "{line}");
+    assert!(code == 2 && line.contains("it takes a whole number from 0 to 1824"), "{line}");
 }
 
 /// The numbers of move sequences that chess programs are checked by (perft): every rule counts.

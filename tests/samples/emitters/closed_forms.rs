@@ -5,7 +5,7 @@ use std::fs;
 
 use common::app::Picture;
 use glam::DVec3;
-use serde_json::{Map, json};
+use serde_json::Map;
 
 use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
@@ -171,23 +171,62 @@ pub fn variances_of_ball(point: DVec3, center: DVec3, radius: f64) -> [f64; 2] {
     [part * (1.0 - part), (2.0 * (1.0 - cosine)).powi(2) * squares - part * part]
 }
 
-/// The mean of the variances over the picture of the ball.
-pub fn mean_variances(side: u32) -> [f64; 2] {
-    let (center, radius, _) = balls("ball")[0];
+/// The mean over the picture of one sample's variances where balls shine: of a path, and of a shadow ray to a
+/// ball that is chosen by its power. All balls of a scene are of one size.
+pub fn mean_variances(scene: &str, side: u32) -> [f64; 2] {
+    let balls = balls(scene);
+    let all: f64 = balls.iter().map(|(_, _, radiance)| radiance).sum();
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
     let mut sums = [0.0; 2];
     for i in 0..side * side {
         let point = DVec3::new(place(i % side), -place(i / side), 0.0);
-        let variances = variances_of_ball(point, center, radius);
-        (0..2).for_each(|k| sums[k] += variances[k] / f64::from(side * side));
+        // The means of the squares of what a sample brings, and its mean.
+        let (mut squares, mut mean) = ([0.0; 2], 0.0);
+        for &(center, radius, radiance) in &balls {
+            let part = part_of_ball(point, center, radius);
+            let [path, ray] = variances_of_ball(point, center, radius).map(|v| v + part * part);
+            squares[0] += radiance * radiance * path;
+            squares[1] += radiance * all * ray;
+            mean += radiance * part;
+        }
+        (0..2).for_each(|k| sums[k] += (squares[k] - mean * mean) / f64::from(side * side));
     }
     sums
+}
+
+/// The same where a square shines that meets the lit one at a right angle. A shadow ray goes to one of its two
+/// triangles, each as likely, and is uniform in that one's solid angle.
+pub fn variances_of_squares(side: u32) -> [f64; 2] {
+    const FINE: u32 = 256;
+    let factors = form_factors(side, &SQUARES[1].1);
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(side) - 0.5;
+    let part = |i: u32| (f64::from(i) + 0.5) / f64::from(FINE);
+    let mut sums = [0.0; 2];
+    for (i, factor) in (0..side * side).zip(&factors) {
+        let point = DVec3::new(place(i % side), -place(i / side), 0.0);
+        // Of each triangle: its solid angle, and the integral of the cosine's square over it.
+        let mut integrals = [[0.0; 2]; 2];
+        for k in 0..FINE * FINE {
+            let (across, along) = (k % FINE, k / FINE);
+            // The square's plane is y = -1/2; it reaches from x = -1/2 to 1/2 and from z = 0 to 1.
+            let to = DVec3::new(part(across) - 0.5, -0.5, part(along)) - point;
+            let distance = to.length();
+            let angle = to.y.abs() / distance.powi(3) / f64::from(FINE * FINE);
+            let triangle = &mut integrals[usize::from(across < along)];
+            triangle[0] += angle;
+            triangle[1] += angle * (to.z / distance).powi(2);
+        }
+        let square: f64 = integrals.iter().map(|[angle, square]| 2.0 * angle * square).sum();
+        sums[0] += factor * (1.0 - factor);
+        sums[1] += square / (PI * PI) - factor * factor;
+    }
+    sums.map(|sum| sum / f64::from(side * side))
 }
 
 #[test]
 fn the_noise_of_one_sample_is_that_of_theory() {
     let expected = lit_by_balls("ball", 64);
-    for (name, theory) in ["BSDF", "light"].iter().zip(mean_variances(64)) {
+    for (name, theory) in ["BSDF", "light"].iter().zip(mean_variances("ball", 64)) {
         let mut squares = Vec::new();
         for seed in 0..4 {
             let sets = ["scene=ball", &estimator(name), "depth=1", &format!("seed={seed}")];
@@ -283,24 +322,10 @@ fn a_furnace_is_white_whoever_finds_its_light() {
         assert!(estimate.confidence < 0.03, "{name}");
         if name == "BSDF" {
             // What a path brings is 1, whatever way it takes: no chance, no rounding.
+            // Seed 0 loses some: see `caught`.
             let other = picture("96x60", 16, &[&sets[..], &["seed=1"]].concat());
             let grey = other.pixels.iter().filter(|pixel| **pixel != [1.0; 4]).count();
             assert_eq!(grey, 0, "pixels of the furnace that are not white");
-            // With seed 0 some paths get into a closed piece on llvmpipe, whose own triangle test is not
-            // watertight (24); that this is the cause has not been shown. A path inside never comes out: it
-            // has all the rays that a depth allows.
-            let rays = picture("96x60", 16, &[&sets[..], &["show=rays"]].concat());
-            let mut lost = 0.0;
-            for (pixel, rays) in shown.pixels.iter().zip(&rays.pixels) {
-                let caught = 16.0 * (1.0 - f64::from(pixel[0]));
-                assert!(pixel[0] == pixel[1] && caught.fract() == 0.0, "{pixel:?}");
-                assert!(f64::from(rays[0]) >= caught * 257.0 / 256.0, "{pixel:?}: {rays:?}");
-                lost += caught;
-            }
-            let paths = 16 * shown.pixels.len();
-            println!("{lost} of {paths} paths are caught");
-            assert!(lost <= 4.0, "{lost} of {paths} paths are caught");
-            figures::hold("29_emitters/furnace", json!({ "caught": lost, "paths": paths }));
         }
     }
 }

@@ -1,0 +1,109 @@
+//! Why a path of the furnace is lost in a closed piece: the ray that took it there, by exact arithmetic.
+
+use reference::Ray;
+use run::primary_hits::reference;
+use run::{command, copy_of_shaders, figures, render_by};
+use serde_json::json;
+
+use super::{NAME, picture};
+
+#[allow(dead_code)]
+#[path = "../../../samples/29_emitters/alias.rs"]
+mod alias;
+#[allow(dead_code)]
+#[path = "../../../samples/29_emitters/emitters.rs"]
+mod emitters;
+#[allow(dead_code)]
+#[path = "../../../samples/29_emitters/scenes.rs"]
+mod scenes;
+
+const SIZE: &str = "96x60";
+const FRAMES: u32 = 16;
+const SETS: [&str; 3] = ["scene=furnace", "depth=256", "estimator=BSDF"];
+
+/// Of each pixel's caught path, the first ray that met a body from behind: where it started, and its length; and
+/// its direction. All is 0 where no path had all the rays that the depth allows.
+///
+/// Instances from `open` on are single sheets, which have no inside.
+fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
+    let folder = copy_of_shaders();
+    let change = |file: &str, changes: &[(&str, &str)]| {
+        let path = folder.path().join(NAME).join(file);
+        let mut text = std::fs::read_to_string(&path).expect("a shader can be read");
+        for (from, to) in changes {
+            assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
+            text = text.replace(from, to);
+        }
+        std::fs::write(&path, text).expect("a copy can be written");
+    };
+    let behind = "hit = report(weights);
+        hit.triangle |= gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? 1u << 31 : 0;";
+    change("shade.rchit", &[("hit = report(weights);", behind)]);
+    let note = format!(
+        "if (entry == vec4(0.0) && hit.t >= 0.0 && hit.triangle >> 31 == 1 && hit.instance < {open}) {{
+            entry = vec4(ray.origin, hit.t);
+            way = vec4(ray.direction, 0.0);
+        }}
+        advance(path, ray, hit);"
+    );
+    let store = "bool caught = path.bounce > push.depth;
+        if (caught || sum.count == 1) {
+            imageStore(picture, ivec2(id), caught ? entry : vec4(0.0));
+        }";
+    change(
+        "camera.rgen",
+        &[
+            ("    do {\n", "vec4 entry = vec4(0.0), way = vec4(0.0);\n    do {\n"),
+            ("advance(path, ray, hit);", &note),
+            ("imageStore(picture, ivec2(id), vec4(mean_of_whole(sum), 1.0));", store),
+        ],
+    );
+    let shown = || {
+        let frames = FRAMES.to_string();
+        let mut arguments = vec!["--frames", &frames];
+        arguments.extend(SETS.iter().flat_map(|set| ["--set", set]));
+        render_by(command(NAME).env("SHADERS", folder.path()), SIZE, &arguments).picture.pixels
+    };
+    let origins = shown();
+    change("camera.rgen", &[("caught ? entry :", "caught ? way :")]);
+    [origins, shown()]
+}
+
+/// A ray starts above the surface that it leaves, but that says nothing of another body. Where a piece touches
+/// the board, the start may lie within the other of the two, by less than a hundred thousandth; from there
+/// exact arithmetic finds what the driver finds, a wall from within. So no ray passed between two triangles.
+#[test]
+fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
+    let chess = scenes::chess().expect("the chess set").scene;
+    let name = |mesh: usize| &*chess.model.meshes[mesh].name;
+    let open = chess.instances.iter().position(|instance| name(instance.mesh) == "paper");
+    let [origins, directions] = entries(open.expect("screens of paper"));
+    let scene = reference(&chess);
+    let mut caught = 0.0;
+    let pixels = picture(SIZE, FRAMES, &SETS).pixels;
+    for (i, pixel) in pixels.iter().enumerate() {
+        let [x, y, z, t] = origins[i];
+        // What a path brings is 1, whatever way it takes, or it is caught and brings nothing.
+        let lost = FRAMES as f32 * (1.0 - pixel[0]);
+        assert_eq!(lost, if t > 0.0 { 1.0 } else { 0.0 }, "{pixel:?}");
+        if t == 0.0 {
+            continue;
+        }
+        caught += 1.0;
+        let [u, v, w, _] = directions[i];
+        let ray = Ray::from_f32([x, y, z], [u, v, w], 0.0, 1e30);
+        let hit = scene.closest_hit(&ray, |_| true).expect("a wall");
+        let bound = scene.candidate(&ray, hit).t_bound;
+        println!("{ray:?}: {t} or exactly {} ± {bound:.1e}", hit.t);
+        assert!((hit.t - f64::from(t)).abs() <= bound && !hit.counterclockwise, "{hit:?}");
+        let near = scene.near_candidates(&ray);
+        let passed = near.iter().find(|near| near.hit.t <= 0.0 && near.hit.counterclockwise);
+        let passed = passed.expect("a wall that the start is behind");
+        println!("  it starts {:.1e} behind a wall", -passed.hit.t);
+        assert!(passed.hit.t > -1e-5, "{passed:?}");
+    }
+    // Set by llvmpipe; with seeds 1 to 7 it is none.
+    assert!(caught <= 4.0, "{caught} paths are caught");
+    let paths = FRAMES as usize * pixels.len();
+    figures::hold("29_emitters/furnace", json!({ "caught": caught, "paths": paths }));
+}
