@@ -4,6 +4,8 @@
 
 #[cfg(unix)]
 mod browser;
+#[cfg(unix)]
+mod drawing;
 mod faults;
 mod pages;
 #[cfg(unix)]

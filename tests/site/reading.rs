@@ -12,7 +12,7 @@ const CHECKS: &str = include_str!("checks.js");
 const DESK: (u32, u32, bool) = (1280, 900, false);
 const PHONE: (u32, u32, bool) = (390, 844, true);
 
-fn address(page: &str) -> String {
+pub fn address(page: &str) -> String {
     let path = fs::canonicalize(&built().folder).unwrap().join(page);
     format!("file://{}", path.display().to_string().replace(' ', "%20"))
 }
@@ -47,7 +47,7 @@ fn complaints(told: &[Value]) -> Vec<String> {
     found
 }
 
-fn theme(browser: &mut Browser, name: &str) {
+pub fn theme(browser: &mut Browser, name: &str) {
     browser.run(&format!("document.getElementById('mdbook-theme-{name}').click()"));
 }
 
@@ -301,7 +301,7 @@ fn pictures() {
 }
 
 /// Writes what base64 says into a file.
-fn decode(text: &str, file: &std::path::Path) {
+pub fn decode(text: &str, file: &std::path::Path) {
     use std::io::Write;
     let mut child = Command::new("base64")
         .arg("-d")
