@@ -7,7 +7,8 @@
 use std::ops::Range;
 
 use crate::fault::Fault;
-use crate::markdown::{Markdown, local};
+use crate::link::local;
+use crate::markdown::Markdown;
 use crate::page::Page;
 use crate::passage::{self, line};
 use crate::project::Project;

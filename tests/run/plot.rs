@@ -108,7 +108,8 @@ pub fn draw(name: &str, (width, height): (u32, u32), charts: &[Chart]) {
     area.present().expect("the SVG can be written");
     drop(area);
     let themed = fs::read_to_string(&path).map(|text| drawings::themed(&text));
-    let themed = themed.expect("the SVG can be read").unwrap_or_else(|what| panic!("{name}: {what}"));
+    let themed =
+        themed.expect("the SVG can be read").unwrap_or_else(|what| panic!("{name}: {what}"));
     fs::write(&path, themed).expect("the SVG can be written");
 }
 

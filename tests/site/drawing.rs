@@ -36,13 +36,17 @@ fn looked_at(browser: &mut Browser, file: &Path, scheme: &str) -> (Vec<String>, 
     let found = browser.run(&script);
     let name = file.file_name().unwrap().to_string_lossy();
     let wrong = found["wrong"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    (wrong.map(|line| format!("{name}, {scheme}: {line}")).collect(), found["seen"].as_u64().unwrap())
+    (
+        wrong.map(|line| format!("{name}, {scheme}: {line}")).collect(),
+        found["seen"].as_u64().unwrap(),
+    )
 }
 
 fn drawings() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../images").canonicalize().unwrap();
     let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
-    let mut files: Vec<_> = files.filter(|file| file.extension().is_some_and(|e| e == "svg")).collect();
+    let mut files: Vec<_> =
+        files.filter(|file| file.extension().is_some_and(|e| e == "svg")).collect();
     files.sort();
     files
 }
