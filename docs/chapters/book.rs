@@ -164,7 +164,7 @@ impl<'a> Book<'a> {
     /// Figures that are not what was measured, and measurements that are out of date.
     fn wrong_figures(&self, sources: &mut Sources) -> Vec<Fault> {
         let (stored, mut faults) = Stored::all(self.project);
-        // What a damaged file's page shows, nobody knows.
+        // If a page's stored file is damaged, its figures cannot be checked.
         let is_known = |page: &&Page| {
             let folder = format!("{}/{}/", stored::FOLDER, page.stem());
             !faults.iter().any(|fault| fault.file.starts_with(&folder))

@@ -67,7 +67,7 @@ impl Glossary {
     pub fn linked(&self, page: &Page) -> Page {
         let text = page.written();
         let mut lines = page.lines.clone();
-        // From behind, so that what is changed moves nothing that is still to be.
+        // From the end: a change moves only text behind it, which is done.
         for Use { term, span } in self.unlinked(page, &text).into_iter().rev() {
             let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
             let link = format!("[{}](glossary.md#{})", &text[span.clone()], anchor(&term.name));
