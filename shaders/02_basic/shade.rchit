@@ -18,10 +18,8 @@ hitAttributeEXT vec2 weights;
 // The nearest hit: normal, material and light give the colour.
 void main() {
     // ANCHOR: fetch
-    // ANCHOR: record
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    // ANCHOR_END: record
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
     // ANCHOR_END: fetch
