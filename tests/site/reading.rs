@@ -321,26 +321,34 @@ fn pictures() {
     fs::create_dir_all(&folder).unwrap();
     let mut browser = Browser::start();
     let pages = [
-        "index",
-        "05_shadow_miss",
-        "05_shadow_miss-code",
-        "wrong-pictures",
-        "09_instancing",
-        "21_heightfield",
-        "11_path_tracing",
-        "26_leaving_a_surface",
+        "index.html",
+        "02_basic.html#at-the-nearest-hit",
+        "05_shadow_miss.html",
+        "05_shadow_miss-code.html#shaders-05_shadow_miss-camera-rgen",
+        "wrong-pictures.html",
+        "21_heightfield.html",
+        "glossary.html",
+        "reading.html?search=shadow%20ray",
+        "404.html",
     ];
     for page in pages {
         for ((width, height, phone), on) in [((1280, 900, false), "desk"), (PHONE, "phone")] {
             sized(&mut browser, (width, height, phone));
-            browser.open(&address(&format!("{page}.html")));
+            browser.open("about:blank");
+            browser.open(&address(page));
+            let name_of = page.split('.').next().unwrap();
             for (name, id) in [("light", "light"), ("dark", "navy")] {
-                theme(&mut browser, id);
+                if page != "404.html" {
+                    theme(&mut browser, id);
+                }
                 for (part, at) in [("top", 0.0), ("middle", 0.45)] {
-                    browser
-                        .run(&format!("scrollTo(0, {at} * document.documentElement.scrollHeight)"));
-                    browser.run("new Promise(done => setTimeout(done, 300))");
-                    let file = folder.join(format!("{page}-{on}-{name}-{part}.png"));
+                    // A page that is opened at a place stays there.
+                    if part == "middle" || !page.contains(['#', '?']) {
+                        let to = format!("scrollTo(0, {at} * document.documentElement.scrollHeight)");
+                        browser.run(&to);
+                    }
+                    browser.run("new Promise(done => setTimeout(done, 600))");
+                    let file = folder.join(format!("{name_of}-{on}-{name}-{part}.png"));
                     decode(&browser.picture(), &file);
                 }
             }
