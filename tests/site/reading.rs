@@ -344,7 +344,8 @@ fn pictures() {
                 for (part, at) in [("top", 0.0), ("middle", 0.45)] {
                     // A page that is opened at a place stays there.
                     if part == "middle" || !page.contains(['#', '?']) {
-                        let to = format!("scrollTo(0, {at} * document.documentElement.scrollHeight)");
+                        let to =
+                            format!("scrollTo(0, {at} * document.documentElement.scrollHeight)");
                         browser.run(&to);
                     }
                     browser.run("new Promise(done => setTimeout(done, 600))");
