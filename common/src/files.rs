@@ -33,7 +33,7 @@ pub fn abandon() {
     std::mem::forget(files);
 }
 
-/// Bytes of a cache's file; more was written by nobody here.
+/// The most bytes that a cache's file has: a larger one is not ours.
 const CACHED_BYTES: u64 = 256 << 20;
 
 /// A cache's file; `None` if there is none, or something that could deliver without end, as a pipe could.

@@ -1,4 +1,4 @@
-//! What a program says on standard output and standard error, whoever listens.
+//! What a program says on standard output and standard error, also where nobody reads it.
 
 use std::io::{ErrorKind, Write, stderr, stdout};
 
@@ -34,7 +34,7 @@ pub fn write(bytes: &[u8]) -> Result<()> {
 /// The most letters of a line on standard error: a file's name or key may be as long as the file.
 const MOST: usize = 2000;
 
-/// Writes a line to standard error; if nobody listens there, the exit code has to say it.
+/// Writes a line to standard error; if that is closed, the exit code alone tells of the error.
 ///
 /// A line may hold what a file says. What is no plain letter in it, a terminal's commands for one, is
 /// written as `\u{1b}`, and a line that is too long is cut.

@@ -9,7 +9,8 @@ use crate::body::body;
 use crate::fault::Fault;
 use crate::figure;
 use crate::glossary::Glossary;
-use crate::markdown::{Markdown, local};
+use crate::link::local;
+use crate::markdown::Markdown;
 use crate::measurement::{self, Measurement};
 use crate::mistake::Mistake;
 use crate::page::{Kind, Page};
@@ -163,7 +164,7 @@ impl<'a> Book<'a> {
     /// Figures that are not what was measured, and measurements that are out of date.
     fn wrong_figures(&self, sources: &mut Sources) -> Vec<Fault> {
         let (stored, mut faults) = Stored::all(self.project);
-        // What a damaged file's page shows, nobody knows.
+        // If a page's stored file is damaged, its figures cannot be checked.
         let is_known = |page: &&Page| {
             let folder = format!("{}/{}/", stored::FOLDER, page.stem());
             !faults.iter().any(|fault| fault.file.starts_with(&folder))

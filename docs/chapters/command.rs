@@ -77,7 +77,7 @@ impl Run {
         sets.chain(compared).collect()
     }
 
-    /// Why it compares chapters of which one is not there; `NN` may stand for any.
+    /// What is wrong if it compares chapters and one of them does not exist; `NN` may stand for any chapter.
     fn unknown_chapter(&self, project: &Project) -> Option<String> {
         let [command, chapters @ ..] = &self.arguments[..] else { return None };
         let tool = self.bin.as_deref() == Some("chapters") && command == "diff";

@@ -44,7 +44,8 @@ pub struct Patched {
 }
 
 impl Patched {
-    /// Makes it: shaders in a folder of their own, or all code in the one copy, once nobody else has it.
+    /// Makes it. A patch of shaders gets a folder of its own; any other waits until the one copy of all code
+    /// is free.
     ///
     /// # Errors
     /// If the patch does not fit, or the copy cannot be written.

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::amount::Amount;
 use crate::command::quoted;
 
-/// What an expectation may look like, for whoever writes one.
+/// The forms of an expectation, as an error tells them to the author.
 pub const FORMS: &str = "write differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
     pixel X Y is R G B, pixels R G B: N [to M], largest a is N [to M], report KEY N [to M], says TEXT, \
     refused: TEXT, validation: TEXT, passes, fails [with TEXT]";

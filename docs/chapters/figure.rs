@@ -54,7 +54,7 @@ struct Bound {
 struct Note {
     /// The whole note, in bytes of the page's text.
     span: Range<usize>,
-    /// The measurements that it is of: those of the figures since the note before.
+    /// The measurements that it belongs to: all whose figures stand between the note before and this one.
     names: BTreeSet<String>,
 }
 
@@ -64,9 +64,9 @@ struct Found {
     bound: Vec<Bound>,
     notes: Vec<Note>,
     faults: Vec<Fault>,
-    /// Measurements of which no note has told yet.
+    /// Measurements that have no note yet.
     open: BTreeSet<String>,
-    /// Those of which one has.
+    /// Measurements that have one.
     told: BTreeSet<String>,
 }
 
@@ -134,7 +134,7 @@ pub fn filled(page: &Page, stored: &All) -> Page {
     }));
     changes.sort_by_key(|(span, _)| span.start);
     let mut lines = page.lines.clone();
-    // From behind, so that what is changed moves nothing that is still to be.
+    // From the end: a change moves only text behind it, which is done.
     for (span, new) in changes.into_iter().rev() {
         let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
         let of_line = span.start - start..span.end - start;
@@ -180,8 +180,8 @@ impl Found {
         names
     }
 
-    /// A passage's numbers but those that only explain; none if one of those is not there, for then nobody
-    /// knows which number is which.
+    /// A passage's numbers without those that only explain. None if one of the latter is not there: then it is
+    /// unknown which number is which.
     fn without_explained(
         &mut self,
         page: &Page,
@@ -266,8 +266,8 @@ impl Found {
     }
 }
 
-/// The day for a note of these measurements: that of the times among them, which must be one, else the
-/// last. What is no time comes out again on any day.
+/// The day for a note of these measurements. If there are times among them, it is their day, which must be
+/// the same for all. Else it is the last day: a figure that is no time comes out the same on any day.
 fn day<'a>(names: &BTreeSet<String>, stored: &'a All) -> Option<&'a str> {
     let days = |timed: bool| -> BTreeSet<&'a str> {
         let of = names.iter().filter_map(|name| stored.get(name));

@@ -42,7 +42,7 @@ pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Give
     let program = run.program(project).context("it runs no program")?;
     let file = folder.path().join("report.json");
     let mut arguments = run.arguments.clone();
-    // What the page's command would leave in the reader's folder, or print, is nobody's here.
+    // The page's command leaves a picture in the reader's folder, or prints a report. Here neither is wanted.
     for (option, own) in [("--out", Some("out.png")), ("--report", None)] {
         let Some(at) = arguments.iter().position(|word| word == option) else { continue };
         arguments.drain(at..arguments.len().min(at + 2));

@@ -2,12 +2,14 @@
 //!
 //! A term is a heading of the third level in `docs/glossary.md`. Below it stand what it means and links to
 //! the pages that explain it: those need no link back. An everyday word, which a page may use otherwise,
-//! carries the comment `<!-- everyday word -->`, and is not looked for.
+//! carries the comment `<!-- everyday word -->`, and is not looked for. The comment `<!-- not: A, B -->` lists
+//! other words for the same thing: no page may use them.
 
 use std::ops::Range;
 
 use crate::fault::Fault;
-use crate::markdown::{Markdown, local};
+use crate::link::local;
+use crate::markdown::Markdown;
 use crate::page::Page;
 use crate::passage::{self, line};
 use crate::project::Project;
@@ -17,11 +19,15 @@ pub const GLOSSARY: &str = "docs/glossary.md";
 
 /// What a term is marked by that is not looked for.
 const EVERYDAY: &str = "<!-- everyday word -->";
+/// What begins the list of words that a term stands for alone.
+const NOT: &str = "<!-- not:";
 
 /// A project's terms.
 #[derive(Default)]
 pub struct Glossary {
     terms: Vec<Term>,
+    /// Words that no page may use, each with the term to write.
+    others: Vec<(String, String)>,
 }
 
 struct Term {
@@ -42,31 +48,50 @@ impl Glossary {
     }
 
     fn parse(text: &str) -> Self {
-        let entries = text.split("\n### ").skip(1).filter(|entry| !entry.contains(EVERYDAY));
+        let all = || text.split("\n### ").skip(1);
+        let others = |entry: &str| {
+            let name = entry.lines().next().unwrap_or_default().trim().to_owned();
+            let list = entry.split_once(NOT).and_then(|(_, rest)| rest.split_once("-->"));
+            let words = list.map_or("", |(words, _)| words).split(',').map(str::trim);
+            let words = words.filter(|word| !word.is_empty());
+            words.map(|word| (word.to_owned(), name.clone())).collect::<Vec<_>>()
+        };
+        let entries = all().filter(|entry| !entry.contains(EVERYDAY));
         let term = |entry: &str| {
             let (name, meaning) = entry.split_once('\n')?;
             let links = Markdown::parse(meaning).links;
             let explained_on = links.iter().filter_map(|link| local(GLOSSARY, &link.target));
             Some(Term { name: name.trim().to_owned(), explained_on: explained_on.collect() })
         };
-        Self { terms: entries.filter_map(term).collect() }
+        Self { terms: entries.filter_map(term).collect(), others: all().flat_map(others).collect() }
     }
 
-    /// Terms that a page of the book uses, and links nowhere before.
+    /// Terms that a page of the book uses, and links nowhere before; and other words for what a term means.
     pub fn check(&self, page: &Page) -> Vec<Fault> {
         let text = page.written();
+        let mut faults = Vec::new();
+        if page.path != GLOSSARY {
+            for (word, term) in &self.others {
+                for span in sentences(&text).into_iter().flat_map(|part| uses(&text, part, word)) {
+                    let what = format!("'{word}' is called '{term}' in this book");
+                    let line = line(&text, span.start);
+                    faults.push(Fault::new(&*page.path, line, what, format!("write '{term}'")));
+                }
+            }
+        }
         let fault = |Use { term, span }: Use| {
             let what = format!("the first '{}' of this page leads to no meaning", term.name);
             Fault::stale(&page.path, line(&text, span.start), &what)
         };
-        self.unlinked(page, &text).into_iter().map(fault).collect()
+        faults.extend(self.unlinked(page, &text).into_iter().map(fault));
+        faults
     }
 
     /// The page, with every term linked where it is first used.
     pub fn linked(&self, page: &Page) -> Page {
         let text = page.written();
         let mut lines = page.lines.clone();
-        // From behind, so that what is changed moves nothing that is still to be.
+        // From the end: a change moves only text behind it, which is done.
         for Use { term, span } in self.unlinked(page, &text).into_iter().rev() {
             let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
             let link = format!("[{}](glossary.md#{})", &text[span.clone()], anchor(&term.name));
@@ -81,12 +106,7 @@ impl Glossary {
         if !page.path.starts_with("docs/") || page.path == GLOSSARY {
             return Vec::new();
         }
-        let passages = passage::all(text);
-        let sentences: Vec<Range<usize>> = passages
-            .iter()
-            .filter(|passage| !passage.counts_small)
-            .flat_map(|passage| passage.text.iter().cloned())
-            .collect();
+        let sentences = sentences(text);
         let found = |term: &'a Term| {
             let used = |part: &Range<usize>| uses(text, part.clone(), &term.name);
             sentences.iter().flat_map(used).map(|span| Use { term, span }).collect::<Vec<_>>()
@@ -115,6 +135,13 @@ impl Glossary {
         first.sort_by_key(|used| used.span.start);
         first
     }
+}
+
+/// Where a text is written in sentences, in bytes.
+fn sentences(text: &str) -> Vec<Range<usize>> {
+    let passages = passage::all(text);
+    let passages = passages.iter().filter(|passage| !passage.counts_small);
+    passages.flat_map(|passage| passage.text.iter().cloned()).collect()
 }
 
 /// What a heading's link ends with, as code hosts and mdBook make it.
@@ -177,6 +204,22 @@ mod tests {
         assert_eq!(linked("docs/01_one.md", text), link);
         assert_eq!(linked("README.md", text), text);
         assert!(linked("docs/02_two.md", text).starts_with("A [group](glossary.md#group)"));
+    }
+
+    #[test]
+    fn another_word_for_a_term_is_a_fault() {
+        let terms = "# Glossary\n\n### shadow ray\nA ray. ([05](05_e.md))\n<!-- not: occlusion ray, feeler -->\n";
+        let glossary = Glossary::parse(terms);
+        let told = |path: &str, text: &str| {
+            let faults = glossary.check(&Page::parse(path, text));
+            faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
+        };
+        let text = "# Five\n\nA shadow ray, `occlusion ray`.\n\nTwo occlusion rays.\n";
+        let expected = "'occlusion ray' is called 'shadow ray' in this book; write 'shadow ray'";
+        // Also on the page that explains it, and in the README.
+        assert_eq!(told("docs/05_e.md", text), format!("docs/05_e.md:5: {expected}"));
+        assert_eq!(told("README.md", text), format!("README.md:5: {expected}"));
+        assert_eq!(told(GLOSSARY, text), "");
     }
 
     #[test]

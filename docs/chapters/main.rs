@@ -82,7 +82,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
-use manuscript::{anchor, diff, fault, page, project, shader};
+use manuscript::{anchor, diff, fault, link, page, project, shader};
 
 use book::Book;
 use diff::Parts;

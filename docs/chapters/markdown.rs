@@ -1,10 +1,9 @@
 //! What an author wrote on a page, taken apart: links, code, headings.
 
-use std::path::{Component, Path, PathBuf};
-
 use pulldown_cmark::{CodeBlockKind, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
 use crate::fault::Fault;
+use crate::link::local;
 use crate::project::Project;
 
 /// A link or a picture.
@@ -27,6 +26,17 @@ pub struct Code {
     pub text: String,
 }
 
+/// A formula in TeX.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// The line on which its text begins, from 1.
+    pub line: usize,
+    /// The text.
+    pub text: String,
+    /// Whether it is a block of ```` ```math ````, which Markdown leaves as it is, and not between dollars.
+    pub fenced: bool,
+}
+
 /// A page's parts.
 #[derive(Debug, Default)]
 pub struct Markdown {
@@ -34,8 +44,8 @@ pub struct Markdown {
     pub links: Vec<Link>,
     /// Every piece of code.
     pub code: Vec<Code>,
-    /// Every formula, with its line.
-    pub formulas: Vec<(usize, String)>,
+    /// Every formula.
+    pub formulas: Vec<Formula>,
     /// The first heading of the first level, with its line.
     pub title: Option<(usize, String)>,
     /// Every heading.
@@ -66,7 +76,12 @@ impl Markdown {
                     };
                     open_code = Some(Code { line, language, text: String::new() });
                 }
-                Event::End(TagEnd::CodeBlock) => found.code.extend(open_code.take()),
+                Event::End(TagEnd::CodeBlock) => match open_code.take() {
+                    Some(Code { line, language, text }) if language == "math" => {
+                        found.formulas.push(Formula { line, text, fenced: true });
+                    }
+                    code => found.code.extend(code),
+                },
                 Event::Start(Tag::Heading { .. }) => open_heading = Some((line, String::new())),
                 Event::End(TagEnd::Heading(level)) => {
                     let Some(heading) = open_heading.take() else { continue };
@@ -76,7 +91,8 @@ impl Markdown {
                     }
                 }
                 Event::InlineMath(formula) | Event::DisplayMath(formula) => {
-                    found.formulas.push((line, formula.into_string()));
+                    let text = formula.into_string();
+                    found.formulas.push(Formula { line, text, fenced: false });
                 }
                 Event::Code(code) => {
                     if let Some((_, heading)) = &mut open_heading {
@@ -106,27 +122,6 @@ fn html_targets(html: &str) -> Vec<String> {
     pieces.filter_map(|rest| rest.split_once('"')).map(|(target, _)| target.to_owned()).collect()
 }
 
-/// The file that a page's link leads to, from the project's root; `None` if it leads to the web or stays.
-pub fn local(page: &str, target: &str) -> Option<String> {
-    let target = target.split(['#', '?']).next().unwrap_or_default();
-    let scheme = target.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
-    if target.is_empty() || scheme || target.starts_with("//") {
-        return None;
-    }
-    let mut path = PathBuf::from(page);
-    path.pop();
-    for part in Path::new(target).components() {
-        match part {
-            Component::ParentDir if path.pop() => {}
-            // Above the root there is nothing; the link is kept as one that cannot resolve.
-            Component::ParentDir => path.push(".."),
-            Component::Normal(part) => path.push(part),
-            _ => {}
-        }
-    }
-    Some(path.to_string_lossy().replace('\\', "/"))
-}
-
 /// What is wrong with a page's links.
 pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> {
     let mut faults = Vec::new();
@@ -143,14 +138,28 @@ pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> 
     faults
 }
 
-/// Formulas of which Markdown, as mdBook reads it, would take something away before MathJax sees them.
-pub fn check_formulas(page: &str, formulas: &[(usize, String)]) -> Vec<Fault> {
+/// What is wrong with formulas. Between dollars a code host's Markdown takes the `\` before a sign away, and a
+/// block of ```` ```math ```` needs no dollars; braces come in pairs in both.
+pub fn check_formulas(page: &str, formulas: &[Formula]) -> Vec<Fault> {
     let mut faults = Vec::new();
-    for (line, formula) in formulas {
-        let mut pairs = formula.chars().zip(formula.chars().skip(1));
-        if let Some((_, lost)) = pairs.find(|(a, b)| *a == '\\' && b.is_ascii_punctuation()) {
-            let what = format!("in a formula, Markdown takes '\\{lost}' for '{lost}'");
-            faults.push(Fault::new(page, *line, what, "write a word, such as \\thinspace for \\,"));
+    for Formula { line, text, fenced } in formulas {
+        let mut fault = |what: String, remedy| faults.push(Fault::new(page, *line, what, remedy));
+        let mut pairs = text.chars().zip(text.chars().skip(1));
+        let escaped = pairs.find(|(a, b)| *a == '\\' && b.is_ascii_punctuation());
+        match escaped.filter(|_| !fenced) {
+            Some((_, lost)) => fault(
+                format!("in a formula, Markdown takes '\\{lost}' for '{lost}'"),
+                "write a word, such as \\thinspace for \\,",
+            ),
+            None if *fenced && text.contains('$') => {
+                fault("a block of formulas has a '$'".to_owned(), "take it out");
+            }
+            None => {}
+        }
+        let plain = text.replace("\\{", "").replace("\\}", "");
+        let [open, closed] = ['{', '}'].map(|brace| plain.matches(brace).count());
+        if open != closed {
+            fault(format!("a formula has {open} '{{' and {closed} '}}'"), "pair them");
         }
     }
     faults
@@ -176,27 +185,19 @@ mod tests {
 
     #[test]
     fn formulas_must_survive_markdown() {
-        let text = "Fine: $a \\thinspace b$.\n\nNot: $t\\,d$, it costs $5.\n";
-        let faults = check_formulas("p.md", &Markdown::parse(text).formulas);
-        let [fault] = &faults[..] else { panic!("{faults:?}") };
-        assert!(
-            fault.to_string().starts_with("p.md:3: in a formula, Markdown takes '\\,' for ','")
-        );
-    }
-
-    #[test]
-    fn links_are_resolved_from_their_page() {
-        let cases = [
-            ("docs/a.md", "b.md#c", Some("docs/b.md")),
-            ("docs/a.md", "../samples/x/main.rs", Some("samples/x/main.rs")),
-            ("README.md", "docs/a.md", Some("docs/a.md")),
-            ("README.md", "../out", Some("../out")),
-            ("docs/a.md", "#part", None),
-            ("docs/a.md", "https://example.org/a.md", None),
-            ("docs/a.md", "mailto:a@b", None),
-        ];
-        for (page, target, expected) in cases {
-            assert_eq!(local(page, target).as_deref(), expected, "{target}");
+        let faults = |text: &str| {
+            let faults = check_formulas("p.md", &Markdown::parse(text).formulas);
+            faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
+        };
+        let told = faults("Fine: $a \\thinspace b$.\n\nNot: $t\\,d$, it costs $5.\n");
+        assert!(told.starts_with("p.md:3: in a formula, Markdown takes '\\,' for ','; "), "{told}");
+        // A block reaches the reader as it stands.
+        assert_eq!(faults("```math\n\\frac{a}{b} \\, c\n```\n"), "");
+        let told = faults("A\n\n```math\n$a$\n```\n");
+        assert!(told.starts_with("p.md:4: a block of formulas has a '$'; "), "{told}");
+        for text in ["```math\n\\frac{1}{2\n```\n", "$$\n\\frac{1}{2\n$$\n"] {
+            let told = faults(text);
+            assert!(told.contains(": a formula has 2 '{' and 1 '}'; pair them"), "{text}: {told}");
         }
     }
 }

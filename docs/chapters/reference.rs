@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use crate::anchor::anchors;
 use crate::fault::Fault;
-use crate::markdown::{Link, Markdown, local};
+use crate::link::local;
+use crate::markdown::{Link, Markdown};
 use crate::mention::{chapters, codes};
 use crate::page::Page;
 use crate::project::{Chapter, Project};

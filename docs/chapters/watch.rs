@@ -61,7 +61,7 @@ impl Watch {
 fn watch(folders: &[PathBuf]) -> Result<(Box<dyn Watcher>, Receiver<()>)> {
     let (sender, saved) = channel();
     let tell = move |event: notify::Result<notify::Event>| {
-        // Rendering reads the files: what is only read has not changed.
+        // Rendering reads the files, and reading changes none.
         if event.is_ok_and(|event| !event.kind.is_access()) {
             // Nobody waits any more once the exercise is solved.
             let _ = sender.send(());

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::sheet::Anchor::{Middle, Start};
-use crate::sheet::{BLUE, BROWN, GREEN, LINE, Point, SOFT, Sheet, WHITE, YOURS};
+use crate::sheet::{BLUE, BROWN, GREEN, LEAF, LINE, Point, RED, SEA, SOFT, Sheet, WHITE, YOURS};
 
 fn point(p: DVec2) -> Point {
     p.to_array()
@@ -65,7 +65,7 @@ fn panel(s: &mut Sheet) {
         s.line(&[point(from), point(from + t * turned)], LINE, 1.0);
         let across = -edge.perp().normalize() * 12.0;
         let by_area = low + part * edge;
-        s.dot(point(by_area + across), 3.4, "#b3261e");
+        s.dot(point(by_area + across), 3.4, RED);
         s.dot(point(by_area + across), 1.6, WHITE);
     }
     s.dot(point(from), 4.5, LINE);
@@ -93,7 +93,7 @@ fn balance(s: &mut Sheet) {
     s.polygon(&lower, GREEN, "none");
     s.polygon(&upper, BLUE, "none");
     let surface: Vec<Point> = xs().map(|x| at(x, by_surface(x))).collect();
-    s.line(&surface, "#3a7d44", 2.2);
+    s.line(&surface, LEAF, 2.2);
     s.line(
         &[
             at(0.0, 0.0),
@@ -103,7 +103,7 @@ fn balance(s: &mut Sheet) {
             at(last, 0.0),
             at(1.0, 0.0),
         ],
-        "#2f6f9f",
+        SEA,
         2.2,
     );
     s.line(&[at(0.0, 0.0), at(1.0, 0.0)], LINE, 1.2);

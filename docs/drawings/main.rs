@@ -1,4 +1,5 @@
-//! Draws the ideas of the book: `cargo run -p drawings` writes them all to `docs/images`.
+//! Draws the ideas of the book: `cargo run -p drawings` writes them all to `docs/images`, and gives what is
+//! drawn elsewhere its inks by dark.
 //!
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
@@ -12,7 +13,8 @@ mod sheet;
 mod structures;
 mod table;
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// A drawing's name, and what draws it.
@@ -36,26 +38,61 @@ const DRAWINGS: &[Drawing] = &[
     ("thin_lens", lens::thin_lens),
 ];
 
-fn folder() -> std::path::PathBuf {
+fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../images")
 }
 
-fn main() -> ExitCode {
+/// Every SVG of the book: its file and its text.
+fn all() -> std::io::Result<Vec<(PathBuf, String)>> {
+    let mut files: Vec<PathBuf> =
+        fs::read_dir(folder())?.map(|file| Ok(file?.path())).collect::<std::io::Result<_>>()?;
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "svg"));
+    files.sort();
+    files.into_iter().map(|file| Ok((file.clone(), fs::read_to_string(file)?))).collect()
+}
+
+fn write_all() -> Result<(), String> {
     for (name, draw) in DRAWINGS {
         let file = folder().join(format!("{name}.svg"));
-        if let Err(error) = std::fs::write(&file, draw()) {
-            eprintln!("error: cannot write {}: {error}", file.display());
-            return ExitCode::FAILURE;
+        fs::write(&file, draw()).map_err(|error| format!("{}: {error}", file.display()))?;
+    }
+    for (file, text) in all().map_err(|error| format!("{}: {error}", folder().display()))? {
+        let themed =
+            drawings::themed(&text).map_err(|what| format!("{}: {what}", file.display()))?;
+        if themed != text {
+            fs::write(&file, themed).map_err(|error| format!("{}: {error}", file.display()))?;
         }
     }
-    ExitCode::SUCCESS
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match write_all() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 #[test]
 fn the_drawings_of_the_book_are_these() {
     for (name, draw) in DRAWINGS {
         let file = folder().join(format!("{name}.svg"));
-        let found = std::fs::read_to_string(&file).unwrap_or_default();
+        let found = fs::read_to_string(&file).unwrap_or_default();
         assert!(found == draw(), "{name}.svg is not what is drawn; run: cargo run -p drawings");
+    }
+}
+
+#[test]
+fn every_drawing_has_its_inks_by_dark() {
+    let all = all().unwrap();
+    assert!(all.len() >= DRAWINGS.len());
+    for (file, text) in all {
+        let themed = drawings::themed(&text);
+        let themed = themed.unwrap_or_else(|what| panic!("{}: {what}", file.display()));
+        let file = file.display();
+        assert!(themed == text, "{file} lacks its inks by dark; run: cargo run -p drawings");
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::sheet::Anchor::{End, Middle, Start};
-use crate::sheet::{BROWN, GREEN, LINE, Point, RED, Sheet, WHITE, YOURS};
+use crate::sheet::{BROWN, FAINT, GREEN, LINE, Point, RED, Sheet, WHITE, YOURS};
 
 fn cross(a: DVec2, b: DVec2) -> f64 {
     a.x * b.y - a.y * b.x
@@ -42,7 +42,7 @@ pub fn from_raster() -> String {
             let covered = weights(middle, corners).iter().all(|weight| *weight >= 0.0);
             let (right, down) = (DVec2::new(side, 0.0), DVec2::new(0.0, side));
             let square = [corner, corner + right, corner + right + down, corner + down].map(point);
-            s.polygon(&square, if covered { YOURS } else { WHITE }, "#c9d1d8");
+            s.polygon(&square, if covered { YOURS } else { WHITE }, FAINT);
             s.dot(point(middle), 1.4, LINE);
         }
     }

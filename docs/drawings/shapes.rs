@@ -6,7 +6,7 @@ use reference::solid::Solid;
 use reference::sphere::Sphere;
 
 use crate::sheet::Anchor::{Middle, Start};
-use crate::sheet::{BLUE, BROWN, GREEN, LINE, Sheet, WHITE, YOURS};
+use crate::sheet::{BLUE, BROWN, FAINT, GREEN, LINE, Sheet, WHITE, YOURS};
 
 /// A box in the plane as two slabs.
 pub fn slabs() -> String {
@@ -39,7 +39,7 @@ pub fn slabs() -> String {
     ];
     for (row, (name, [from, to], fill)) in rows.into_iter().enumerate() {
         let top = 262.0 + 24.0 * row as f64;
-        s.line(&[[70.0, top + 9.0], [560.0, top + 9.0]], "#c9d1d8", 1.0);
+        s.line(&[[70.0, top + 9.0], [560.0, top + 9.0]], FAINT, 1.0);
         s.card([origin[0] + from, top], [to - from, 18.0], fill, "", &[]);
         s.say([580.0, top + 13.0], Start, name);
     }
@@ -86,7 +86,7 @@ pub fn intervals() -> String {
     ];
     for (row, (name, solid, fill)) in rows.into_iter().enumerate() {
         let top = 258.0 + 24.0 * row as f64;
-        s.line(&[[left, top + 9.0], [left + length * scale, top + 9.0]], "#c9d1d8", 1.0);
+        s.line(&[[left, top + 9.0], [left + length * scale, top + 9.0]], FAINT, 1.0);
         for [from, to] in solid.intervals(&ray) {
             let (from, to) = (from.max(0.0), to.min(length));
             s.card([left + scale * from, top], [scale * (to - from), 18.0], fill, "", &[]);

@@ -2,24 +2,10 @@
 
 use std::fmt::Write;
 
-/// Ink of lines and arrows.
-pub const LINE: &str = "#5b6b78";
-/// Ink of what is said beside a line.
-pub const SOFT: &str = "#44535f";
-/// What the reader writes, and what is chosen.
-pub const YOURS: &str = "#f2e3c6";
-/// What the device does.
-pub const DEVICE: &str = "#d8dee4";
-/// A group of things; another.
-pub const BLUE: &str = "#dcebf7";
-/// See [`BLUE`].
-pub const GREEN: &str = "#e2f0e0";
-/// Paper.
-pub const WHITE: &str = "#ffffff";
-/// The outline of shapes.
-pub const BROWN: &str = "#8a5a12";
-/// What is wrong.
-pub const RED: &str = "#b3261e";
+use drawings::themed;
+pub use drawings::{
+    BLUE, BROWN, DEVICE, FAINT, GREEN, LEAF, LINE, PAPER, RED, SEA, SOFT, TEXT, WHITE, YOURS,
+};
 
 /// A point, in pixels from the top left corner.
 pub type Point = [f64; 2];
@@ -49,7 +35,7 @@ impl Sheet {
         sheet.put(&format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
              width=\"{width}\" height=\"{height}\" font-family=\"Helvetica, Arial, sans-serif\" \
-             font-size=\"12.5\" fill=\"#22303c\">"
+             font-size=\"12.5\" fill=\"{TEXT}\">"
         ));
         sheet.put(&format!(
             "<defs><marker id=\"arrow\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" \
@@ -57,7 +43,7 @@ impl Sheet {
              fill=\"{LINE}\"/></marker></defs>"
         ));
         sheet.put(&format!(
-            "<rect width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"#f7f8f9\"/>"
+            "<rect width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"{PAPER}\"/>"
         ));
         sheet.put(&format!(
             "<text x=\"24\" y=\"34\" font-size=\"16\" font-weight=\"bold\">{}</text>",
@@ -69,7 +55,7 @@ impl Sheet {
     /// The file's text.
     pub fn svg(mut self) -> String {
         self.put("</svg>");
-        self.text
+        themed(&self.text).expect("a sheet takes inks alone")
     }
 
     fn put(&mut self, element: &str) {

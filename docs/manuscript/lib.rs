@@ -5,6 +5,7 @@
 pub mod anchor;
 pub mod diff;
 pub mod fault;
+pub mod link;
 mod moved;
 pub mod page;
 pub mod project;

@@ -13,7 +13,13 @@ pub fn mathml(tex: &str, display: bool) -> Result<String, String> {
     let converted = converter
         .convert_with_local_state(tex, display)
         .map_err(|error| error.to_string().replace('\n', " "))?;
-    Ok(shielded(&converted.mathml))
+    let html = shielded(&converted.mathml);
+    // One that is wider than its column scrolls in its own box.
+    Ok(if matches!(display, MathDisplay::Block) {
+        format!("<span class=\"formula\">{html}</span>")
+    } else {
+        html
+    })
 }
 
 /// Letters between tags as references where Markdown might take them for its own.

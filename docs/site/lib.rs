@@ -65,6 +65,9 @@ const SETTINGS: &str = include_str!("book.toml");
 const ADDED: [(&str, &str); 2] =
     [("site.css", include_str!("site.css")), ("site.js", include_str!("site.js"))];
 
+/// What a server shows where there is no page: mdBook's own would have to be told where the site lies.
+const LOST: &str = include_str!("404.html");
+
 /// Builds the site of the project in `root`, in the folder `made`, which does not exist yet.
 ///
 /// # Errors
@@ -129,6 +132,7 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let book =
         MDBook::load_with_config(work.path(), config).context("mdBook cannot read the pages")?;
     book.build().context("mdBook cannot make the site")?;
+    fs::write(made.join("404.html"), LOST)?;
 
     faults.extend(broken(made, &wanted)?);
     if faults.is_empty() { Ok(counts) } else { Err(Faults(faults).into()) }

@@ -1,7 +1,6 @@
 //! Where a page's links lead on the site.
 
-use std::path::{Component, Path, PathBuf};
-
+use manuscript::link::local;
 use manuscript::project::{Chapter, Project, README};
 
 use crate::contents::Entry;
@@ -28,26 +27,6 @@ pub struct Wanted {
     pub page: String,
     /// The place on it.
     pub id: Option<String>,
-}
-
-/// The file that a link leads to, from the project's root; `None` if it leads to the web or stays.
-pub fn local(from: &str, target: &str) -> Option<String> {
-    let target = target.split(['#', '?']).next().unwrap_or_default();
-    let scheme = target.split_once(':').is_some_and(|(scheme, _)| !scheme.contains('/'));
-    if target.is_empty() || scheme || target.starts_with("//") {
-        return None;
-    }
-    let mut path = PathBuf::from(from);
-    path.pop();
-    for part in Path::new(target).components() {
-        match part {
-            Component::ParentDir if path.pop() => {}
-            Component::ParentDir => path.push(".."),
-            Component::Normal(part) => path.push(part),
-            _ => {}
-        }
-    }
-    Some(path.to_string_lossy().replace('\\', "/"))
 }
 
 /// Where a link of a page leads.

@@ -38,7 +38,8 @@ pub fn compose(
     match chapter {
         Some(chapter) => shown.chapter(chapter, &page)?,
         None => {
-            let _ = writeln!(shown.text, "What {page} shows or links to.\n");
+            let _ =
+                writeln!(shown.text, "The files that {page} shows or links to, whole. {MARKS}\n");
         }
     }
     let others: Vec<&String> = files.iter().filter(|file| !shown.listed.contains(*file)).collect();
@@ -54,6 +55,9 @@ pub fn compose(
     text.replace_range(at..(at + BODY.len()).min(text.len()), &contents);
     Ok(Some(text))
 }
+
+/// What the comments are that a reader may wonder about.
+const MARKS: &str = "A grey `ANCHOR` comment marks where a part that a page shows begins or ends.";
 
 /// Where the list of files goes.
 const BODY: &str = "\u{1}";
@@ -83,14 +87,15 @@ impl Shown<'_> {
         own.sort_by_key(|file| !file.ends_with("/main.rs"));
         own.extend(shader::own(project, chapter));
         let Some(parent) = parent else {
-            let _ = writeln!(self.text, "What the page {page} explains, whole.\n");
+            let _ = writeln!(self.text, "The whole code of {page}. {MARKS}\n");
             return own.iter().try_for_each(|file| self.alone(file, true));
         };
         let number = parent.number();
         let _ = writeln!(
             self.text,
-            "The whole code of {page}. Lines that are new are green; beside them stands, in red, what \
-             [{}]({}.html) has in their place. Yellow lines stand elsewhere there.\n",
+            "The whole code of {page}, compared with that of [{}]({}.html). Green lines are new. The red \
+             lines beside them are those of {number} that they replace. {number} has the yellow lines, too, \
+             in another place or another file. {MARKS}\n",
             parent.heading(),
             parent.name
         );
@@ -112,16 +117,16 @@ impl Shown<'_> {
     /// A file by itself, open or folded.
     fn alone(&mut self, file: &str, open: bool) -> Result<()> {
         let text = self.project.read(file)?;
-        let lines: Vec<(usize, &str)> = kept(&text).collect();
         let named = named(file, &text)?;
         let painted = color::lines(color::language(file), &text);
         let mut html = String::from("<div class=\"alone\"><div class=\"new\">");
-        for (number, _) in &lines {
-            let line = painted.get(number - 1).map_or("", String::as_str);
-            html.push_str(&row(*number, line, "", named.get(number), file));
+        for (index, line) in text.lines().enumerate() {
+            let class = if anchor::is_mark(line) { " mark" } else { "" };
+            let line = painted.get(index).map_or("", String::as_str);
+            html.push_str(&row(index + 1, line, class, named.get(&(index + 1)), file));
         }
         html.push_str("</div></div>");
-        self.section(file, &format!("{} lines", lines.len()), &html, open);
+        self.section(file, &format!("{} lines", kept(&text).count()), &html, open);
         Ok(())
     }
 
@@ -198,15 +203,28 @@ impl<'a> Painted<'a> {
         Ok(Self { side, lines, named: named(file, &text)? })
     }
 
-    /// Some of its lines; those of the older side lead nowhere.
+    /// Some of its lines, with the marks before them, which a comparison leaves out; behind the last line
+    /// those that end the file. Lines of the older side lead nowhere.
     fn lines(&self, class: &str, lines: Range<usize>) -> String {
         let mut html = format!("<div class=\"{class}\">");
         let file = self.side.path.as_deref().unwrap_or_default();
-        for Line { number, moved, .. } in &self.side.lines[lines] {
+        let all = &self.side.lines;
+        let mut next = match lines.start.checked_sub(1) {
+            Some(before) => all[before].number + 1,
+            None => 1,
+        };
+        let mut put = |number: usize, class: &str, names| {
             let line = self.lines.get(number - 1).map_or("", String::as_str);
+            html.push_str(&row(number, line, class, names, file));
+        };
+        for Line { number, moved, .. } in &all[lines.clone()] {
+            (next..*number).for_each(|mark| put(mark, " mark", None));
             let moved = if *moved { " moved" } else { "" };
-            let names = self.named.get(number).filter(|_| class == "new");
-            html.push_str(&row(*number, line, moved, names, file));
+            put(*number, moved, self.named.get(number).filter(|_| class == "new"));
+            next = number + 1;
+        }
+        if lines.end == all.len() && !lines.is_empty() {
+            (next..=self.lines.len()).for_each(|mark| put(mark, " mark", None));
         }
         html + "</div>"
     }

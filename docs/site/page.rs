@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use manuscript::fault::Fault;
+use manuscript::link::local;
 use manuscript::page::{Kind, Page};
 use manuscript::project::Project;
 use pulldown_cmark::{CodeBlockKind, Event, LinkType, Options, Parser, Tag, TagEnd};
@@ -200,7 +201,7 @@ impl Composer<'_> {
             Ok(html) => self.edits.push((span, html)),
             Err(error) => {
                 let what = format!("the formula '{}' cannot be drawn: {error}", tex.trim());
-                self.fault(index, what, "write it with what KaTeX and MathJax share");
+                self.fault(index, what, "write it as TeX that math-core knows");
             }
         }
     }
@@ -249,8 +250,7 @@ impl Composer<'_> {
         linked: bool,
         mistake: bool,
     ) {
-        let Some(file) =
-            link::local(&self.entry.file, target).filter(|file| self.project.has(file))
+        let Some(file) = local(&self.entry.file, target).filter(|file| self.project.has(file))
         else {
             return self.fault(index, format!("there is no picture '{target}'"), "correct it");
         };

@@ -44,3 +44,38 @@ contents.addEventListener("keydown", event => {
         contents.click();
     }
 });
+
+// What is wider than its column scrolls. Its edges show on which side there is more, the Tab key reaches it,
+// and while it has the focus the arrow keys move it, not the pages.
+const kinds = [["main pre > code", "Code"], ["main .table-wrapper", "Table"], ["main .formula", "Formula"]];
+for (const [which, kind] of kinds) {
+    for (const box of document.querySelectorAll(which)) {
+        let frame = box.parentElement;
+        if (kind !== "Code") {
+            frame = document.createElement(kind === "Table" ? "div" : "span");
+            box.replaceWith(frame);
+            frame.append(box);
+        }
+        frame.classList.add("scrolls");
+        const show = () => {
+            const more = box.scrollWidth - box.clientWidth;
+            frame.classList.toggle("before", more > 1 && box.scrollLeft > 1);
+            frame.classList.toggle("after", more > 1 && box.scrollLeft < more - 1);
+            if (more > 1) {
+                box.tabIndex = 0;
+                box.setAttribute("role", "region");
+                box.setAttribute("aria-label", `${kind}, scrolls sideways`);
+            } else {
+                ["tabindex", "role", "aria-label"].forEach(name => box.removeAttribute(name));
+            }
+        };
+        box.addEventListener("scroll", show, { passive: true });
+        box.addEventListener("keydown", event => {
+            if (box.tabIndex === 0 && ["ArrowLeft", "ArrowRight"].includes(event.key)) {
+                event.stopPropagation();
+            }
+        });
+        new ResizeObserver(show).observe(box);
+        show();
+    }
+}

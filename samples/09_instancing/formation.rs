@@ -206,8 +206,8 @@ impl Set {
         }
     }
 
-    /// A king has dropped into a sea of squares. All look at him: white on the crests, black in the
-    /// troughs, nobody on the slopes.
+    /// A king has dropped into a sea of squares. All pieces look at him: the white ones on the crests, the
+    /// black ones in the troughs. On the slopes there are none.
     fn ripples(&self, squares: u32) -> Formation {
         let mut pieces = Vec::with_capacity(2 * squares as usize);
         for (index, (x, z)) in disk(squares).into_iter().enumerate() {

@@ -23,8 +23,8 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
-/// How often a path may be reflected at most. Of a path that a surface takes 5 % from at each turn, less
-/// than 2·10^-6 is left by then.
+/// How often a path may be reflected at most. If each surface takes 5 % of
+/// its light, less than 2·10^-6 of it is left by then.
 const MAX_DEPTH: u32 = 256;
 
 struct Demo {

@@ -92,8 +92,8 @@ impl Preset {
 }
 
 // ANCHOR: board
-/// The scene on an infinite board: squares and frame give way to the plane y = 0, the screen that
-/// stands on the frame to the horizon.
+/// The scene on an infinite board. The plane y = 0 takes the place of the squares and the frame. The screen,
+/// which stands on the frame, is left out: there is the horizon.
 fn board(scene: &Scene) -> Preset {
     let name = |instance: &Instance| scene.model.meshes[instance.mesh].name.as_str();
     let stays = |instance: &&Instance| {

@@ -30,7 +30,7 @@ common::shader_struct! {
 pub struct Flag {
     /// How many cells it has across; down they are two thirds as many.
     pub across: u32,
-    /// Where its instance's record finds it, but for its material.
+    /// The record of its instance, whose material is still to be filled in.
     pub record: InstanceRecord,
     cells: UVec2,
     vertices: Buffer,

@@ -58,7 +58,7 @@ pub struct Motion {
     pub last: u32,
 }
 
-/// A piece at a frame: what it is by then, and where.
+/// A piece at a frame: its kind, for a pawn may have become a queen, and its place.
 pub struct Placed {
     pub man: Man,
     pub at: Affine3A,

@@ -53,12 +53,12 @@ pub struct Played {
     pub rook: Option<(Man, Square, Square)>,
 }
 
-/// Who stands where, whose move it is, and what the pieces have done that still counts.
+/// Which piece stands where, whose move it is, and which earlier moves forbid or allow the next ones.
 #[derive(Clone)]
 pub struct Position {
     men: [Option<Man>; 64],
     pub turn: Side,
-    /// Pieces that have moved: with a king or a rook of theirs nobody castles.
+    /// Which pieces have moved: a king or a rook that has moved cannot castle.
     moved: [bool; 32],
     /// The square that a pawn has just passed over.
     passed: Option<Square>,

@@ -137,7 +137,7 @@ fn case(value: Value) -> Result<Case> {
     let ray = match raw.ray {
         Some(ray) => self::ray(&ray)?,
         None if needs_ray => bail!("it has no ray"),
-        // Any ray will do that nobody looks at.
+        // No test reads this ray: any will do.
         None => Ray { origin: Vec3::ZERO, direction: Vec3::Y, tmin: 0.0, tmax: 1e30 },
     };
     let expected = expected(shape.primitive(), &raw.expect)?;

@@ -78,7 +78,7 @@ pub struct Composition {
     pub boxes: Vec<Box>,
     /// Convex solids, likewise.
     pub solids: Vec<Solid>,
-    /// Their faces, those of a solid one after the other.
+    /// The faces of all solids: first all faces of the first solid, then those of the second, and so on.
     pub faces: Vec<Face>,
     /// Corners of the boxes around the solids.
     pub solid_bounds: Vec<(Vec3, Vec3)>,

@@ -17,7 +17,7 @@
 //    18u·|L||W||L||p|; product and translation are sums of four terms: 7u·|L||W|·(|world| + |T|).
 //    (common/reference/src/transform.rs has the steps, and matrices whose cofactors cancel.)
 // 4. The triangle test, which rounds the corners relative to the ray's origin and weighs their depths.
-//    For that of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
+//    For the test of Woop, Benthin and Wald (JCGT 2:1, 2013): 16u·r for the corners and 21u·r for sums and
 //    quotient, r the longest edge (common/reference/src/bound.rs has the steps), and for the rounded
 //    products of the edge functions 2u·r³/|e1 × e2|. So slivers need more room, but none more than r: the
 //    depth that the test finds is a mean of the corners' depths, whatever their weights.

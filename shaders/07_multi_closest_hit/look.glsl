@@ -25,8 +25,8 @@ vec3 object_position() {
     return gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
 }
 
-// The width of a pixel on the surface, in the mesh's own space: the geometric mean of its two sides,
-// one of which would grow without end towards the silhouette.
+// The width of a pixel on the surface, in the mesh's own space: the geometric mean of its two sides. One
+// side alone would not do, because it grows without end towards the silhouette.
 float pixel_width(vec3 normal) {
     float angle = 2.0 * length(push.camera.up) / float(push.rows);
     float across = gl_HitTEXT * length(gl_ObjectRayDirectionEXT) * angle;

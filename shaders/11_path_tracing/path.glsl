@@ -39,7 +39,7 @@ bool goes_on(inout Path path) {
         return false;
     }
     if (ROULETTE && path.bounce > 1) {
-        // Who survives stands for those who do not.
+        // A path that goes on also counts for those that end here.
         float survival = min(contribution, LIKELIEST);
         path.throughput /= survival;
         return numbers(path, DIMENSION_ROULETTE).x < survival;

@@ -2,7 +2,7 @@
 //
 // a, b, c are the corners, o the ray's origin, d its direction of any length. Both sides count, and the
 // edges belong to the triangle. A mesh must let no ray through between two triangles that share an
-// edge: what decides about the edge has to come out the same for both, but for its sign.
+// edge. So both triangles must compute the same number for the edge, one with the opposite sign.
 #include "two_float.glsl"
 
 const uint TRIANGLE_MOELLER = 0;

@@ -74,7 +74,8 @@ Light light_of(uint number) {
 }
 // ANCHOR_END: kinds
 
-// What the eye in direction `view` sees of a light on a surface, of which the part `visible` arrives. The
+// The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
+// light arrives at the surface. The
 // point itself is lit, not the one that shadow rays leave: without shadows there is no such point.
 vec3 lit_by(Light light, Hit hit, MaterialRecord material, vec3 view, float visible) {
     light.size = 0.0;

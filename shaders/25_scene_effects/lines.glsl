@@ -8,8 +8,8 @@ float line_coverage(vec3 corners[3], vec3 origin, vec3 direction, vec2 cone, flo
     // Many curved mirrors widen a cone beyond what floats can say.
     cone = min(cone, vec2(1e15));
     // The tip of the cone is where the picture is seen from: the eye, or its image behind flat mirrors. Tip
-    // and edge span a plane. The sine of the angle between it and the ray, over that of a pixel, is how many
-    // pixels the edge is away.
+    // and edge span a plane. Divide the sine of the angle between plane and ray by the sine of a pixel's
+    // angle: so many pixels lie between the edge and the ray.
     vec3 tip = origin - cone.x / cone.y * direction;
     vec3 edges[3] = vec3[](corners[2] - corners[1], corners[0] - corners[2], corners[1] - corners[0]);
     float nearest = FAR;

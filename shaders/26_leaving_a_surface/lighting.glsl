@@ -1,5 +1,5 @@
-// What a light does to a surface that a ray has met. Whether it reaches the surface, a shadow ray finds
-// out: how that is traced, the including shader says.
+// How a light lights a surface that a ray has met. A shadow ray finds out whether the light reaches the
+// surface. The including shader defines how this ray is traced.
 
 // Whether nothing lies between a point above a surface and a point of the light.
 bool is_lit(Start start, vec3 to_light, float end);
@@ -33,7 +33,8 @@ vec3 light_direction(Light light, Hit hit) {
     return normalize(towards_light(light, hit.position + hit.lift, vec2(0.0)));
 }
 
-// What the eye in direction `view` sees of a light on a surface, of which the part `visible` arrives.
+// The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
+// light arrives at the surface.
 vec3 lit_by(Light light, Hit hit, MaterialRecord material, vec3 to_light, vec3 view, float visible) {
     return visible * arriving_light(light, hit.position + hit.lift)
         * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view, to_light);

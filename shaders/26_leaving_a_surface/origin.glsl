@@ -1,8 +1,8 @@
-// Where a ray starts that leaves a surface: five ways that fail somewhere, one that does not, and that of
-// chapter 05.
+// Where a ray starts that leaves a surface, in seven ways. Five of them fail somewhere, one does not, and
+// one is that of chapter 05.
 //
-// A start below the surface hits it again: acne. A start too far above it is beyond what stands close
-// by: leaks.
+// A ray that starts below the surface hits it again: acne. A ray that starts too far above it misses things
+// that are close by: leaks.
 
 const float ROUNDING = 5.9604645e-8;
 
@@ -104,9 +104,10 @@ Start start_reprojected(Departure from) {
 // ANCHOR_END: integers
 
 // ANCHOR: test_error
-// How high above the plane of a triangle, in units of ROUNDING, a ray must start lest rounding in
-// the triangle test finds it below: for the test of Woop, Benthin and Wald (JCGT 2:1, 2013) and for that
-// of Moeller and Trumbore (JGT 2:1, 1997). All in the mesh's space; the page derives it.
+// How high above the plane of a triangle, in units of ROUNDING, a ray must start, so that no
+// rounding in the triangle test puts it below the plane. It holds for the tests of Woop, Benthin and Wald
+// (JCGT 2:1, 2013) and of Moeller and Trumbore (JGT 2:1, 1997). All is in the mesh's space; the page
+// derives it.
 float triangle_test_error(Departure from, vec3 direction) {
     vec3 a = from.to_a, b = a + from.e1, c = a + from.e2;
     float longest = max(max(length(from.e1), length(from.e2)), length(from.e2 - from.e1));

@@ -4,10 +4,10 @@
 const uint AIR = 0xffffffffu;
 
 // ANCHOR: media
-// Up to four bodies, each by the number of its material, the lowest first: that one counts (Schmidt and
+// Up to four bodies, each by the number of its material. The lowest comes first and counts (Schmidt and
 // Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 7:2, 2002). The rest is air.
 
-// Those of a ray that comes into a body.
+// The media of a ray that comes into a body.
 uvec4 entered(uvec4 media, uint material) {
     return min(media, max(uvec4(0, media.xyz), material));
 }

@@ -39,7 +39,7 @@ bool goes_on(inout Path path) {
         return false;
     }
     if (path.bounce > 1 && contribution < 1.0) {
-        // Who survives stands for those who do not.
+        // A path that goes on also counts for those that end here.
         path.throughput /= contribution;
         return numbers(path, DIMENSION_ROULETTE).x < contribution;
     }

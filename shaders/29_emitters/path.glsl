@@ -40,7 +40,7 @@ bool goes_on(inout Path path) {
         return false;
     }
     if (path.bounce > 1 && contribution < 1.0) {
-        // Who survives stands for those who do not.
+        // A path that goes on also counts for those that end here.
         path.throughput /= contribution;
         return numbers(path, DIMENSION_ROULETTE).x < contribution;
     }
@@ -60,7 +60,7 @@ float likelihood(vec3 direction, vec3 normal, vec3 up) {
 // ANCHOR_END: likelihood
 
 // ANCHOR: chance
-// A ray has met an emitter. What part of that light is counted here: the rest is that of shadow rays.
+// A ray has met an emitter. Shadow rays count a part of its light, too. This is the other part.
 float part_by_chance(Path path, Ray ray, Hit hit) {
     if (ESTIMATOR == ESTIMATOR_BSDF || path.density == NO_OTHER) {
         return 1.0;
@@ -121,8 +121,8 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     vec3 rest = hit.color * (1.0 - (polished ? mirror : material.specular));
     // One of the two ways, and the likelier the more light comes along it.
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
-    // Shadow rays and the next ray start at one place, or their chances would not be those of one direction:
-    // so there is no lift to the smooth surface, from where a path could end up within another.
+    // Shadow rays and the next ray start at one place, so that the chances of both are about the same
+    // direction. There is no lift to the smooth surface: a path could end up within another surface.
     vec3 from = hit.position + hit.height * hit.face;
     if (ESTIMATOR != ESTIMATOR_BSDF && path.bounce < push.depth && largest(rest) > 0.0) {
         ask(path, hit, material, from, to_eye, 1.0 - mirrors);

@@ -8,7 +8,7 @@
 // the angle is halved twice, and five terms of the series are off by 2^-26 of it.
 float angle_between(float cosine, float sine) {
     float size = length(vec2(cosine, sine));
-    // The tangent of half the angle; beyond a right angle, that of half of what is left to two.
+    // The tangent of half the angle; beyond a right angle, of half of (pi - angle).
     float z = sine / max(size + abs(cosine), 1e-37);
     z = z / (1.0 + sqrt(1.0 + z * z));
     z = z / (1.0 + sqrt(1.0 + z * z));

@@ -1,7 +1,7 @@
 // Taught by 05_shadow_miss, whose own file this is a copy of.
 //
-// What a light does to a surface that a ray has met. Whether it reaches the surface, a shadow ray finds
-// out: how that is traced, the including shader says.
+// How a light lights a surface that a ray has met. A shadow ray finds out whether the light reaches the
+// surface. The including shader defines how this ray is traced.
 
 // Whether nothing lies between a point above a surface and a point of the light.
 bool is_lit(vec3 origin, vec3 to_light, float end);
@@ -40,7 +40,8 @@ float visibility(Light light, Start start, vec2 first) {
 // ANCHOR_END: visibility
 
 // ANCHOR: light
-// What the eye in direction `view` sees of a light on a surface, of which the part `visible` arrives.
+// The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
+// light arrives at the surface.
 vec3 lit_by(Light light, Hit hit, MaterialRecord material, Start start, vec3 view, float visible) {
     vec3 to_light = normalize(towards_light(light, start.origin, vec2(0.0)));
     return visible * arriving_light(light, start.origin)

@@ -1,6 +1,6 @@
 // Taught by 03_any_hit, whose own file this is a copy of.
 //
-// Random numbers without state: the same key gives the same number, whoever asks and when.
+// Random numbers without state: the same key gives the same number, in every shader and at every time.
 
 // A hash of four numbers to four (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d).
 // One component after the other: each takes what the ones before it have become.

@@ -53,8 +53,10 @@ struct Surface {
 // Interpolates the vertices of a triangle; `weights` are the hit attributes, the second and third
 // barycentric coordinates.
 Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
+    // ANCHOR: corner
     uvec3 corner = instance.triangles.at[triangle];
     Vertex a = instance.vertices.at[corner.x];
+    // ANCHOR_END: corner
     Vertex b = instance.vertices.at[corner.y];
     Vertex c = instance.vertices.at[corner.z];
     vec3 w = vec3(1.0 - weights.x - weights.y, weights);

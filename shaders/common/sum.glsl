@@ -1,7 +1,7 @@
 // Taught by 24_accuracy, as fixed-point sums of 64 bits; these have 128, and room for negative colours.
 //
-// A sum is a whole number of 2^-64: four words, the lowest first, negative as two's complement. Whole
-// numbers do not round, so that it does not matter in which order samples are added, nor by whom.
+// A sum is a whole number of 2^-64: four words, the lowest first, negative as two's complement. Sums of
+// whole numbers do not round. So the order in which samples are added, and by which program, changes nothing.
 
 // No colour that can be added is as large: 2^31, as a float's exponent. Infinities and NaN are above it.
 const uint TOO_LARGE = 127 + 31;

@@ -15,8 +15,8 @@ float through(float cosine) {
 }
 
 // The colour that scatters light from a direction to the eye, both given by their cosines to the normal.
-// Below polish it is weaker the lower either stands, and the same if light and eye change places. All that
-// is scattered, over all directions, is `color` times what the mirror leaves.
+// Below polish it is weaker, the lower light or eye stands. It is the same if light and eye change places.
+// The sum over all directions is `color` times the light that the mirror does not reflect.
 vec3 scattered(MaterialRecord material, vec3 color, float to_eye, float to_light) {
     vec3 left = color * (1.0 - material.specular);
     return material.illumination < ILLUMINATION_MIRROR ? left

@@ -52,7 +52,8 @@ fn run(sample: &str, fault: &str) -> (Output, BTreeMap<String, usize>) {
     (output, told.lines().map(pair).collect())
 }
 
-/// Lets calls of each function fail, those of these numbers among so many, and holds the answers.
+/// Runs a sample once for each call that is to fail, and holds the answers. `numbers` chooses them: of a
+/// function that is called so often, the calls with these numbers fail.
 fn answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) {
     let (whole, calls) = run(sample, "");
     assert!(whole.status.success());

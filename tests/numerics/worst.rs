@@ -12,8 +12,8 @@ use crate::tables::{Table, ladders, text};
 /// The rungs that are right because 64-bit floats are: Vulkan promises no more of them than of 32 bits.
 const NEED_64_BITS: [&str; 4] = ["S5", "B4", "P4", "C3"];
 
-/// The ladders that random rays are asked of, for their two-float rung or the like. The driver's compiler takes
-/// more than ten seconds for that of a capsule or an instance: these two have their hard cases only.
+/// The ladders that are tested with random rays, for their two-float rung or one like it. For such a rung of a
+/// capsule or an instance the driver's compiler takes more than ten seconds: these two have hard cases only.
 const MEASURED: [&str; 7] =
     ["sphere", "box", "plane", "triangle", "heightfield", "secondary origin", "accumulation"];
 

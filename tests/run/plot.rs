@@ -4,6 +4,7 @@
 //! program is built, its pictures can be read, and the CPU's copy of the mathematics is at hand; and
 //! whoever only runs a sample need not build a plotting library.
 
+use std::fs;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -17,13 +18,14 @@ use plotters::style::{FontStyle, register_font};
 
 use super::root;
 
-/// Colours that the colour-blind can tell apart (Okabe and Ito 2008).
+/// Colours that the colour-blind can tell apart (Okabe and Ito 2008), two of them darker: all stand
+/// out on white. `drawings::INKS` has what each is by dark.
 const COLORS: [RGBColor; 5] = [
     RGBColor(60, 60, 60),
-    RGBColor(230, 159, 0),
+    RGBColor(200, 122, 0),
     RGBColor(0, 114, 178),
     RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
+    RGBColor(196, 107, 157),
 ];
 const GRID: RGBColor = RGBColor(225, 225, 225);
 /// The font of the names of dots.
@@ -104,6 +106,11 @@ pub fn draw(name: &str, (width, height): (u32, u32), charts: &[Chart]) {
         draw_one(area, chart).expect("the chart can be drawn");
     }
     area.present().expect("the SVG can be written");
+    drop(area);
+    let themed = fs::read_to_string(&path).map(|text| drawings::themed(&text));
+    let themed =
+        themed.expect("the SVG can be read").unwrap_or_else(|what| panic!("{name}: {what}"));
+    fs::write(&path, themed).expect("the SVG can be written");
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

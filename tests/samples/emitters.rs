@@ -103,7 +103,7 @@ fn one_emitter_all_and_those_by_power_make_one_picture() {
     }
 }
 
-/// Emission that is seen, and no bounce: nobody asks, and nothing is left to chance.
+/// The eye sees the emission itself, and there is no bounce: no light is sampled, so no number is random.
 #[test]
 fn what_is_seen_straight_is_the_same_by_all() {
     let of = |name| bits(&picture("64x40", 2, &[&estimator(name), "depth=0"]));

@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 /// A sample that gathers, and quick.
 const NAME: &str = "04_jitter_camera";
-/// Small: what is tested is how it is cut.
+/// Small: the test is about how a render is cut into parts, not about the picture.
 const SIZE: [&str; 2] = ["--size", "24x16"];
 
 /// A folder with files of sums of a chapter.

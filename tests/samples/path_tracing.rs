@@ -127,10 +127,10 @@ fn a_changed_control_starts_again() {
 
 #[test]
 fn sums_of_integers_and_of_floats_begin_alike() {
-    // One sample: the mean is the sample, whatever adds it up, but for what is below 2^-32.
+    // The mean of one sample is the sample, however it is added up. Only what is below 2^-32 is lost.
     let [integers, floats] = ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 1, &[sum]));
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() < 0.5f64.powi(31)));
-    // Many: they part in the last digits, and no more than rounding each sum can do.
+    // The means of many samples differ in the last digits, by no more than the rounding of each sum.
     let [integers, floats] = ["sum=integers", "sum=floats"].map(|sum| picture(SIZE, 32, &[sum]));
     assert_ne!(bits(&integers), bits(&floats));
     let bound = 34.0 * 0.5f64.powi(24);

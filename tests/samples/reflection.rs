@@ -71,7 +71,7 @@ fn a_depth_beyond_the_device_s_limit_is_refused() {
     let (code, line) = refused(NAME, &["--headless", "--set", "depth=9"]);
     assert_eq!(code, 2);
     assert!(line.contains("'depth' cannot be '9': it takes a whole number from 0 to 8"), "{line}");
-    // No device at hand allows less than 10, so the check itself is asked for too much.
+    // Every device here allows 10 or more, so the control never asks for too much: the check itself is asked.
     let requirements = Requirements::ray_tracing().textures();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap();
     let limit = gpu.limits.max_ray_recursion_depth;

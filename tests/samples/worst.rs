@@ -57,13 +57,13 @@ fn number(chapter: &str) -> u32 {
     chapter[..2].parse().expect("a chapter begins with its number")
 }
 
-/// Whether a picture of paths that chance sends on is the driver's, but for one path of a hundred at each of
-/// the surfaces that a path meets.
+/// Whether a picture of random paths is the driver's own, except for one path of a hundred at each surface
+/// that a path meets.
 ///
 /// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on. It is then as far
 /// from the driver's path as another draw of random numbers would be, and a picture of another seed tells how
-/// far that is. So the mean FLIP over that of the other seed is the part of the paths that went elsewhere.
-/// If this part is larger, errors count for more than chance.
+/// far that is. So the mean FLIP, divided by the mean FLIP of the other seed, is the part of the paths that
+/// went elsewhere. If this part is larger, errors count for more than chance.
 fn paths_are_the_same(chapter: &str, surfaces: f32, driver: &Picture, worst: &Picture) -> bool {
     let other = rendered(chapter, "driver", &["--set", "seed=1"]).picture;
     let (mean, drawn_anew) = (flip(driver, worst).0, flip(driver, &other).0);

@@ -67,7 +67,7 @@ fn highlights_are_as_exact_as_their_bound_says() {
         let [color, x, _, z] = pixel.map(f64::from);
         assert!(color.is_finite(), "exponent {n}, cosine {z}: {color}");
         let lambert = z / std::f64::consts::PI;
-        // The highlight is e^-E times its peak; where E is above 20, nobody sees it.
+        // The highlight is e^-E times its peak; where E is above 20, it is too dark to be seen.
         let e = n * 0.5 * (x / z).powi(2).ln_1p();
         if lambert == 0.0 || e > 20.0 {
             continue;

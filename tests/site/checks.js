@@ -1,5 +1,7 @@
 // What is wrong with the page as it is laid out now, a line each.
-(() => {
+(async () => {
+    // What watches sizes has been told of the last change.
+    await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
     const wrong = [];
     const name = element => {
         const text = element.textContent.trim().slice(0, 40);
@@ -25,6 +27,20 @@
             }
         }
         return element.tagName === "INPUT";
+    }
+
+    // What scrolls sideways says so, to the eye and to the keyboard.
+    let scrolling = 0;
+    for (const box of document.querySelectorAll("main *")) {
+        const more = box.scrollWidth - box.clientWidth;
+        if (more > 1 && ["auto", "scroll"].includes(getComputedStyle(box).overflowX) && box.checkVisibility()) {
+            const frame = box.closest(".scrolls");
+            const arrow = frame && getComputedStyle(frame, "::after").content;
+            if (arrow !== '"›"' || box.tabIndex !== 0 || !box.getAttribute("aria-label")) {
+                wrong.push(`${name(box)} scrolls by ${more} pixels and does not say so`);
+            }
+            scrolling++;
+        }
     }
 
     for (const formula of document.querySelectorAll("math")) {
@@ -78,5 +94,5 @@
             wrong.push(`${name(element)} has a contrast of ${contrast.toFixed(2)}`);
         }
     }
-    return { wrong, kinds: seen.size };
+    return { wrong, kinds: seen.size, scrolling };
 })()

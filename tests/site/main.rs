@@ -4,7 +4,11 @@
 
 #[cfg(unix)]
 mod browser;
+#[cfg(unix)]
+mod drawing;
 mod faults;
+#[cfg(unix)]
+mod lost;
 mod pages;
 #[cfg(unix)]
 mod reading;
@@ -49,7 +53,8 @@ fn built() -> &'static Built {
     })
 }
 
-/// The addresses of the pages that are read, and not only shown in a frame where there is no script.
+/// The addresses of the pages that are read: not what is shown in a frame where there is no script, nor
+/// where there is no page.
 fn addresses() -> impl Iterator<Item = &'static String> {
-    built().pages.keys().filter(|name| *name != "toc.html")
+    built().pages.keys().filter(|name| !["toc.html", "404.html"].contains(&&***name))
 }

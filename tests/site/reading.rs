@@ -12,7 +12,7 @@ const CHECKS: &str = include_str!("checks.js");
 const DESK: (u32, u32, bool) = (1280, 900, false);
 const PHONE: (u32, u32, bool) = (390, 844, true);
 
-fn address(page: &str) -> String {
+pub fn address(page: &str) -> String {
     let path = fs::canonicalize(&built().folder).unwrap().join(page);
     format!("file://{}", path.display().to_string().replace(' ', "%20"))
 }
@@ -47,56 +47,71 @@ fn complaints(told: &[Value]) -> Vec<String> {
     found
 }
 
-fn theme(browser: &mut Browser, name: &str) {
+pub fn theme(browser: &mut Browser, name: &str) {
     browser.run(&format!("document.getElementById('mdbook-theme-{name}').click()"));
 }
 
-/// Runs the checks, and gives what is wrong and how many kinds of text were seen.
-fn checked(browser: &mut Browser) -> (Vec<String>, u64) {
+/// What the checks of a page found.
+#[derive(Default)]
+struct Checked {
+    wrong: Vec<String>,
+    /// How many kinds of text were seen.
+    kinds: u64,
+    /// How many boxes scroll sideways.
+    scrolling: u64,
+}
+
+fn checked(browser: &mut Browser) -> Checked {
     let found = browser.run(CHECKS);
     let wrong = found["wrong"].as_array().into_iter().flatten();
-    (
-        wrong.map(|line| line.as_str().unwrap_or_default().to_owned()).collect(),
-        found["kinds"].as_u64().unwrap(),
-    )
+    let wrong = wrong.map(|line| line.as_str().unwrap_or_default().to_owned()).collect();
+    let [kinds, scrolling] = ["kinds", "scrolling"].map(|key| found[key].as_u64().unwrap());
+    Checked { wrong, kinds, scrolling }
 }
 
 #[test]
 fn every_page_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
-    let (kinds, asked) = read(addresses().filter(|page| !page.ends_with("-code.html")));
+    let (Checked { kinds, scrolling, .. }, asked) =
+        read(addresses().filter(|page| !page.ends_with("-code.html")));
     // The checks have seen something.
-    assert!(kinds > 1500 && asked > 500, "{kinds} kinds of text, {asked} requests");
+    assert!(kinds > 3000 && asked > 500, "{kinds} kinds of text, {asked} requests");
+    assert!(scrolling > 500, "{scrolling} boxes scroll");
 }
 
 #[test]
 fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
-    let (kinds, asked) = read(addresses().filter(|page| page.ends_with("-code.html")));
-    assert!(kinds > 800 && asked > 300, "{kinds} kinds of text, {asked} requests");
+    let (Checked { kinds, .. }, asked) =
+        read(addresses().filter(|page| page.ends_with("-code.html")));
+    assert!(kinds > 1600 && asked > 300, "{kinds} kinds of text, {asked} requests");
 }
 
-/// Opens pages and looks for faults; how many kinds of text were seen, and what was asked for.
-fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (u64, usize) {
+/// Opens pages, looks for faults on a phone and on a desk, by light and by dark, and gives what was seen and
+/// how many requests were made.
+fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (Checked, usize) {
     let mut browser = Browser::start();
-    let mut faults = Vec::new();
-    let (mut kinds, mut asked) = (0, 0);
+    let (mut all, mut asked) = (Checked::default(), 0);
     for page in pages {
         sized(&mut browser, PHONE);
         let told = browser.open(&address(page));
         asked += told.iter().filter(|event| event["method"] == "Network.requestWillBeSent").count();
-        faults.extend(complaints(&told).into_iter().map(|what| format!("{page}: {what}")));
+        let mut faults = complaints(&told);
         for (size, on) in [(PHONE, "a phone"), (DESK, "a desk")] {
             sized(&mut browser, size);
-            let name = if size == PHONE { "navy" } else { "light" };
-            theme(&mut browser, name);
-            let (wrong, seen) = checked(&mut browser);
-            faults.extend(wrong.into_iter().map(|what| format!("{page} on {on}, {name}: {what}")));
-            kinds += seen;
+            for name in ["light", "navy"] {
+                theme(&mut browser, name);
+                let found = checked(&mut browser);
+                faults
+                    .extend(found.wrong.into_iter().map(|what| format!("on {on}, {name}: {what}")));
+                all.kinds += found.kinds;
+                all.scrolling += found.scrolling;
+            }
         }
-        let later = browser.told();
-        faults.extend(complaints(&later).into_iter().map(|what| format!("{page}: {what}")));
+        faults.extend(complaints(&browser.told()));
+        all.wrong.extend(faults.into_iter().map(|what| format!("{page}: {what}")));
     }
-    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
-    (kinds, asked)
+    let Checked { wrong, .. } = &all;
+    assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
+    (all, asked)
 }
 
 #[test]
@@ -105,6 +120,7 @@ fn a_page_with_faults_is_not_called_quiet() {
     let page = folder.path().join("page.html");
     let text = "<!DOCTYPE html><body style=\"background: #111\"><main>\
         <p style=\"color: #555\">grey on black</p><div style=\"width: 2000px\">a wide box</div>\
+        <div style=\"overflow: auto; height: 9px\"><div style=\"width: 999px\">hidden words</div></div>\
         <math style=\"display: block; font-size: 1px; width: 1px\"><mi>x</mi></math></main>\
         <script>console.error('said'); new Image().src = 'http://127.0.0.1:9/elsewhere.png'; \
         document.body.append(lost);</script>";
@@ -115,8 +131,13 @@ fn a_page_with_faults_is_not_called_quiet() {
     for expected in ["said", "asks for http://127.0.0.1:9/elsewhere.png", "lost is not defined"] {
         assert!(told.contains(expected), "'{expected}' is not in {told}");
     }
-    let wrong = checked(&mut browser).0.join("\n");
-    for expected in ["grey on black has a contrast of ", " a wide box ends ", "formula 'x' is "] {
+    let wrong = checked(&mut browser).wrong.join("\n");
+    for expected in [
+        "grey on black has a contrast of ",
+        " a wide box ends ",
+        " hidden words scrolls by ",
+        "formula 'x' is ",
+    ] {
         assert!(wrong.contains(expected), "'{expected}' is not in {wrong}");
     }
 }
@@ -216,6 +237,33 @@ fn the_tab_key_reaches_everything_and_shows_where_it_is() {
 }
 
 #[test]
+fn what_scrolls_sideways_shows_it_and_is_moved_by_the_arrow_keys() {
+    let mut browser = Browser::start();
+    sized(&mut browser, PHONE);
+    browser.open(&address("01_foundation.html"));
+    browser.run(
+        "window.box = [...document.querySelectorAll('.scrolls.after > *')]
+            .find(box => box.checkVisibility() && box.scrollWidth - box.clientWidth > 120);
+        box.scrollIntoView({ block: 'center' }); box.focus({ preventScroll: true })",
+    );
+    let arrows =
+        "['before', 'after'].map(side => getComputedStyle(box.parentElement, '::' + side).content)";
+    assert_eq!(browser.run(arrows), serde_json::json!(["none", "\"›\""]));
+    assert_eq!(browser.run("document.activeElement === box"), true);
+    let settled = "new Promise(done => setTimeout(() => done(box.scrollLeft), 400))";
+    browser.press("ArrowRight", 39);
+    let moved = browser.run(settled);
+    assert!(moved.as_f64() > Some(0.0), "{moved}");
+    assert_eq!(browser.run(arrows), serde_json::json!(["\"‹\"", "\"›\""]));
+    browser.run("box.scrollLeft = box.scrollWidth");
+    browser.run(settled);
+    assert_eq!(browser.run(arrows), serde_json::json!(["\"‹\"", "none"]));
+    // The keys were the box's: the page is the same.
+    let page = browser.run("location.pathname");
+    assert!(page.as_str().unwrap().ends_with("01_foundation.html"), "{page}");
+}
+
+#[test]
 fn the_search_answers_from_a_file() {
     let mut browser = Browser::start();
     sized(&mut browser, PHONE);
@@ -273,26 +321,35 @@ fn pictures() {
     fs::create_dir_all(&folder).unwrap();
     let mut browser = Browser::start();
     let pages = [
-        "index",
-        "05_shadow_miss",
-        "05_shadow_miss-code",
-        "wrong-pictures",
-        "09_instancing",
-        "21_heightfield",
-        "11_path_tracing",
-        "26_leaving_a_surface",
+        "index.html",
+        "02_basic.html#at-the-nearest-hit",
+        "05_shadow_miss.html",
+        "05_shadow_miss-code.html#shaders-05_shadow_miss-camera-rgen",
+        "wrong-pictures.html",
+        "21_heightfield.html",
+        "glossary.html",
+        "reading.html?search=shadow%20ray",
+        "404.html",
     ];
     for page in pages {
         for ((width, height, phone), on) in [((1280, 900, false), "desk"), (PHONE, "phone")] {
             sized(&mut browser, (width, height, phone));
-            browser.open(&address(&format!("{page}.html")));
+            browser.open("about:blank");
+            browser.open(&address(page));
+            let name_of = page.split('.').next().unwrap();
             for (name, id) in [("light", "light"), ("dark", "navy")] {
-                theme(&mut browser, id);
+                if page != "404.html" {
+                    theme(&mut browser, id);
+                }
                 for (part, at) in [("top", 0.0), ("middle", 0.45)] {
-                    browser
-                        .run(&format!("scrollTo(0, {at} * document.documentElement.scrollHeight)"));
-                    browser.run("new Promise(done => setTimeout(done, 300))");
-                    let file = folder.join(format!("{page}-{on}-{name}-{part}.png"));
+                    // A page that is opened at a place stays there.
+                    if part == "middle" || !page.contains(['#', '?']) {
+                        let to =
+                            format!("scrollTo(0, {at} * document.documentElement.scrollHeight)");
+                        browser.run(&to);
+                    }
+                    browser.run("new Promise(done => setTimeout(done, 600))");
+                    let file = folder.join(format!("{name_of}-{on}-{name}-{part}.png"));
                     decode(&browser.picture(), &file);
                 }
             }
@@ -301,7 +358,7 @@ fn pictures() {
 }
 
 /// Writes what base64 says into a file.
-fn decode(text: &str, file: &std::path::Path) {
+pub fn decode(text: &str, file: &std::path::Path) {
     use std::io::Write;
     let mut child = Command::new("base64")
         .arg("-d")

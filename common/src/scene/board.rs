@@ -70,8 +70,8 @@ impl Board {
     /// The board where a scene's placement puts it, on this plane. Which side of it is the inside
     /// changes no square.
     ///
-    /// Its pattern repeats every two squares, so the even number that is dropped here is missed by
-    /// nobody, and the shader gets a small number.
+    /// Its pattern repeats every two squares. So an even number of squares is left out here: the pattern
+    /// is the same, and the shader gets a small number.
     pub fn placed(&self, placement: &Placement, side: &HalfSpace, plane: &Plane) -> Self {
         let square = f64::from(self.square) * placement.size;
         let normal = side.normal.as_dvec3().normalize_or(DVec3::Y);

@@ -32,9 +32,9 @@ pub struct Model {
 /// Reads an OBJ file with its MTL files and PNG textures.
 ///
 /// A new object, a new group in a file without objects, or another material starts a new mesh.
-/// Polygons become fans of triangles. Corners without a normal get that of their triangle, for OBJ
-/// smooths only where a file asks for it and a cube must not be shaded as a ball. Texture coordinates
-/// are turned to Vulkan's, v downwards; corners without get (0, 0). Faces without material get
+/// Polygons become fans of triangles. A corner without a normal gets its triangle's: a cube must
+/// not be shaded like a ball, and OBJ smooths only where a file says so. Texture coordinates are turned to
+/// Vulkan's, v downwards; a corner without them gets (0, 0). A face without material gets
 /// [`Material::default`]. Lines, points, curved surfaces and vertex colours are passed over.
 ///
 /// Files of the world are often incomplete. An MTL file that is not there, a texture that is not there or

@@ -16,7 +16,8 @@ pub struct SceneOnGpu {
     pub tlas: AccelerationStructure,
     /// One bottom level a mesh, in the model's order.
     pub blas: Vec<AccelerationStructure>,
-    /// Where each mesh lies, in the model's order: what the record of an instance says, but for its material.
+    /// Where each mesh lies, in the model's order: the record of an instance, whose material is still to be
+    /// filled in.
     pub meshes: Vec<InstanceRecord>,
     /// Every texture of the model.
     pub textures: Arc<TextureTable>,

@@ -48,7 +48,7 @@ pub fn frame() -> Mesh {
         // A side runs along x at z = distance; the others are that one turned.
         let place = |p: DVec3| dvec3(p.x * cos + p.z * sin, p.y, p.z * cos - p.x * sin);
         let mut last = points.len() - 1;
-        // Along the squares the frame has their corners, lest light leak through the joint.
+        // Along the squares the frame has the same corners as they: otherwise light leaks through the joint.
         let steps: Vec<_> = (-HALF..=HALF).map(f64::from).collect();
         let (outer, inner) = (points[last - 1], points[last]);
         let corner = |x: f64, p: DVec2| place(dvec3(x, p.y, p.x));

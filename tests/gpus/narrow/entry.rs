@@ -98,7 +98,7 @@ unsafe extern "system" fn get_device_proc_addr(
         let below = (below::device(device).get_proc_addr)(device, name);
         let own = device_function(layer::text(name));
         match (own, below) {
-            // A function of an extension that is not enabled is nobody's.
+            // If an extension is not enabled, the device has none of its functions.
             (Some(own), Some(_)) => layer::function(own),
             _ => below,
         }

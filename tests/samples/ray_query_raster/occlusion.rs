@@ -78,7 +78,7 @@ fn the_error_falls_faster_than_by_the_root_of_the_rays() {
         let error = root_mean_square(&pixels, &run.picture);
         let independent = one / f64::from(count).sqrt();
         println!("{count}: {error:.5}, independent {independent:.5}");
-        // A spiral's points leave each other room; a single one has nobody to leave room to.
+        // The points of a spiral keep apart, and so err less; a single point has no other to keep away from.
         let most = if count == 1 { 1.1 } else { 0.9 };
         assert!(error < most * independent, "{count}: {error}, {independent}");
         held.insert(format!("error_{count}"), json!(error));
