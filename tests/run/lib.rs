@@ -3,6 +3,8 @@
 pub mod figures;
 pub mod layer;
 pub mod leaving;
+#[cfg(target_os = "linux")]
+mod peak;
 pub mod plot;
 pub mod primary_hits;
 
@@ -12,6 +14,8 @@ use std::process::{Command, Output};
 use std::sync::{Mutex, PoisonError};
 
 use common::app::Picture;
+#[cfg(target_os = "linux")]
+pub use peak::peak;
 use serde_json::Value;
 
 /// What a run of a sample gave.

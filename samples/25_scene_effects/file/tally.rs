@@ -1,0 +1,117 @@
+//! What a scene file has, counted before it is read, and the memory that reading takes.
+
+use anyhow::{Result, ensure};
+use toml::Spanned;
+use toml::de::{DeString, DeValue};
+use toml_parser::decoder::Encoding;
+use toml_parser::lexer::Token;
+use toml_parser::parser::{Event, EventReceiver, RecursionGuard, parse_document};
+use toml_parser::{ErrorSink, Source, Span};
+
+/// Bytes that reading may take. A hundred thousand spheres take half of it.
+const MOST: u64 = 800_000_000;
+
+/// How deep tables and lists may stand in each other: as deep as `toml` reads them.
+const DEPTH: u32 = 80;
+
+/// How many there are of whatever takes memory.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    text: usize,
+    /// Words, signs and spaces.
+    tokens: usize,
+    /// Under a headline, in braces, or by a dot in a key.
+    tables: usize,
+    keys: usize,
+    lists: usize,
+    /// Commas: values of a list, or keys in braces.
+    values: usize,
+}
+
+impl Tally {
+    /// Counts what a text has. It need not be right.
+    ///
+    /// # Errors
+    /// If its words alone are too many.
+    pub fn of(text: &str) -> Result<Self> {
+        let tokens = Source::new(text).lex().count();
+        let mut tally = Self { text: text.len(), tokens, ..Self::default() };
+        tally.check()?;
+        let tokens = Source::new(text).lex().into_vec();
+        parse_document(&tokens, &mut RecursionGuard::new(&mut tally, DEPTH), &mut ());
+        Ok(tally)
+    }
+
+    /// The most memory that reading takes, in bytes.
+    ///
+    /// `toml` makes a list of the tokens and one of events, then a tree. A table is a `BTreeMap`, whose nodes have
+    /// room for 11 entries: one node for each table, and for many keys nodes of which 5 of 11 are full,
+    /// and those above them. A list is a `Vec`, with room for 4 at least, or for twice as many as it has.
+    /// Text is there once more where something in it is escaped.
+    pub fn bytes(&self) -> u64 {
+        let &Self { text, tokens, tables, keys, lists, values } = self;
+        let value = size_of::<Spanned<DeValue>>();
+        let entry = size_of::<Spanned<DeString>>() + value;
+        let token = size_of::<Token>() + size_of::<Event>();
+        let table = 11 * entry + 2 * value + 16;
+        let bytes = 2 * text
+            + token * tokens
+            + table * tables
+            + 3 * entry * keys
+            + 4 * value * lists
+            + 2 * value * values;
+        bytes as u64
+    }
+
+    /// Fails if that is too much.
+    ///
+    /// # Errors
+    /// With what it is, and of what.
+    pub fn check(&self) -> Result<()> {
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        let Self { tokens, tables, keys, lists, .. } = self;
+        ensure!(
+            self.bytes() <= MOST,
+            "would take up to {:.1} GB of memory with its {tokens} words and signs, {tables} tables, {keys} \
+             keys and {lists} lists; at most {:.1} GB are taken",
+            gigabytes(self.bytes()),
+            gigabytes(MOST)
+        );
+        Ok(())
+    }
+}
+
+impl EventReceiver for Tally {
+    fn std_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) {
+        self.tables += 1;
+    }
+
+    fn array_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) {
+        self.tables += 1;
+    }
+
+    fn inline_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) -> bool {
+        self.tables += 1;
+        true
+    }
+
+    fn array_open(&mut self, _: Span, _: &mut dyn ErrorSink) -> bool {
+        self.lists += 1;
+        true
+    }
+
+    fn simple_key(&mut self, _: Span, _: Option<Encoding>, _: &mut dyn ErrorSink) {
+        self.keys += 1;
+    }
+
+    fn key_sep(&mut self, _: Span, _: &mut dyn ErrorSink) {
+        self.tables += 1;
+    }
+
+    fn value_sep(&mut self, _: Span, _: &mut dyn ErrorSink) {
+        self.values += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests;
