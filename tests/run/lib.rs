@@ -3,10 +3,10 @@
 pub mod figures;
 pub mod layer;
 pub mod leaving;
-#[cfg(target_os = "linux")]
-mod peak;
 pub mod plot;
 pub mod primary_hits;
+#[cfg(target_os = "linux")]
+mod spent;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,9 +14,9 @@ use std::process::{Command, Output};
 use std::sync::{Mutex, PoisonError};
 
 use common::app::Picture;
-#[cfg(target_os = "linux")]
-pub use peak::peak;
 use serde_json::Value;
+#[cfg(target_os = "linux")]
+pub use spent::{Spent, spend};
 
 /// What a run of a sample gave.
 pub struct Run {

@@ -3,10 +3,9 @@
 use anyhow::{Result, ensure};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
-use toml_parser::decoder::Encoding;
+use toml_parser::Source;
 use toml_parser::lexer::Token;
-use toml_parser::parser::{Event, EventReceiver, RecursionGuard, parse_document};
-use toml_parser::{ErrorSink, Source, Span};
+use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
 /// Bytes that reading may take. A hundred thousand spheres take half of it.
 const MOST: u64 = 800_000_000;
@@ -20,6 +19,8 @@ pub(super) struct Tally {
     text: usize,
     /// Words, signs and spaces.
     tokens: usize,
+    /// What the parser makes of them.
+    events: usize,
     /// Under a headline, in braces, or by a dot in a key.
     tables: usize,
     keys: usize,
@@ -38,24 +39,40 @@ impl Tally {
         let mut tally = Self { text: text.len(), tokens, ..Self::default() };
         tally.check()?;
         let tokens = Source::new(text).lex().into_vec();
-        parse_document(&tokens, &mut RecursionGuard::new(&mut tally, DEPTH), &mut ());
+        let mut add = |event: Event| tally.add(event.kind());
+        parse_document(&tokens, &mut RecursionGuard::new(&mut add, DEPTH), &mut ());
         Ok(tally)
+    }
+
+    fn add(&mut self, event: EventKind) {
+        use EventKind as Kind;
+        self.events += 1;
+        match event {
+            Kind::StdTableOpen | Kind::ArrayTableOpen | Kind::InlineTableOpen | Kind::KeySep => {
+                self.tables += 1
+            }
+            Kind::SimpleKey => self.keys += 1,
+            Kind::ArrayOpen => self.lists += 1,
+            Kind::ValueSep => self.values += 1,
+            _ => {}
+        }
     }
 
     /// The most memory that reading takes, in bytes.
     ///
-    /// `toml` makes a list of the tokens and one of events, then a tree. A table is a `BTreeMap`, whose nodes have
+    /// `toml` makes a list of the tokens and one of the events, then a tree. A table is a `BTreeMap`, whose nodes have
     /// room for 11 entries: one node for each table, and for many keys nodes of which 5 of 11 are full,
     /// and those above them. A list is a `Vec`, with room for 4 at least, or for twice as many as it has.
     /// Text is there once more where something in it is escaped.
     pub fn bytes(&self) -> u64 {
-        let &Self { text, tokens, tables, keys, lists, values } = self;
+        let &Self { text, tokens, events, tables, keys, lists, values } = self;
         let value = size_of::<Spanned<DeValue>>();
         let entry = size_of::<Spanned<DeString>>() + value;
-        let token = size_of::<Token>() + size_of::<Event>();
+        let (token, event) = (size_of::<Token>(), size_of::<Event>());
         let table = 11 * entry + 2 * value + 16;
         let bytes = 2 * text
             + token * tokens
+            + event * events
             + table * tables
             + 3 * entry * keys
             + 4 * value * lists
@@ -78,38 +95,6 @@ impl Tally {
             gigabytes(MOST)
         );
         Ok(())
-    }
-}
-
-impl EventReceiver for Tally {
-    fn std_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) {
-        self.tables += 1;
-    }
-
-    fn array_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) {
-        self.tables += 1;
-    }
-
-    fn inline_table_open(&mut self, _: Span, _: &mut dyn ErrorSink) -> bool {
-        self.tables += 1;
-        true
-    }
-
-    fn array_open(&mut self, _: Span, _: &mut dyn ErrorSink) -> bool {
-        self.lists += 1;
-        true
-    }
-
-    fn simple_key(&mut self, _: Span, _: Option<Encoding>, _: &mut dyn ErrorSink) {
-        self.keys += 1;
-    }
-
-    fn key_sep(&mut self, _: Span, _: &mut dyn ErrorSink) {
-        self.tables += 1;
-    }
-
-    fn value_sep(&mut self, _: Span, _: &mut dyn ErrorSink) {
-        self.values += 1;
     }
 }
 
