@@ -69,10 +69,12 @@ impl Tally {
         let value = size_of::<Spanned<DeValue>>();
         let entry = size_of::<Spanned<DeString>>() + value;
         let (token, event) = (size_of::<Token>(), size_of::<Event>());
+        // Wrong text can give more events than tokens, for which there was room: then they are copied once.
+        let copies = if events > tokens { 2 } else { 1 };
         let table = 11 * entry + 2 * value + 16;
         let bytes = 2 * text
             + token * tokens
-            + event * events
+            + copies * event * events
             + table * tables
             + 3 * entry * keys
             + 4 * value * lists
