@@ -60,9 +60,9 @@ impl Tally {
 
     /// The most memory that reading takes, in bytes.
     ///
-    /// `toml` makes a list of the tokens and one of the events, then a tree. A table is a `BTreeMap`, whose nodes have
-    /// room for 11 entries: one node for each table, and for many keys nodes of which 5 of 11 are full,
-    /// and those above them. A list is a `Vec`, with room for 4 at least, or for twice as many as it has.
+    /// `toml` makes a list of the tokens and one of the events, then a tree. A table is a `BTreeMap`, whose
+    /// nodes have room for 11 entries: one node for each table, and for many keys nodes of which 5 of 11 are
+    /// full, and those above them. A list is a `Vec`, with room for 4 at least, or for twice as many as it has.
     /// Text is there once more where something in it is escaped.
     pub fn bytes(&self) -> u64 {
         let &Self { text, tokens, events, tables, keys, lists, values } = self;
