@@ -15,6 +15,7 @@ const AFTER: &[(&str, &str)] = &[
     ("arithmetic.md", "The worst arithmetic that conforms"),
     ("needs.md", "What a device must offer"),
     ("long-renders.md", "Long renders"),
+    ("limits.md", "Limits"),
     ("wrong-pictures.md", "When the picture is wrong"),
     ("devices.md", "What was tested"),
     ("glossary.md", "Glossary"),

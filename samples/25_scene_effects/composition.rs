@@ -1,6 +1,6 @@
 //! A composition: everything that a picture is made from, meshes and what is no mesh.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 use common::scene::{Camera, Light, Material, Scene, Sun};
@@ -155,9 +155,9 @@ impl Composition {
         let used = self.in_use();
         let Scene { model, instances, .. } = &mut self.scene;
         let meshes: BTreeSet<usize> = instances.iter().map(|instance| instance.mesh).collect();
-        keep(&mut model.meshes, &meshes);
+        let numbers = keep(&mut model.meshes, &meshes);
         for instance in instances {
-            instance.mesh = meshes.range(..instance.mesh).count();
+            instance.mesh = numbers[&instance.mesh];
         }
         for (number, material) in model.materials.iter_mut().enumerate() {
             if !used.contains(&number) {
@@ -167,10 +167,10 @@ impl Composition {
         }
         let slots = |m: &Material| [m.base_texture, m.opacity_texture];
         let textures: BTreeSet<usize> = model.materials.iter().flat_map(slots).flatten().collect();
-        keep(&mut model.textures, &textures);
+        let numbers = keep(&mut model.textures, &textures);
         for material in &mut model.materials {
             for slot in [&mut material.base_texture, &mut material.opacity_texture] {
-                *slot = slot.map(|old| textures.range(..old).count());
+                *slot = slot.map(|old| numbers[&old]);
             }
         }
     }
@@ -190,8 +190,9 @@ pub(crate) fn pinhole(camera: &Camera) -> ThinLens {
     ThinLens { diameter: 0.0, focus, blades: 0, rotation: 0.0 }
 }
 
-/// Keeps the items at these positions.
-fn keep<T>(items: &mut Vec<T>, positions: &BTreeSet<usize>) {
+/// Keeps the items at these positions, and says where each is then.
+fn keep<T>(items: &mut Vec<T>, positions: &BTreeSet<usize>) -> BTreeMap<usize, usize> {
     let mut position = 0..;
     items.retain(|_| position.next().is_some_and(|at| positions.contains(&at)));
+    positions.iter().copied().zip(0..).collect()
 }

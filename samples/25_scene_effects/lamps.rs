@@ -1,9 +1,10 @@
 //! What of a composition shines on the rest of it, as chapter 29 has it: its own files make the list.
 
-use anyhow::Result;
-use common::scene::Material;
+use anyhow::{Result, ensure};
+use common::scene::{Material, Model, Scene};
 use glam::Vec3;
 
+use crate::alias::MOST;
 use crate::emitters::{self, Emitters};
 use crate::{Composition, is_glass};
 
@@ -58,12 +59,26 @@ impl Composition {
         if self.lamp().is_none() {
             return Ok(None);
         }
-        let mut scene = self.scene.clone();
+        let Scene { model, instances, camera } = &self.scene;
+        let materials = model.materials.clone();
+        let model = Model {
+            meshes: model.meshes.clone(),
+            materials,
+            textures: Vec::new(),
+            warnings: Vec::new(),
+        };
+        let mut scene = Scene { model, instances: instances.clone(), camera: *camera };
         let materials = &mut scene.model.materials;
         for material in materials.iter_mut().filter(|material| !is_lamp(material)) {
             material.emission = Vec3::ZERO;
         }
         let shines = |material: usize| materials[material].emission != Vec3::ZERO;
+        let triangles = scene.instances.iter().filter(|instance| shines(instance.material));
+        let triangles = triangles.map(|instance| scene.model.meshes[instance.mesh].triangles.len());
+        let shining = self.spheres.iter().filter(|sphere| shines(sphere.material as usize)).count();
+        // Before the list of them is made: few lines place a large mesh many times.
+        let count = triangles.fold(shining, usize::saturating_add);
+        ensure!(count <= MOST, "{count} triangles and spheres shine, and at most {MOST} may");
         let mut spheres = Vec::new();
         let of_spheres = self.spheres.iter().map(|&crate::Sphere { center, radius, material }| {
             let material = material as usize;

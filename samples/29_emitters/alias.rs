@@ -25,7 +25,7 @@ pub struct AliasTable {
 pub const UNITS: u64 = 1 << 24;
 
 /// How many numbers there may be: fewer than a column has parts, since each with a weight has one at least.
-const MOST: usize = 1 << 20;
+pub const MOST: usize = 1 << 20;
 
 impl AliasTable {
     // ANCHOR: shares

@@ -3,6 +3,8 @@
 
 mod arguments;
 mod failures;
+#[cfg(target_os = "linux")]
+mod limits;
 mod machine;
 mod many;
 mod models;

@@ -296,3 +296,14 @@ fn pieces_and_models_that_are_wrong() {
     let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", "v 0 nan 0\n")]);
     refused_by(command, 1, &["m.obj:1: \"nan\" is not a finite 32-bit number"]);
 }
+
+#[test]
+fn models_that_reach_too_far() {
+    let model = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]");
+    let triangle = |far: &str| format!("o a\nv 0 0 {far}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let (_folder, command) = command(model.as_bytes(), &[("m.obj", &triangle("1e30"))]);
+    refused_by(command, 1, &["m.obj: reaches 1e30 from the origin; beyond 1e18, products of two"]);
+    let piece = format!("{model}[[piece]]\nmesh = \"a\"\nat = [0, 0, 0]\nsize = 100\n");
+    let (_folder, command) = self::command(piece.as_bytes(), &[("m.obj", &triangle("1e17"))]);
+    refused_by(command, 1, &["s.toml:7: a piece that reaches 1e19 from its place; beyond 1e18"]);
+}

@@ -222,3 +222,25 @@ fn odd_command_lines_are_refused() {
     let (code, line) = refused(&["--cases", "a.json", "--out", "a.png"]);
     assert!(code == 2 && line.contains("make no picture"), "{line}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_takes_no_more_memory_than_its_size_allows() {
+    let mut text = file(&[sphere()]);
+    let memory = |text: &str| {
+        let mut command = run::command("24_accuracy");
+        let spent = with_file(text, |path| {
+            run::spend(command.args(["--headless", "--cases", path, "--report", "-"]))
+        });
+        let line = String::from_utf8_lossy(&spent.output.stderr).into_owned();
+        (spent.output.status.success(), line, spent.memory)
+    };
+    let (_, _, least) = memory(&text.to_string());
+    // What nobody reads is not kept.
+    text["conventions"] = vec![0; 4_000_000].into();
+    let (success, line, most) = memory(&text.to_string());
+    assert!(success && most - least < 40 << 20, "{} {line}", most - least);
+    let (success, line, most) = memory(&" ".repeat((8 << 20) + 1));
+    assert!(!success && line.contains("has 8388609 bytes; at most 8388608 are read"), "{line}");
+    assert!(most < least + (4 << 20), "{least} {most}");
+}

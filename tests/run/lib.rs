@@ -5,6 +5,8 @@ pub mod layer;
 pub mod leaving;
 pub mod plot;
 pub mod primary_hits;
+#[cfg(target_os = "linux")]
+mod spent;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,6 +15,8 @@ use std::sync::{Mutex, PoisonError};
 
 use common::app::Picture;
 use serde_json::Value;
+#[cfg(target_os = "linux")]
+pub use spent::{Spent, spend};
 
 /// What a run of a sample gave.
 pub struct Run {

@@ -15,6 +15,9 @@ common::shader_struct! {
     }
 }
 
+/// The farthest coordinate: intersection multiplies two of them and adds up a few such products.
+pub const REACH: f32 = 1e18;
+
 /// Triangles of one material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -34,6 +37,12 @@ impl Mesh {
     /// Without vertices the box is inside out: +∞ and -∞.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         around(self.vertices.iter().map(|vertex| vertex.position))
+    }
+
+    /// How far it goes from the origin along any axis.
+    pub fn reach(&self) -> f32 {
+        let (low, high) = self.bounds();
+        low.abs().max(high.abs()).max_element()
     }
 
     /// The box around each triangle, low and high corner, in the order of `triangles`.

@@ -31,6 +31,8 @@ pub(super) struct MaterialLibrary {
     /// Where each was defined first.
     found: HashMap<String, String>,
     read: HashSet<PathBuf>,
+    /// Bytes of the files that were read.
+    bytes: u64,
     /// The materials that have a colour of their own.
     colored: HashSet<usize>,
     given: Given,
@@ -94,10 +96,23 @@ impl MaterialLibrary {
             return Ok(());
         }
         let text = Text::read(&file.path, file.shown.clone(), limits.mtl_bytes)?;
+        self.bytes += text.len() as u64;
+        ensure!(
+            self.bytes <= limits.mtl_bytes,
+            "{}: is too large: with the MTL files before it {} bytes, at most {} are read",
+            file.shown,
+            self.bytes,
+            limits.mtl_bytes
+        );
         self.given = Given::default();
         for statement in text.statements() {
             self.statement(&statement, file, folder, warnings)
                 .map_err(|error| statement.at(error))?;
+            let most = limits.materials;
+            ensure!(
+                self.materials.len() <= most,
+                statement.at(format!("more than {most} materials, the most that are read"))
+            );
         }
         Ok(())
     }

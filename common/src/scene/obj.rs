@@ -5,12 +5,12 @@
 
 use std::path::Path;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use glam::{Vec2, Vec3};
 
 use super::limits::Limits;
 use super::material::Material;
-use super::mesh::{Mesh, Vertex};
+use super::mesh::{Mesh, REACH, Vertex};
 use super::obj_check::Check;
 use super::text::{Folder, Text, shown};
 use super::texture::Texture;
@@ -42,10 +42,19 @@ pub struct Model {
 /// comes without, and with a line in [`Model::warnings`].
 ///
 /// # Errors
-/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, or if
-/// one is too large, or an MTL file outside the OBJ file's folder; the message is one line with file and line number.
+/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it reaches
+/// too far, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
+/// folder; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
-    load_within(path, &Limits::DEFAULT)
+    let model = load_within(path, &Limits::DEFAULT)?;
+    let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
+    ensure!(
+        reach <= REACH,
+        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of two coordinates overflow in \
+         32 bits",
+        shown(path)
+    );
+    Ok(model)
 }
 
 fn load_within(path: &Path, limits: &Limits) -> Result<Model> {

@@ -10,6 +10,7 @@ use glam::Vec3;
 use super::index::{index, out_of_range, position};
 use super::limits::Limits;
 use super::mtl::{MaterialLibrary, material_name};
+use super::tally::Tally;
 use super::text::{
     Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, uncommented,
 };
@@ -40,11 +41,8 @@ pub(super) struct Check<'a> {
     pub warnings: Warnings,
     /// The materials that were used before any MTL file defined them, each with how often and where first.
     undefined: HashMap<String, Undefined>,
-    positions: usize,
-    coordinates: usize,
-    normals: usize,
-    triangles: usize,
-    meshes: usize,
+    tally: Tally,
+    libraries: usize,
     has_objects: bool,
     limits: &'a Limits,
 }
@@ -60,17 +58,16 @@ impl<'a> Check<'a> {
             library: MaterialLibrary::default(),
             warnings: Warnings::default(),
             undefined: HashMap::new(),
-            positions: 0,
-            coordinates: 0,
-            normals: 0,
-            triangles: 0,
-            meshes: 0,
+            tally: Tally::default(),
+            libraries: 0,
             has_objects: false,
             limits,
         };
+        check.tally.text = text.len() + check.plain.len();
         let mut stray = None;
         for statement in text.statements() {
             let (keyword, rest) = statement.split().map_err(|error| statement.at(error))?;
+            let before = check.plain.len();
             if keyword == "mtllib" {
                 for file in check.libraries(rest, &statement, folder)? {
                     check.library.read(&file, folder, limits, &mut check.warnings)?;
@@ -81,14 +78,26 @@ impl<'a> Check<'a> {
                 check.warnings.add(Kind::Keyword, &statement, || &error);
                 stray.get_or_insert_with(|| statement.at(error));
             }
+            check.tally.text += check.plain.len() - before;
+            if check.tally.bytes() > limits.memory {
+                // The rest is read only to say what all of it would take.
+                check.plain = String::new();
+            }
         }
         // What is without faces and of other statements is no OBJ file: that is what to tell.
         match stray {
-            Some(stray) if check.triangles == 0 => return Err(stray),
-            _ => ensure!(check.triangles > 0, "{}: has no faces", text.shown),
+            Some(stray) if check.tally.triangles == 0 => return Err(stray),
+            _ => ensure!(check.tally.triangles > 0, "{}: has no faces", text.shown),
         }
+        check.tally.check(limits).map_err(|error| anyhow!("{}: {error}", text.shown))?;
         check.tell_undefined();
         Ok(check)
+    }
+
+    /// The bytes that reading takes.
+    #[cfg(test)]
+    pub fn counted(&self) -> u64 {
+        self.tally.bytes()
     }
 
     /// The MTL files that a statement names: one with spaces in its name, or several.
@@ -98,6 +107,13 @@ impl<'a> Check<'a> {
         statement: &Statement,
         folder: &Folder,
     ) -> Result<Vec<Named>> {
+        // One with spaces in its name, or so many.
+        self.libraries += rest.split_whitespace().count();
+        let most = self.limits.libraries;
+        ensure!(
+            self.libraries <= most,
+            statement.at(format!("more than {most} MTL files, the most that are looked for"))
+        );
         let mut missing = match folder.find("mtllib", rest, None) {
             Ok(file) => return Ok(vec![file]),
             Err(error) => vec![error],
@@ -149,11 +165,6 @@ impl<'a> Check<'a> {
         rest: &str,
         statement: &Statement,
     ) -> Result<Option<anyhow::Error>> {
-        let limit = self.limits.elements;
-        let within = |count: usize, what| {
-            ensure!(count <= limit, "more than {limit} {what}, the most that are read");
-            Ok(())
-        };
         match keyword {
             "v" => {
                 let mut values = [0.0; 7];
@@ -167,15 +178,13 @@ impl<'a> Check<'a> {
                     }
                     count => bail!("v has {count} numbers; x y z, x y z w or x y z r g b is right"),
                 };
-                self.positions += 1;
-                within(self.positions, "positions")?;
+                self.tally.positions += 1;
                 self.write(keyword, rest, words);
             }
             "vt" => {
                 let count = numbers(rest, &mut [0.0; 3])?;
                 ensure!(count > 0, "vt has no numbers; u, u v or u v w is right");
-                self.coordinates += 1;
-                within(self.coordinates, "texture coordinates")?;
+                self.tally.coordinates += 1;
                 self.write(keyword, rest, count.min(2));
                 if count == 1 {
                     self.plain.insert_str(self.plain.len() - 1, " 0");
@@ -184,15 +193,15 @@ impl<'a> Check<'a> {
             "vn" => {
                 let count = numbers(rest, &mut [0.0; 3])?;
                 ensure!(count == 3, "vn has {count} numbers; x y z is right");
-                self.normals += 1;
-                within(self.normals, "normals")?;
+                self.tally.normals += 1;
                 self.write(keyword, rest, 3);
             }
             "f" => {
                 let corners = self.face(uncommented(rest), statement)?;
                 ensure!(corners >= 3, "a face has {corners} corners; it needs at least 3");
-                self.triangles += corners - 2;
-                within(self.triangles, "triangles")?;
+                self.tally.faces += 1;
+                self.tally.corners += corners;
+                self.tally.triangles += corners - 2;
             }
             "o" => {
                 self.has_objects = true;
@@ -229,9 +238,9 @@ impl<'a> Check<'a> {
 
     fn start_mesh(&mut self, keyword: &str, rest: &str) -> Result<()> {
         let limit = self.limits.meshes;
-        self.meshes += 1;
+        self.tally.meshes += 1;
         ensure!(
-            self.meshes <= limit,
+            self.tally.meshes <= limit,
             "more than {limit} objects and materials, the most that are read"
         );
         let name = if rest.is_empty() { "" } else { name(keyword, rest)? };
@@ -257,8 +266,9 @@ impl<'a> Check<'a> {
                 quoted(corner)
             );
             let v = index(v, "face")?;
-            let v = position(v, self.positions)
-                .with_context(|| out_of_range(v, "face", self.positions, "positions"))?;
+            let Tally { positions, coordinates, normals, .. } = self.tally;
+            let v = position(v, positions)
+                .with_context(|| out_of_range(v, "face", positions, "positions"))?;
             // The preamble's come first, and stand for what is not given or out of range.
             let mut other = |word: &str, kind, count, of: &str, what| -> Result<usize> {
                 if word.is_empty() {
@@ -272,8 +282,8 @@ impl<'a> Check<'a> {
                 Ok(1)
             };
             let (of, what) = ("texture coordinate", "texture coordinates");
-            let vt = other(vt, Kind::Coordinate, self.coordinates, of, what)?;
-            let vn = other(vn, Kind::Normal, self.normals, "normal", "normals")?;
+            let vt = other(vt, Kind::Coordinate, coordinates, of, what)?;
+            let vn = other(vn, Kind::Normal, normals, "normal", "normals")?;
             write!(self.plain, " {v}/{vt}/{vn}")?;
         }
         self.plain.push('\n');

@@ -44,6 +44,11 @@ impl Text {
         Ok(Self { shown, bytes })
     }
 
+    /// How many bytes it has.
+    pub fn len(&self) -> usize {
+        self.bytes.len()
+    }
+
     /// The statements in order.
     pub fn statements(&self) -> Statements<'_> {
         let rest = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);

@@ -6,11 +6,15 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, ensure};
 use image::codecs::png::PngDecoder;
-use image::{DynamicImage, ImageDecoder};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError};
 
 use super::limits::Limits;
 use super::text::{Named, open};
 use super::warnings::{Kind, Warnings};
+
+/// What decoding may take beside the texels: a few rows, and profiles and texts, which nothing here reads. A
+/// small file can hold a profile that unpacks to gigabytes; one that is larger is passed over.
+const BESIDE_BYTES: u64 = 16 << 20;
 
 /// An image of 8 bits a channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,26 +112,37 @@ impl TextureFile {
         ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
         file.rewind().with_context(|| format!("{shown}: cannot be read"))?;
 
-        let broken =
-            |error| anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {error}");
-        let mut image_limits = image::Limits::default();
-        image_limits.max_alloc = Some(limits.texture_bytes);
-        let decoder = PngDecoder::with_limits(file, image_limits).map_err(broken)?;
+        let broken = |error| match error {
+            ImageError::Limits(_) => anyhow!(
+                "{shown}: has texts of more than {BESIDE_BYTES} bytes beside its texels; save it without"
+            ),
+            error => anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {error}"),
+        };
+        let mut beside = image::Limits::default();
+        beside.max_alloc = Some(BESIDE_BYTES);
+        let decoder = PngDecoder::with_limits(file, beside).map_err(broken)?;
         let (width, height) = decoder.dimensions();
         let side = limits.texture_side;
         ensure!(
             width.max(height) <= side,
             "{shown}: is {width} x {height} texels, at most {side} x {side} are read"
         );
-        // Decoding takes what the file has a channel, 16 bits perhaps; the texture takes 8.
-        let bytes = decoder.total_bytes().max(u64::from(width) * u64::from(height) * 4);
-        *left = left.checked_sub(bytes).with_context(|| {
-            let most = limits.texture_bytes;
-            format!("{shown}: is too large: all textures together may take {most} bytes")
-        })?;
+        let texels = u64::from(width) * u64::from(height);
+        let (color, decoded) = (decoder.color_type(), decoder.total_bytes());
+        let wants_luminance = self.opacity && !color.has_alpha();
+        // What the file has, 16 bits a channel perhaps, stands beside the 8 bits that are made of it.
+        let converted = if color == ColorType::Rgba8 { 0 } else { 4 * texels };
+        let need = decoded + converted + if wants_luminance { texels } else { 0 };
+        ensure!(
+            need <= *left,
+            "{shown}: is {width} x {height} texels, which take {need} bytes to decode; all textures \
+             together may take {}, of which {left} are left",
+            limits.texture_bytes
+        );
+        *left -= 4 * texels;
         let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
 
-        let luminance = (self.opacity && !image.color().has_alpha()).then(|| image.to_luma8());
+        let luminance = wants_luminance.then(|| image.to_luma8());
         let mut rgba = image.into_rgba8().into_raw();
         for (texel, luminance) in
             rgba.chunks_exact_mut(4).zip(luminance.iter().flat_map(|luma| luma.as_raw()))

@@ -2,13 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use glam::{Affine3A, DVec3, Vec3};
 
-use super::{Camera, Mesh, Model, obj};
-
-/// The farthest coordinate: intersection multiplies two of them and adds up a few such products.
-const REACH: f32 = 1e18;
+use super::{Camera, Model, obj};
 
 /// Meshes, materials and textures with their placements.
 #[derive(Clone)]
@@ -39,7 +36,7 @@ impl Scene {
     /// Opens an OBJ file: each mesh once, where the file puts it, seen whole.
     ///
     /// # Errors
-    /// If the file is missing or wrong, with file and line, or reaches too far.
+    /// As [`obj::load`].
     pub fn open(path: &Path) -> Result<Self> {
         let model = obj::load(path)?;
         let instances = (0..model.meshes.len())
@@ -51,15 +48,6 @@ impl Scene {
             })
             .collect();
         let mut scene = Self { model, instances, camera: Camera::default() };
-        let corners = scene.model.meshes.iter().map(Mesh::bounds);
-        let reach = corners
-            .fold(0f32, |reach, (low, high)| reach.max(low.abs().max(high.abs()).max_element()));
-        ensure!(
-            reach <= REACH,
-            "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of two coordinates \
-             overflow in 32 bits",
-            path.display()
-        );
         scene.camera = scene.camera_on_all();
         Ok(scene)
     }

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use anyhow::Result;
 use common::scene::text::{Folder, quoted};
-use common::scene::{Camera, Instance, Material, Model, Scene, assets, obj, place_position};
+use common::scene::{
+    Camera, Instance, Material, Mesh, Model, REACH, Scene, assets, obj, place_position,
+};
 use glam::{Affine3A, Mat3A};
 use toml::Spanned;
 
@@ -199,6 +201,7 @@ fn place(
     source: &Source,
 ) -> Result<Vec<Instance>> {
     let meshes = numbers(model.meshes.iter().map(|mesh| &mesh.name));
+    let reaches: Vec<f32> = model.meshes.iter().map(Mesh::reach).collect();
     let placed = pieces.iter().map(|piece| {
         let Piece { mesh, at, turn, size, material } = piece.get_ref();
         let mesh = *meshes.get(mesh.get_ref()).ok_or_else(|| {
@@ -210,6 +213,14 @@ fn place(
             Some(name) => find(model, materials, name, source)?,
             None => model.meshes[mesh].material,
         };
+        let reach = reaches[mesh] * size;
+        if reach > REACH {
+            let what = format!(
+                "a piece that reaches {reach:e} from its place; beyond {REACH:e}, products of two coordinates \
+                 overflow in 32 bits"
+            );
+            return Err(source.error(piece.span().start, &what));
+        }
         let matrix3 = Mat3A::from_rotation_y(turn.to_radians()) * *size;
         let transform = Affine3A { matrix3, translation: (*at).into() };
         Ok(Instance { mesh, transform, material, record_offset: 0 })

@@ -6,6 +6,7 @@ mod description;
 mod names;
 mod polytope;
 mod source;
+mod tally;
 mod values;
 
 use std::path::Path;
@@ -30,15 +31,17 @@ pub fn open(path: &Path) -> Result<Composition> {
         return checked(Composition::of_meshes(Scene::open(path)?), path);
     }
     let source = Source::open(path)?;
+    let table = source.table()?;
     // The version before the rest: what the rest means depends on it.
-    let table: toml::Table = source.parse()?;
-    if table.get("version").and_then(toml::Value::as_integer) != Some(VERSION) {
+    let version = table.get_ref().get("version").and_then(|value| value.get_ref().as_integer());
+    let version = version.and_then(|n| i64::from_str_radix(n.as_str(), n.radix()).ok());
+    if version != Some(VERSION) {
         let at = source.line_of("version").unwrap_or(0);
         let what =
             format!("a scene file has the key `version = {VERSION}`; no other version is known");
         return Err(source.error(at, &what));
     }
-    checked(source.parse::<Description>()?.compose(path, &source)?, path)
+    checked(source.read::<Description>(table)?.compose(path, &source)?, path)
 }
 
 /// Holds that what shines can be listed.

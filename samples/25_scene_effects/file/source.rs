@@ -7,6 +7,9 @@ use anyhow::{Result, anyhow};
 use common::scene::text::{open, shown};
 use serde::Deserialize;
 use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
+
+use super::tally::Tally;
 
 /// Bytes of a scene file.
 const FILE_BYTES: u64 = 16 << 20;
@@ -54,15 +57,24 @@ impl Source {
         anyhow!("{}:{line}: {}", self.shown, what.trim().replace('\n', "; "))
     }
 
-    /// Reads the text as a table.
-    pub fn parse<'a, T: Deserialize<'a>>(&'a self) -> Result<T> {
-        toml::from_str(&self.text).map_err(|error| {
-            let what = error.message();
-            let what = what.replace("expected a boolean", "expected true or false");
-            let what =
-                what.replace("expected a sequence", "expected tables, each under [[its name]]");
-            self.error(error.span().map_or(0, |span| span.start), &what)
-        })
+    /// The text as a table, unless that would take too much memory.
+    pub fn table(&self) -> Result<Spanned<DeTable<'_>>> {
+        Tally::of(&self.text)
+            .and_then(|tally| tally.check())
+            .map_err(|error| anyhow!("{}: {error}", self.shown))?;
+        DeTable::parse(&self.text).map_err(|error| self.wrong(&error))
+    }
+
+    /// What the table says.
+    pub fn read<'a, T: Deserialize<'a>>(&self, table: Spanned<DeTable<'a>>) -> Result<T> {
+        T::deserialize(Deserializer::from(table)).map_err(|error| self.wrong(&error))
+    }
+
+    fn wrong(&self, error: &toml::de::Error) -> anyhow::Error {
+        let what = error.message();
+        let what = what.replace("expected a boolean", "expected true or false");
+        let what = what.replace("expected a sequence", "expected tables, each under [[its name]]");
+        self.error(error.span().map_or(0, |span| span.start), &what)
     }
 
     /// Refuses a list that is too long, at its first entry too many.

@@ -99,6 +99,17 @@ fn a_file_that_promises_too_much_is_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn a_file_longer_than_its_picture_can_be_is_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.sums");
+    some(0..4).save(&file).unwrap();
+    // Four gigabytes that are a hole in the file.
+    std::fs::File::options().write(true).open(&file).unwrap().set_len(4 << 30).unwrap();
+    let line = Sums::open(&file).unwrap_err().to_string();
+    assert!(line.contains("is too large: 4294967296 bytes, at most 1049736"), "{line}");
+}
+
+#[test]
 fn what_does_not_fit_is_named() {
     let mine = some(0..4).header.origin;
     let line = |change: &dyn Fn(&mut Origin)| {

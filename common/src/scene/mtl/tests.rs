@@ -89,6 +89,15 @@ fn files_that_are_wrong() {
     let few = Limits { mtl_bytes: 8, ..Limits::DEFAULT };
     let error = load_files(&files, &few).unwrap_err();
     assert_eq!(error, "m.mtl: is too large: 9 bytes, at most 8 are read");
+    let files: [(&str, &[u8]); 3] =
+        [("model.obj", b"mtllib a b\n"), ("a", b"newmtl a\n"), ("b", b"newmtl b\nnewmtl c\n")];
+    let few = Limits { mtl_bytes: 20, ..Limits::DEFAULT };
+    let error = load_files(&files, &few).unwrap_err();
+    let words = "b: is too large: with the MTL files before it 27 bytes, at most 20 are read";
+    assert_eq!(error, words);
+    let few = Limits { materials: 2, ..Limits::DEFAULT };
+    let error = load_files(&files, &few).unwrap_err();
+    assert_eq!(error, "b:2: more than 2 materials, the most that are read");
 }
 
 #[test]

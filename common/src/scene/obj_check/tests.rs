@@ -142,14 +142,29 @@ fn statements_of_other_formats_are_passed_over() {
 }
 
 #[test]
+fn what_takes_too_much_memory_is_refused_with_all_that_it_would_take() {
+    // A corner takes 169 bytes, and is written in two.
+    let limits = Limits { memory: 1_000_000, ..Limits::DEFAULT };
+    let polygon = |corners: usize| format!("v 0 0 0\nf{}\n", " 1".repeat(corners));
+    let load = |text: &str| load_files(&[("model.obj", text.as_bytes())], &limits);
+    load(&polygon(1000).repeat(5)).unwrap();
+    let refused = load(&polygon(1000).repeat(10_000)).unwrap_err();
+    let words = "model.obj: would take up to 1.9 GB of memory with its 10000000 corners of 10000 faces, \
+                 10000 positions and 0 meshes; at most 0.0 GB are taken";
+    assert_eq!(refused, words);
+    let libraries = Limits { libraries: 3, ..Limits::DEFAULT };
+    let refused = load_files(&[("model.obj", b"mtllib a\nmtllib b b\nmtllib c\n")], &libraries);
+    assert_eq!(
+        refused.unwrap_err(),
+        "model.obj:3: more than 3 MTL files, the most that are looked for"
+    );
+}
+
+#[test]
 fn more_than_the_limits() {
-    let few = Limits { elements: 3, meshes: 1, obj_bytes: 100, ..Limits::DEFAULT };
+    let few = Limits { meshes: 1, obj_bytes: 100, ..Limits::DEFAULT };
     let most = ", the most that are read";
     for (obj, message) in [
-        ("v 0 0 0\n".repeat(4), format!(":4: more than 3 positions{most}")),
-        ("vn 0 0 0\n".repeat(4), format!(":4: more than 3 normals{most}")),
-        ("vt 0\n".repeat(4), format!(":4: more than 3 texture coordinates{most}")),
-        ("v 0 0 0\nf 1 1 1 1 1\nf 1 1 1\n".into(), format!(":3: more than 3 triangles{most}")),
         ("o a\no b\n".into(), format!(":2: more than 1 objects and materials{most}")),
         (" ".repeat(101), ": is too large: 101 bytes, at most 100 are read".into()),
     ] {

@@ -162,15 +162,51 @@ fn textures_that_are_too_large() {
     let side = "the texture t.png: is 16385 x 1 texels, at most 16384 x 16384 are read";
     warned("map_Kd t.png", &wide, side);
 
-    let limits = Limits { texture_bytes: 1000, ..Limits::DEFAULT };
+    // Two textures of 576 bytes; the second still takes as much beside it while it is read.
     let small = png(&[[0; 4]; 144], 12);
-    let files: [(&str, &[u8]); 2] = [("a.png", &small), ("b.png", &small)];
-    let obj = format!("mtllib m.mtl\n{TRIANGLE}");
-    let mtl: &[u8] = b"newmtl a\nmap_Kd a.png\nmap_d b.png\n";
-    let all = [("model.obj", obj.as_bytes()), ("m.mtl", mtl), files[0], files[1]];
-    let model = load_files(&all, &limits).unwrap();
-    let most = "is too large: all textures together may take 1000 bytes";
-    let plain = "the plain colour stands for it (1 in all)";
-    assert_eq!(model.warnings, [format!("m.mtl:3: the texture b.png: {most}; {plain}")]);
-    assert_eq!(model.textures.len(), 1);
+    let deep = encoded(DynamicImage::new_rgba16(12, 12));
+    for (most, second, need) in [(1000, &small, 576), (2000, &deep, 1728)] {
+        let limits = Limits { texture_bytes: most, ..Limits::DEFAULT };
+        let obj = format!("mtllib m.mtl\n{TRIANGLE}");
+        let mtl: &[u8] = b"newmtl a\nmap_Kd a.png\nmap_d b.png\n";
+        let obj = ("model.obj", obj.as_bytes());
+        let all = [obj, ("m.mtl", mtl), ("a.png", &small), ("b.png", second)];
+        let model = load_files(&all, &limits).unwrap();
+        let words = format!(
+            "m.mtl:3: the texture b.png: is 12 x 12 texels, which take {need} bytes to decode; all \
+             textures together may take {most}, of which {} are left; the plain colour stands for it (1 \
+             in all)",
+            most - 576
+        );
+        assert_eq!(model.warnings, [words]);
+        assert_eq!(model.textures.len(), 1);
+    }
+}
+
+/// A chunk of a PNG file, as PNG, third edition, 5.3 has it.
+fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let content = [kind, data].concat();
+    let crc = crc32fast::hash(&content).to_be_bytes();
+    [&(data.len() as u32).to_be_bytes()[..], &content, &crc].concat()
+}
+
+#[test]
+fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() {
+    let plain = png(&[[1, 2, 3, 4]], 1);
+    // The header's chunk ends here.
+    let (start, end) = plain.split_at(33);
+    let with = |chunk: Vec<u8>| [start, &chunk, end].concat();
+    let mut packed =
+        flate2::write::ZlibEncoder::new(b"p\0\0".to_vec(), flate2::Compression::best());
+    let zeros = vec![0; 1 << 20];
+    for _ in 0..2 * BESIDE_BYTES >> 20 {
+        std::io::Write::write_all(&mut packed, &zeros).unwrap();
+    }
+    let profile = with(chunk(b"iCCP", &packed.finish().unwrap()));
+    let (_, textures) = load("newmtl a\nmap_Kd t.png\n", &[("t.png", &profile)]).unwrap();
+    assert_eq!(textures[0].rgba, [1, 2, 3, 4]);
+    let text = with(chunk(b"tEXt", &[b"a\0".to_vec(), vec![b'a'; BESIDE_BYTES as usize]].concat()));
+    let words = "the texture t.png: has texts of more than 16777216 bytes beside its texels; save it \
+                 without";
+    warned("map_Kd t.png", &text, words);
 }
