@@ -161,7 +161,7 @@ pub const SHADERS: Tried = Tried {
         command
     },
     writes: &[],
-    count: 300,
+    count: 80,
 };
 
 /// The program, ready to be asked.

@@ -34,6 +34,7 @@ pub struct Watch {
     format: Format,
     function: Function,
     worker: Option<Worker>,
+    patience: Duration,
 }
 
 struct Worker {
@@ -47,7 +48,13 @@ impl Watch {
     pub fn new(format: Format, function: Function) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         (function.beside)(folder.path());
-        Self { folder, format, function, worker: None }
+        Self { folder, format, function, worker: None, patience: PATIENCE }
+    }
+
+    /// The same, with less patience.
+    #[must_use]
+    pub fn within(self, patience: Duration) -> Self {
+        Self { patience, ..self }
     }
 
     fn file(&self) -> PathBuf {
@@ -65,8 +72,8 @@ impl Watch {
                 Err(RecvTimeoutError::Timeout) if worker.exceeded.load(Ordering::Acquire) => {
                     break Err(Fault::Memory(self.function.memory as u64));
                 }
-                Err(RecvTimeoutError::Timeout) if start.elapsed() < PATIENCE => {}
-                Err(RecvTimeoutError::Timeout) => break Err(Fault::Endless(PATIENCE)),
+                Err(RecvTimeoutError::Timeout) if start.elapsed() < self.patience => {}
+                Err(RecvTimeoutError::Timeout) => break Err(Fault::Endless(self.patience)),
                 Err(RecvTimeoutError::Disconnected) => {
                     break Err(Fault::Panic("the thread is gone".to_owned()));
                 }
