@@ -3,20 +3,14 @@
 
 use std::process::ExitCode;
 
-use common::app::output::complain;
+use common::app::finish;
 use common::gpu::Arithmetic;
 use common::gpu::shader::compile_with;
 
 fn main() -> ExitCode {
-    let path = std::env::args().nth(1).expect("the path of a shader");
-    let compiled = [Arithmetic::Driver, Arithmetic::Worst]
-        .into_iter()
-        .try_for_each(|arithmetic| compile_with(&path, &[], arithmetic).map(drop));
-    match compiled {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            complain(&format!("error: {error:#}"));
-            ExitCode::FAILURE
-        }
-    }
+    finish(|| {
+        let path = std::env::args().nth(1).expect("the path of a shader");
+        let ways = [Arithmetic::Driver, Arithmetic::Worst];
+        ways.into_iter().try_for_each(|way| compile_with(&path, &[], way).map(drop))
+    })
 }
