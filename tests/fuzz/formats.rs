@@ -12,6 +12,19 @@ pub mod texture;
 use std::fs;
 use std::path::Path;
 
+use crate::format::{Format, Function};
+
+/// What reads in this process, each with how many inputs `cargo test` tries: a few seconds' worth.
+pub const FUNCTIONS: [(Format, Function, usize); 7] = [
+    (object::FORMAT, object::FUNCTION, 8000),
+    (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),
+    (texture::FORMAT, texture::FUNCTION, 2000),
+    (scene::FORMAT, scene::FUNCTION, 2000),
+    (game::FORMAT, game::FUNCTION, 3000),
+    (sums::FORMAT, sums::FUNCTION, 8000),
+    (settings::FORMAT, settings::FUNCTION, 8000),
+];
+
 /// The files of a folder of the corpus, in the order of their names.
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let folder = run::root().join("tests/fuzz/corpus").join(name);

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use fuzz::fault::{Fault, Found};
 use fuzz::format::{Answer, Reader};
+use fuzz::formats::FUNCTIONS;
 use fuzz::program::Program;
 use fuzz::session::Session;
 use fuzz::watch::Watch;
@@ -48,7 +49,7 @@ fn is_wanted(name: &str) -> bool {
 fn for_long() {
     let seconds = number("FUZZ_SECONDS").unwrap_or(3600);
     let seed = number("FUZZ_SEED").unwrap_or(SEED);
-    let functions = functions::ALL.into_iter().filter(|one| is_wanted(one.0.name));
+    let functions = FUNCTIONS.into_iter().filter(|one| is_wanted(one.0.name));
     let functions = functions.map(|one| (one.0.name, Either::Function(functions::session(one, seed))));
     let programs = programs::ALL.into_iter().chain([programs::SHADERS]);
     let programs = programs.filter(|one| is_wanted(one.name));
@@ -95,7 +96,7 @@ fn one_input() {
 
 /// What the reader of a name makes of an input.
 fn answer(reader: &str, input: &[u8]) -> Result<Answer, Fault> {
-    if let Some((format, function, _)) = functions::ALL.into_iter().find(|one| one.0.name == reader) {
+    if let Some((format, function, _)) = FUNCTIONS.into_iter().find(|one| one.0.name == reader) {
         return Watch::new(format, function).ask(input);
     }
     let programs = programs::ALL.into_iter().chain([programs::SHADERS]);

@@ -13,7 +13,7 @@ use crate::fault::Fault;
 use crate::format::{Answer, Format, Reader};
 
 /// After this time nobody waits any longer.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(180);
 /// Bytes that a process may have, a device and its shader compiler among them.
 const MEMORY: u64 = 1 << 30;
 /// Letters of a line: `output` cuts at 2000, and escapes them before.

@@ -18,9 +18,18 @@ pub const FORMAT: Format = Format {
     most: 1 << 15,
     make: |random| GRAMMAR.text(random, 2000).into_bytes(),
     grammar: Some(|| &GRAMMAR),
-    seeds: || [vec![ours("shaders/05_shadow_miss/shadow.rmiss")], corpus("shader")].concat(),
+    seeds: || {
+        let right = ours("shaders/05_shadow_miss/shadow.rmiss");
+        [vec![right, long_sum()], corpus("shader")].concat()
+    },
     seal: None,
 };
+
+/// More terms than glslang's stack bears: it goes down into a sum term by term.
+fn long_sum() -> Vec<u8> {
+    let sum = " + x".repeat(60_000);
+    format!("#version 460\nfloat much(float x) {{ return x{sum}; }}\nvoid main() {{ }}\n").into()
+}
 
 /// The files that shaders include: one that includes both, and one that includes itself.
 pub fn beside(folder: &Path) {
