@@ -50,7 +50,8 @@ fn for_long() {
     let seconds = number("FUZZ_SECONDS").unwrap_or(3600);
     let seed = number("FUZZ_SEED").unwrap_or(SEED);
     let functions = FUNCTIONS.into_iter().filter(|one| is_wanted(one.0.name));
-    let functions = functions.map(|one| (one.0.name, Either::Function(functions::session(one, seed))));
+    let functions =
+        functions.map(|one| (one.0.name, Either::Function(functions::session(one, seed))));
     let programs = programs::ALL.into_iter().chain([programs::SHADERS]);
     let programs = programs.filter(|one| is_wanted(one.name));
     let programs = programs.map(|one| (one.name, Either::Program(programs::session(one, seed))));

@@ -6,7 +6,13 @@ use crate::grammar::{ODD_NUMBERS, ODD_WORDS};
 
 /// Changes an input in one to four places. `other` is an input to take parts from, `words` what stands in
 /// inputs of this kind.
-pub fn mutate(random: &mut Random, input: &[u8], other: &[u8], words: &[&str], most: usize) -> Vec<u8> {
+pub fn mutate(
+    random: &mut Random,
+    input: &[u8],
+    other: &[u8],
+    words: &[&str],
+    most: usize,
+) -> Vec<u8> {
     let mut bytes = input.to_vec();
     for _ in 0..1 + random.below(4) {
         match random.below(3) {

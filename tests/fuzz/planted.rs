@@ -110,8 +110,11 @@ fn memory_for_what_a_header_promises_is_found() {
     // As many texels as the file says, whatever it has: nothing of them is ever touched.
     let read = |path: &Path| {
         let bytes = std::fs::read(path)?;
-        let side = |at: usize| bytes.get(at..at + 4).map_or(0, |four| u32::from_be_bytes(four.try_into().unwrap()));
-        let texels = vec![0u8; 4 * (side(16) as usize).min(1 << 20) * (side(20) as usize).min(1 << 20)];
+        let side = |at: usize| {
+            bytes.get(at..at + 4).map_or(0, |four| u32::from_be_bytes(four.try_into().unwrap()))
+        };
+        let texels =
+            vec![0u8; 4 * (side(16) as usize).min(1 << 20) * (side(20) as usize).min(1 << 20)];
         Ok(format!("{}", texels.len()))
     };
     let function = Function { beside: nothing, read, memory: texture::FUNCTION.memory };

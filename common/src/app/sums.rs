@@ -225,7 +225,8 @@ impl Sums {
         );
         // A header may be so long that the checksum is its end.
         let packed = all.len().checked_sub(crc.len());
-        let packed = packed.with_context(|| damaged(name, "it ends within its header").to_string())?;
+        let packed =
+            packed.with_context(|| damaged(name, "it ends within its header").to_string())?;
         let mut sums = ZlibDecoder::new(&all[..packed]);
         // It grows as there is something to put in, whatever the header promises.
         let mut values = Vec::new();

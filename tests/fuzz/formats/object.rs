@@ -29,7 +29,9 @@ pub const FORMAT: Format = Format {
     most: 1 << 16,
     make: |random| OBJECT.text(random, 4000).into_bytes(),
     grammar: Some(|| &OBJECT),
-    seeds: || [vec![MODEL.into(), ours("samples/assets/box_on_plane.obj")], corpus("object")].concat(),
+    seeds: || {
+        [vec![MODEL.into(), ours("samples/assets/box_on_plane.obj")], corpus("object")].concat()
+    },
     seal: None,
 };
 
@@ -52,7 +54,9 @@ pub const MATERIAL_FORMAT: Format = Format {
     most: 1 << 16,
     make: |random| MATERIAL.text(random, 4000).into_bytes(),
     grammar: Some(|| &MATERIAL),
-    seeds: || [vec![MATERIALS.into(), ours("samples/assets/chess.mtl")], corpus("material")].concat(),
+    seeds: || {
+        [vec![MATERIALS.into(), ours("samples/assets/chess.mtl")], corpus("material")].concat()
+    },
     seal: None,
 };
 

@@ -45,7 +45,8 @@ fn read(path: &Path) -> Result<String> {
 
 /// Holds that every index is one of something, and that nothing lies where no ray can go.
 fn whole(composition: &Composition) {
-    let Composition { scene, lights, spheres, boxes, solids, faces, solid_bounds, .. } = composition;
+    let Composition { scene, lights, spheres, boxes, solids, faces, solid_bounds, .. } =
+        composition;
     object::whole(&scene.model);
     let materials = scene.model.materials.len();
     assert_eq!(composition.finishes.len(), materials);

@@ -96,7 +96,8 @@ fn read(path: &Path) -> Result<String> {
         }
     }
     let pairs = text.lines().filter_map(|line| line.split_once('='));
-    let sets: Vec<_> = pairs.map(|(name, value)| (name.trim().into(), value.trim().into())).collect();
+    let sets: Vec<_> =
+        pairs.map(|(name, value)| (name.trim().into(), value.trim().into())).collect();
     let camera = Camera::new(DVec3::new(0.0, 1.0, 5.0), DVec3::ZERO, 40.0);
     let sun = Sun { azimuth: 30.0, elevation: 40.0, radiance: Vec3::ONE };
     let mut all = All {

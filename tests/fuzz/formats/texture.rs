@@ -42,7 +42,11 @@ const JPEG: &[u8] =
 pub fn small() -> Vec<u8> {
     let mut bytes = SIGNATURE.to_vec();
     chunk(&mut bytes, b"IHDR", &header(2, 2, 8, 6, 0));
-    chunk(&mut bytes, b"IDAT", &packed(&[0, 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 0, 255, 0, 9, 9, 9, 255]));
+    chunk(
+        &mut bytes,
+        b"IDAT",
+        &packed(&[0, 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 0, 255, 0, 9, 9, 9, 255]),
+    );
     chunk(&mut bytes, b"IEND", &[]);
     bytes
 }
@@ -84,7 +88,8 @@ fn make(random: &mut Random) -> Vec<u8> {
     let (depth, color) = match random.below(8) {
         0 => (random.bits() as u8, random.bits() as u8),
         _ => {
-            let kinds = [(8, 0), (8, 2), (8, 3), (8, 4), (8, 6), (16, 0), (16, 2), (16, 6), (1, 0), (4, 3)];
+            let kinds =
+                [(8, 0), (8, 2), (8, 3), (8, 4), (8, 6), (16, 0), (16, 2), (16, 6), (1, 0), (4, 3)];
             kinds[random.below(kinds.len())]
         }
     };

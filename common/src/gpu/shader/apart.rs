@@ -51,14 +51,14 @@ pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec
     let question =
         Question { path: path.to_owned(), text: text.to_owned(), defines: defines.collect() };
     let question = serde_json::to_vec(&question)?;
-    let words = child::ask(child::command()?.arg(ASKED), &question).map_err(|error| {
-        match error.downcast_ref() {
-            Some(Crashed(status)) if is_late(*status) => {
-                anyhow!("shader '{path}' does not compile: the compiler takes more than {SECONDS} s")
-            }
-            Some(crashed) => anyhow!("shader '{path}' does not compile: {crashed}"),
-            None => error,
+    let words = child::ask(child::command()?.arg(ASKED), &question).map_err(|error| match error
+        .downcast_ref()
+    {
+        Some(Crashed(status)) if is_late(*status) => {
+            anyhow!("shader '{path}' does not compile: the compiler takes more than {SECONDS} s")
         }
+        Some(crashed) => anyhow!("shader '{path}' does not compile: {crashed}"),
+        None => error,
     })?;
     Ok(bytemuck::pod_collect_to_vec(&words))
 }
@@ -98,7 +98,7 @@ fn bound() {
 #[cfg(unix)]
 fn is_late(status: std::process::ExitStatus) -> bool {
     use std::os::unix::process::ExitStatusExt;
-    matches!(status.signal(), Some(libc::SIGXCPU | libc::SIGKILL))
+    status.signal() == Some(libc::SIGXCPU)
 }
 
 #[cfg(not(unix))]
