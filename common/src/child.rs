@@ -1,9 +1,22 @@
 //! This program started again, to answer one question: what it does may crash, and its parent must not.
 
+use std::fmt::{Display, Formatter};
 use std::io::Write;
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 
 use anyhow::{Context, Result, bail};
+
+/// The end of a child that has given neither an answer nor a reason.
+#[derive(Debug)]
+pub struct Crashed(pub ExitStatus);
+
+impl Display for Crashed {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the compiler crashed ({})", self.0)
+    }
+}
+
+impl std::error::Error for Crashed {}
 
 /// This program, to be asked with [`ask`].
 ///
@@ -16,7 +29,7 @@ pub fn command() -> Result<Command> {
 /// Writes a question to a child's standard input, and returns what it has said on standard output.
 ///
 /// # Errors
-/// If it does not start, refuses, with its own line, or crashes.
+/// If it does not start, refuses, with its own line, or crashes: [`Crashed`].
 pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     let mut child = command
         .stdin(Stdio::piped())
@@ -35,6 +48,6 @@ pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     let said = String::from_utf8_lossy(&output.stderr);
     match said.lines().find_map(|line| line.strip_prefix("error: ")) {
         Some(error) => bail!("{error}"),
-        None => bail!("the compiler crashed ({})", output.status),
+        None => bail!(Crashed(output.status)),
     }
 }

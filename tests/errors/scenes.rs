@@ -293,8 +293,13 @@ fn pieces_and_models_that_are_wrong() {
     for outside in ["../m.obj", "/etc/passwd", "a/../../m.obj", "C:\\m.obj"] {
         file_refused(&model(outside), "outside the scene file's folder; copy it into the folder");
     }
-    let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", "v 0 nan 0\n")]);
-    refused_by(command, 1, &["m.obj:1: \"nan\" is not a finite 32-bit number"]);
+    for (text, words) in [
+        ("v 0 nan 0\n", "m.obj:1: \"nan\" is not a finite 32-bit number"),
+        ("v 0 0 1e30\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "m.obj: reaches 1e30 from the origin"),
+    ] {
+        let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", text)]);
+        refused_by(command, 1, &[words]);
+    }
 }
 
 #[test]

@@ -92,6 +92,27 @@ fn a_circle_of_includes_is_spliced_once() {
 }
 
 #[test]
+fn includes_that_double_level_by_level_come_to_an_end() {
+    let folder = folder("02_basic/push.glsl", appended("#include \"0.glsl\""));
+    for level in 0..15 {
+        let next = format!("#include \"{}.glsl\"\n", level + 1);
+        fs::write(folder.path().join(format!("02_basic/{level}.glsl")), next.repeat(8)).unwrap();
+    }
+    fs::write(folder.path().join("02_basic/15.glsl"), "").unwrap();
+    shaders_refused(folder.path(), &["with its includes it has more than 4194304 bytes"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_compiler_that_crashes_takes_its_own_process_alone() {
+    // It goes down into a sum term by term, and has a stack of a few megabytes.
+    let sum = format!("float much(float x) {{ return x{}; }}", " + x".repeat(100_000));
+    let folder = folder("02_basic/sky.rmiss", appended(&sum));
+    let words = "shader '02_basic/sky.rmiss' does not compile: the compiler crashed (signal: ";
+    shaders_refused(folder.path(), &[words]);
+}
+
+#[test]
 fn shaders_that_are_missing() {
     let folder = folder("02_basic/sky.rmiss", appended(""));
     fs::remove_file(folder.path().join("02_basic/sky.rmiss")).unwrap();

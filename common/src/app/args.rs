@@ -98,10 +98,6 @@ pub struct Args {
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,
 
-    /// Compile the shader on standard input: the child of a window, as a compiler may abort on an edit
-    #[arg(long, hide = true)]
-    pub answer_compile: bool,
-
     /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
     #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
     pub arithmetic: Arithmetic,

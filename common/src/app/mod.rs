@@ -41,7 +41,7 @@ pub use samples::{Samples, range};
 pub use crate::gpu::shader::compile as compile_shader;
 
 use self::interrupt::Stopped;
-use crate::gpu::shader::apart;
+use crate::gpu::shader::{apart, are_others};
 use crate::gpu::{self, Gpu, Image, Requirements};
 use crate::scene::text::shown;
 use crate::scene::{Scene, SceneOptions};
@@ -201,10 +201,18 @@ pub fn run<S: Sample>(name: &'static str) -> ExitCode {
 }
 
 /// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
-/// half-written file.
+/// half-written file. Shaders of a folder that is not the project's are compiled in a process of their own.
 pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
     interrupt::watch();
-    exit_code(program)
+    exit_code(|| {
+        if apart::is_asked() {
+            return apart::answer();
+        }
+        if are_others() {
+            apart::want();
+        }
+        program()
+    })
 }
 
 /// As [`finish`], for a program that heeds signals itself.
@@ -227,9 +235,6 @@ pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
 pub fn start<S: Sample>(name: &str, args: &Args) -> Result<()> {
     if args.list_devices {
         return list_devices(&S::requirements());
-    }
-    if args.answer_compile {
-        return apart::answer();
     }
     if args.answer_compile_for {
         return compile_for::answer(&S::requirements());

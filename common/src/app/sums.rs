@@ -230,7 +230,11 @@ impl Sums {
             found == u32::from_le_bytes(*crc),
             damaged(name, "it is cut off, or its bytes are not those that were written")
         );
-        let mut sums = ZlibDecoder::new(&all[..all.len() - crc.len()]);
+        // A header may be so long that the checksum is its end.
+        let packed = all.len().checked_sub(crc.len());
+        let packed =
+            packed.with_context(|| damaged(name, "it ends within its header").to_string())?;
+        let mut sums = ZlibDecoder::new(&all[..packed]);
         // It grows as there is something to put in, whatever the header promises.
         let mut values = Vec::new();
         let mut some = [0; 4096];

@@ -27,6 +27,10 @@ const INCLUDE_EXTENSION: &str = "GL_GOOGLE_include_directive";
 /// How deep `#include` may nest; more is taken for a circle.
 const MAX_INCLUDE_DEPTH: usize = 16;
 
+/// Bytes of a shader with all its includes. Without a bound, a few files that include each other twice are more
+/// than any memory holds.
+const MOST_BYTES: usize = 4 << 20;
+
 /// A compiled shader.
 pub struct Shader {
     /// Its path below `shaders/`, such as `02_basic/camera.rgen`.
@@ -50,6 +54,11 @@ pub struct UintConstant {
     pub value: u32,
     /// Where it is: file and line.
     pub place: String,
+}
+
+/// Whether shaders are another's than the project's.
+pub fn are_others() -> bool {
+    std::env::var_os("SHADERS").is_some()
 }
 
 /// The folder that holds every shader: `SHADERS` in the environment, else the project's own.
@@ -163,6 +172,11 @@ impl Source {
         // A pipe by that name would keep the reader waiting.
         let metadata = fs::metadata(&file).with_context(failed)?;
         ensure!(metadata.is_file(), "{}: it is not a file", failed());
+        let bytes = metadata.len().saturating_add(self.text.len() as u64);
+        ensure!(
+            bytes <= MOST_BYTES as u64,
+            "shader '{path}': with its includes it has more than {MOST_BYTES} bytes, the most that are read"
+        );
         let text = fs::read_to_string(&file).with_context(failed)?;
         if let Some(zero) = text.find('\0') {
             let line = 1 + text[..zero].matches('\n').count();

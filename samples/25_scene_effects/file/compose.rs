@@ -95,7 +95,8 @@ impl Description {
             let what = format!("model names {}, which is no file", quoted(named.get_ref()));
             return Err(source.error(named.span().start, &what));
         }
-        obj::load(&path.with_file_name(&found.name))
+        // Opened as a scene, it is held to where rays can go.
+        Ok(Scene::open(&path.with_file_name(&found.name))?.model)
     }
 
     /// Adds and changes materials, and returns the number of each name, and the finishes.

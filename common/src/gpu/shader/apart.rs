@@ -1,11 +1,21 @@
-//! The shader compiler in a process of its own: it may abort on an edit, and a window must not.
+//! The shader compiler in a process of its own: it may abort on an edit, and a window must not. Nor may a short
+//! text of somebody else's take all memory, or all time: macros and structures double line by line.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use serde::{Deserialize, Serialize};
 
-use crate::{child, output};
+use crate::child::{self, Crashed};
+use crate::output;
+
+/// The child's argument.
+const ASKED: &str = "--answer-compile";
+/// The child's time on a processor, in seconds.
+const SECONDS: u64 = 30;
+/// The child's address space, in bytes.
+#[cfg(unix)]
+const BYTES: u64 = 4 << 30;
 
 /// What the child is asked to compile.
 #[derive(Serialize, Deserialize)]
@@ -27,16 +37,29 @@ pub fn is_wanted() -> bool {
     WANTED.load(Ordering::Relaxed)
 }
 
+/// Whether this process is such a child.
+pub fn is_asked() -> bool {
+    std::env::args_os().nth(1).is_some_and(|argument| argument == ASKED)
+}
+
 /// The words of a shader's whole text, as [`super::to_spirv`] makes them.
 ///
 /// # Errors
-/// If the text does not compile, or the compiler crashes.
+/// If the text does not compile, or the compiler crashes or does not come to an end.
 pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
     let defines = defines.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
     let question =
         Question { path: path.to_owned(), text: text.to_owned(), defines: defines.collect() };
     let question = serde_json::to_vec(&question)?;
-    let words = child::ask(child::command()?.arg("--answer-compile"), &question)?;
+    let words = child::ask(child::command()?.arg(ASKED), &question).map_err(|error| match error
+        .downcast_ref()
+    {
+        Some(Crashed(status)) if is_late(*status) => {
+            anyhow!("shader '{path}' does not compile: the compiler takes more than {SECONDS} s")
+        }
+        Some(crashed) => anyhow!("shader '{path}' does not compile: {crashed}"),
+        None => error,
+    })?;
     Ok(bytemuck::pod_collect_to_vec(&words))
 }
 
@@ -45,6 +68,8 @@ pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec
 /// # Errors
 /// If it does not compile.
 pub fn answer() -> Result<()> {
+    #[cfg(unix)]
+    bound();
     let question: Question =
         serde_json::from_reader(std::io::stdin().lock()).context("no shader on standard input")?;
     let (_, stage) = super::stage(&question.path)?;
@@ -52,4 +77,31 @@ pub fn answer() -> Result<()> {
         question.defines.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
     let words = super::to_spirv(&question.path, &question.text, stage, &defines)?;
     output::write(bytemuck::cast_slice(&words))
+}
+
+/// Bounds this process. A limit that cannot be set is a narrower one that there is.
+#[cfg(unix)]
+fn bound() {
+    // A process gets a second to heed the first limit.
+    let cpu = libc::rlimit { rlim_cur: SECONDS, rlim_max: SECONDS + 1 };
+    let memory = libc::rlimit { rlim_cur: BYTES, rlim_max: BYTES };
+    let core = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
+    // SAFETY: the limits are there for the length of the calls.
+    unsafe {
+        libc::setrlimit(libc::RLIMIT_CPU, &cpu);
+        libc::setrlimit(libc::RLIMIT_AS, &memory);
+        libc::setrlimit(libc::RLIMIT_CORE, &core);
+    }
+}
+
+/// Whether a child's time was over.
+#[cfg(unix)]
+fn is_late(status: std::process::ExitStatus) -> bool {
+    use std::os::unix::process::ExitStatusExt;
+    status.signal() == Some(libc::SIGXCPU)
+}
+
+#[cfg(not(unix))]
+fn is_late(_: std::process::ExitStatus) -> bool {
+    false
 }

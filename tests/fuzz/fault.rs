@@ -1,0 +1,89 @@
+//! What no input may bring about, and the file that brings it back.
+
+use std::fmt::{Display, Formatter};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What no input may bring about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// A panic, with its message.
+    Panic(String),
+    /// No answer within so long.
+    Endless(Duration),
+    /// An answer that took so long, the quickest of three times.
+    Slow(Duration),
+    /// More than so many bytes of memory.
+    Memory(u64),
+    /// A line that is none: several, empty, or without the file that it is about.
+    Line(String),
+    /// An end that is neither 0, 1 nor 2.
+    Exit(String),
+    /// Files that were left behind, or are gone.
+    Left(Vec<String>),
+}
+
+impl Fault {
+    /// The kind, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Panic(_) => "panic",
+            Self::Endless(_) => "endless",
+            Self::Slow(_) => "slow",
+            Self::Memory(_) => "memory",
+            Self::Line(_) => "line",
+            Self::Exit(_) => "exit",
+            Self::Left(_) => "left",
+        }
+    }
+}
+
+impl Display for Fault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Panic(message) => write!(f, "it panics: {message}"),
+            Self::Endless(time) => write!(f, "there is no answer within {time:?}"),
+            Self::Slow(time) => write!(f, "the answer takes {time:?}"),
+            Self::Memory(bytes) => write!(f, "it takes more than {bytes} bytes of memory"),
+            Self::Line(line) => write!(f, "this is not one line that says where: {line:?}"),
+            Self::Exit(how) => write!(f, "it ends with {how}"),
+            Self::Left(files) => write!(f, "files are left behind, or gone: {}", files.join(", ")),
+        }
+    }
+}
+
+/// A fault, and the input that brought it about.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Who reads it.
+    pub reader: &'static str,
+    /// Where random numbers began.
+    pub seed: u64,
+    /// How many inputs were tried before.
+    pub number: usize,
+    /// The bytes.
+    pub input: Vec<u8>,
+    /// What they brought about.
+    pub fault: Fault,
+}
+
+impl Found {
+    /// Writes the input below `target/fuzz` and says how to try it again.
+    pub fn keep(&self) -> String {
+        let Self { reader, seed, number, input, fault } = self;
+        let file = PathBuf::from(format!("target/fuzz/{reader}-{}-{seed}-{number}", fault.kind()));
+        let full = run::root().join(&file);
+        let written = full.parent().map_or(Ok(()), fs::create_dir_all);
+        let written = written.and_then(|()| fs::write(&full, input));
+        let again = match written {
+            Ok(()) => format!(
+                "again: FUZZ_READER={reader} FUZZ_INPUT={} cargo test --test fuzz one_input -- --ignored",
+                file.display()
+            ),
+            Err(error) => format!("the input cannot be kept: {error}"),
+        };
+        let bytes = input.len();
+        format!("{reader}: {fault}\nseed {seed}, input {number}, {bytes} bytes\n{again}")
+    }
+}

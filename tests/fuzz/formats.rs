@@ -1,0 +1,43 @@
+//! What is read, one file a format.
+
+pub mod cases;
+pub mod game;
+pub mod object;
+pub mod scene;
+pub mod settings;
+pub mod shader;
+pub mod sums;
+pub mod texture;
+
+use std::fs;
+use std::path::Path;
+
+use crate::format::{Format, Function};
+
+/// What reads in this process, each with how many inputs `cargo test` tries: a few seconds' worth.
+pub const FUNCTIONS: [(Format, Function, usize); 7] = [
+    (object::FORMAT, object::FUNCTION, 8000),
+    (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),
+    (texture::FORMAT, texture::FUNCTION, 2000),
+    (scene::FORMAT, scene::FUNCTION, 2000),
+    (game::FORMAT, game::FUNCTION, 3000),
+    (sums::FORMAT, sums::FUNCTION, 8000),
+    (settings::FORMAT, settings::FUNCTION, 8000),
+];
+
+/// The files of a folder of the corpus, in the order of their names.
+fn corpus(name: &str) -> Vec<Vec<u8>> {
+    let folder = run::root().join("tests/fuzz/corpus").join(name);
+    let entries = folder.read_dir().into_iter().flatten();
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    files.iter().map(|file| fs::read(file).expect("a file of the corpus can be read")).collect()
+}
+
+/// The bytes of a file of the project.
+fn ours(path: &str) -> Vec<u8> {
+    fs::read(run::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// No files beside.
+pub fn nothing(_: &Path) {}

@@ -1,0 +1,71 @@
+//! The moves of a game, which 14 plays.
+
+use std::sync::LazyLock;
+
+use reference::random::Random;
+
+use super::{corpus, nothing, ours};
+use crate::format::{Format, Function};
+use crate::grammar::Grammar;
+
+#[allow(dead_code, missing_docs)]
+#[path = "../../../samples/14_animation/game.rs"]
+mod game;
+#[allow(dead_code, missing_docs)]
+#[path = "../../../samples/14_animation/position.rs"]
+mod position;
+
+use position::{Kind, Move, Position, squares};
+
+static GRAMMAR: LazyLock<Grammar> =
+    LazyLock::new(|| Grammar::new(include_str!("../grammars/game.txt")));
+
+/// The text of a game.
+pub const FORMAT: Format = Format {
+    name: "game",
+    file: "g.txt",
+    most: 1 << 15,
+    make,
+    grammar: Some(|| &GRAMMAR),
+    seeds: || [vec![ours("samples/assets/games/opera.txt")], corpus("game")].concat(),
+    seal: None,
+};
+
+/// What reads it.
+pub const FUNCTION: Function = Function {
+    beside: nothing,
+    read: |path| {
+        let game = game::open(path)?;
+        let became = game.iter().filter(|played| played.by.becomes.is_some()).count();
+        let taken = game.iter().filter(|played| played.taken.is_some()).count();
+        assert!(game.len() <= game::MOST && taken <= 30 && became <= 16);
+        let castled = game.iter().any(|played| played.rook.is_some());
+        Ok(format!("became {} castled {castled}", became > 0))
+    },
+    memory: 16 << 20,
+};
+
+/// By the grammar, or by the rules: at random, as far as it goes.
+fn make(random: &mut Random) -> Vec<u8> {
+    if random.below(4) > 0 {
+        return GRAMMAR.text(random, 2000).into_bytes();
+    }
+    let mut position = Position::start();
+    let mut text = String::new();
+    for _ in 0..random.below(120) {
+        let squares: Vec<_> = squares().collect();
+        let mut tries = (0..2000).map(|_| {
+            let [from, to] = [(); 2].map(|()| squares[random.below(64)]);
+            let becomes = [None, None, Some(Kind::Queen), Some(Kind::Knight)][random.below(4)];
+            Move { from, to, becomes }
+        });
+        let Some(by) = tries.find(|&by| position.play(by).is_ok()) else { break };
+        let becomes = match by.becomes {
+            Some(Kind::Queen) => "=Q",
+            Some(_) => "=N",
+            None => "",
+        };
+        text += &format!("{}-{}{becomes}\n", by.from, by.to);
+    }
+    text.into_bytes()
+}

@@ -1,0 +1,214 @@
+//! What is looked for is found: a fault of each kind, planted where few inputs lead.
+
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::Duration;
+
+use anyhow::{Result, bail};
+use common::scene::Model;
+use common::scene::obj::load;
+use fuzz::fault::{Fault, Found};
+use fuzz::format::{Format, Function, Reader};
+use fuzz::formats::object::{FORMAT, FUNCTION, read, whole};
+use fuzz::formats::{nothing, texture};
+use fuzz::program::Program;
+use fuzz::session::Session;
+use fuzz::watch::Watch;
+
+use crate::SEED;
+
+/// Inputs within which a fault is to be found: fewer than `cargo test` tries of models.
+const BUDGET: usize = 4000;
+
+/// What is found by a reader of inputs of a format.
+#[track_caller]
+fn found(format: Format, reader: impl Reader) -> Found {
+    let mut session = Session::new("planted", format, reader, SEED);
+    let found = session.steps(BUDGET).expect_err("the fault is not found");
+    println!("input {}: {}", found.number, found.fault);
+    found
+}
+
+/// What is found with a function in place of that which reads models.
+#[track_caller]
+fn found_in(read: fn(&Path) -> Result<String>) -> Fault {
+    let watch = Watch::new(FORMAT, Function { read, ..FUNCTION });
+    found(FORMAT, watch.within(Duration::from_secs(3))).fault
+}
+
+/// Whether a model is refused for this.
+fn refused_for(path: &Path, what: &str) -> bool {
+    load(path).is_err_and(|error| error.to_string().contains(what))
+}
+
+/// Whether a model is taken with such a warning.
+fn warned_of(path: &Path, what: &str) -> bool {
+    load(path).is_ok_and(|model| model.warnings.join(" ").contains(what))
+}
+
+#[test]
+fn a_panic_is_found() {
+    let fault = found_in(|path| match refused_for(path, "too many parts") {
+        true => panic!("planted"),
+        false => read(path),
+    });
+    assert!(matches!(&fault, Fault::Panic(message) if message.contains("planted")), "{fault}");
+}
+
+#[test]
+fn an_index_that_leads_nowhere_is_found() {
+    let fault = found_in(|path| {
+        let mut model: Model = load(path)?;
+        if model.meshes.len() > 2 {
+            model.meshes[2].triangles[0][1] = u32::MAX;
+        }
+        whole(&model);
+        Ok(String::new())
+    });
+    assert!(matches!(&fault, Fault::Panic(message) if message.contains("no vertex")), "{fault}");
+}
+
+#[test]
+fn a_wait_without_an_end_is_found() {
+    let fault = found_in(|path| match warned_of(path, "normal index") {
+        true => loop {
+            sleep(Duration::from_secs(3600));
+        },
+        false => read(path),
+    });
+    assert!(matches!(fault, Fault::Endless(_)), "{fault}");
+}
+
+#[test]
+fn a_long_time_is_found() {
+    let fault = found_in(|path| {
+        if refused_for(path, "at least 3") {
+            sleep(Duration::from_millis(1200));
+        }
+        read(path)
+    });
+    assert!(matches!(fault, Fault::Slow(time) if time.as_millis() >= 1200), "{fault}");
+}
+
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[test]
+fn memory_without_a_bound_is_found() {
+    let fault = found_in(|path| {
+        let mut taken = Vec::new();
+        while warned_of(path, "is defined at") || refused_for(path, "divided by its w") {
+            taken.push(vec![1u8; 1 << 20]);
+        }
+        read(path)
+    });
+    assert_eq!(fault, Fault::Memory(FUNCTION.memory as u64));
+}
+
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[test]
+fn memory_for_what_a_header_promises_is_found() {
+    // As many texels as the file says, whatever it has: nothing of them is ever touched.
+    let read = |path: &Path| {
+        let bytes = std::fs::read(path)?;
+        let side = |at: usize| {
+            bytes.get(at..at + 4).map_or(0, |four| u32::from_be_bytes(four.try_into().unwrap()))
+        };
+        let texels =
+            vec![0u8; 4 * (side(16) as usize).min(1 << 20) * (side(20) as usize).min(1 << 20)];
+        Ok(format!("{}", texels.len()))
+    };
+    let function = Function { beside: nothing, read, memory: texture::FUNCTION.memory };
+    let fault = found(texture::FORMAT, Watch::new(texture::FORMAT, function)).fault;
+    assert!(matches!(fault, Fault::Memory(_)), "{fault}");
+}
+
+#[test]
+fn a_message_of_two_lines_is_found() {
+    let fault = found_in(|path| match refused_for(path, "not a finite 32-bit number") {
+        true => bail!("{}: first\nsecond", path.display()),
+        false => read(path),
+    });
+    assert!(matches!(fault, Fault::Line(_)), "{fault}");
+}
+
+#[test]
+fn a_message_that_names_no_file_is_found() {
+    let fault = found_in(|path| match refused_for(path, "outside the OBJ file's folder") {
+        true => bail!("a file lies outside"),
+        false => read(path),
+    });
+    assert!(matches!(fault, Fault::Line(_)), "{fault}");
+}
+
+#[test]
+fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
+    let planted: fn(&Path) -> Result<String> = |path| match refused_for(path, "too many parts") {
+        true => panic!("planted"),
+        false => read(path),
+    };
+    let function = Function { read: planted, ..FUNCTION };
+    let [first, second] = [(); 2].map(|()| found(FORMAT, Watch::new(FORMAT, function)));
+    assert_eq!((first.number, &first.input), (second.number, &second.input));
+    let told = first.keep();
+    assert!(told.contains("seed 18") && told.contains("again: FUZZ_READER="), "{told}");
+    let file = told.split("FUZZ_INPUT=").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    let kept = std::fs::read(run::root().join(file)).unwrap();
+    assert_eq!(kept, first.input);
+    let again = Watch::new(FORMAT, function).ask(&kept);
+    assert_eq!(again.unwrap_err(), first.fault);
+}
+
+/// What is found in a program that does this to a model with an index that counts backwards, and refuses all
+/// others as it should.
+#[cfg(unix)]
+#[track_caller]
+fn found_in_program(command: fn(&Path, &[u8]) -> Command) -> Fault {
+    let program = Program::new(FORMAT, nothing, command, &["o.png"]);
+    found(FORMAT, program.within(Duration::from_secs(2))).fault
+}
+
+#[cfg(unix)]
+macro_rules! planted {
+    ($($name:ident, $script:literal: $fault:pat,)*) => {$(
+        #[test]
+        fn $name() {
+            let fault = found_in_program(|_, _| {
+                let mut command = Command::new("sh");
+                command.args(["-c", concat!(
+                    "if grep -q '^f.* -' m.obj; then ", $script, "; fi; echo 'error: m.obj: no' >&2; exit 1"
+                )]);
+                command
+            });
+            assert!(matches!(&fault, $fault), "{fault}");
+        }
+    )*};
+}
+
+#[cfg(unix)]
+planted! {
+    a_crash_is_found, "kill -SEGV $$": Fault::Exit(_),
+    an_exit_code_of_no_meaning_is_found, "exit 101": Fault::Exit(_),
+    a_panic_that_became_a_line_is_found,
+        "echo 'error: this is a mistake of the program, at a.rs:1: no' >&2; exit 1": Fault::Panic(_),
+    two_lines_of_error_are_found, "echo 'error: m.obj: first' >&2; echo 'second' >&2; exit 1": Fault::Line(_),
+    a_failure_without_a_word_is_found, "exit 1": Fault::Line(_),
+    a_word_of_a_run_that_succeeds_is_found, "echo 'by the way' >&2; exit 0": Fault::Line(_),
+    a_command_for_the_terminal_is_found, "printf 'error: \\033[31m\\n' >&2; exit 1": Fault::Line(_),
+    a_file_that_is_left_behind_is_found, ": > .tmpAbCdEf": Fault::Left(_),
+    a_file_that_is_left_elsewhere_is_found, ": > $TMPDIR/a": Fault::Left(_),
+    a_file_that_is_gone_is_found, "rm m.obj": Fault::Left(_),
+    a_program_that_goes_on_for_ever_is_found, "exec sleep 1000": Fault::Endless(_),
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_program_that_takes_all_memory_is_found() {
+    // What it reads has no line's end, so it keeps all of it.
+    let command: fn(&Path, &[u8]) -> Command = |_, _| {
+        let mut command = Command::new("tail");
+        command.arg("/dev/zero");
+        command
+    };
+    let program = Program::new(FORMAT, nothing, command, &[]);
+    assert!(matches!(found(FORMAT, program).fault, Fault::Memory(_)));
+}
