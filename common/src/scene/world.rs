@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use glam::{Affine3A, DVec3, Vec3};
 
-use super::{Camera, Model, obj};
+use super::{Camera, Mesh, Model, obj};
 
 /// Meshes, materials and textures with their placements.
 #[derive(Clone)]
