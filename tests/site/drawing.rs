@@ -10,9 +10,9 @@ use crate::browser::Browser;
 use crate::reading::{address, decode, theme};
 
 const CHECKS: &str = include_str!("drawing.js");
-const SCHEMES: [&str; 2] = ["light", "dark"];
+pub const SCHEMES: [&str; 2] = ["light", "dark"];
 
-fn prefers(browser: &mut Browser, scheme: &str) {
+pub fn prefers(browser: &mut Browser, scheme: &str) {
     let features = json!([{ "name": "prefers-color-scheme", "value": scheme }]);
     browser.call("Emulation.setEmulatedMedia", &json!({ "features": features }));
 }

@@ -7,6 +7,8 @@ use std::thread;
 
 use crate::browser::Browser;
 use crate::built;
+use crate::drawing::{SCHEMES, prefers};
+use crate::reading::checked;
 
 /// Serves the site below `/name/`, as a code host does, and its page for what is not there with 404.
 fn served() -> u16 {
@@ -64,6 +66,11 @@ fn where_there_is_no_page_a_link_leads_back_from_any_depth() {
         );
         let first = format!("http://127.0.0.1:{port}/name/index.html");
         assert_eq!(back, first, "{place}");
+    }
+    for scheme in SCHEMES {
+        prefers(&mut browser, scheme);
+        let wrong = checked(&mut browser).wrong;
+        assert!(wrong.is_empty(), "{scheme}: {wrong:?}");
     }
     browser.run("document.querySelector('#back a').click()");
     let title = browser.run(

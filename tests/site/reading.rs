@@ -53,15 +53,15 @@ pub fn theme(browser: &mut Browser, name: &str) {
 
 /// What the checks of a page found.
 #[derive(Default)]
-struct Checked {
-    wrong: Vec<String>,
+pub struct Checked {
+    pub wrong: Vec<String>,
     /// How many kinds of text were seen.
     kinds: u64,
     /// How many boxes scroll sideways.
     scrolling: u64,
 }
 
-fn checked(browser: &mut Browser) -> Checked {
+pub fn checked(browser: &mut Browser) -> Checked {
     let found = browser.run(CHECKS);
     let wrong = found["wrong"].as_array().into_iter().flatten();
     let wrong = wrong.map(|line| line.as_str().unwrap_or_default().to_owned()).collect();
