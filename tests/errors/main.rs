@@ -6,8 +6,11 @@ mod failures;
 mod machine;
 mod models;
 mod outputs;
+mod owners;
+mod scarce;
 mod scenes;
 mod shaders;
+mod signals;
 
 use std::path::Path;
 
