@@ -95,13 +95,17 @@ impl Unfinished {
             check_replaceable(&target, folder, metadata)?;
         }
         let mut builder = tempfile::Builder::new();
-        permit(&mut builder, existing);
+        permit(&mut builder);
         // The error's text would name the temporary file, which means nothing to the reader.
         let failed = |error: std::io::Error| {
             anyhow!("no file can be made in '{}': {}", folder.display(), error.kind())
         };
         let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
         let file = builder.tempfile_in(folder).map_err(failed)?;
+        if let Some(metadata) = existing {
+            // Where a file system knows no permissions, there are none to keep.
+            let _ = file.as_file().set_permissions(metadata.permissions());
+        }
         let temporary = file.path().to_owned();
         unfinished.insert(temporary.clone());
         Ok(Self { target, file: Some(file), temporary })
@@ -182,17 +186,16 @@ fn target(path: &Path) -> Result<PathBuf> {
     Ok(folder.canonicalize().ok().with_context(missing)?.join(name))
 }
 
-/// Temporary files are private to their owner; a result has the permissions of the file that it
-/// replaces, else those that the umask allows.
+/// Temporary files are private to their owner; a result that replaces none has the permissions that the umask
+/// allows.
 #[cfg(unix)]
-fn permit(builder: &mut tempfile::Builder, existing: Option<Metadata>) {
+fn permit(builder: &mut tempfile::Builder) {
     use std::os::unix::fs::PermissionsExt;
-    let new = || fs::Permissions::from_mode(0o666);
-    builder.permissions(existing.map_or_else(new, |metadata| metadata.permissions()));
+    builder.permissions(fs::Permissions::from_mode(0o666));
 }
 
 #[cfg(not(unix))]
-fn permit(_: &mut tempfile::Builder, _: Option<Metadata>) {}
+fn permit(_: &mut tempfile::Builder) {}
 
 #[cfg(test)]
 mod tests {
@@ -238,14 +241,17 @@ mod tests {
         use std::os::unix::fs::{PermissionsExt, symlink};
         let folder = tempfile::tempdir().unwrap();
         let [file, link] = ["file", "link"].map(|name| folder.path().join(name));
-        fs::write(&file, "old").unwrap();
-        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
         symlink("file", &link).unwrap();
         assert!(same(&file, &link) && !same(&file, &folder.path().join("other")));
-        write_whole(&link, b"new").unwrap();
-        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
-        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+        // The second is more than the umask allows a new file.
+        for mode in [0o600, 0o666] {
+            fs::write(&file, "old").unwrap();
+            fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
+            write_whole(&link, b"new").unwrap();
+            assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+            assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+            assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, mode);
+        }
     }
 
     #[cfg(unix)]

@@ -241,6 +241,10 @@ fn parse() -> Result<Arguments> {
 }
 
 fn run(arguments: &Arguments) -> Result<()> {
+    // These two have children to end first, and wait for it.
+    if !matches!(arguments.command, Command::Survey { .. } | Command::Exercise(_)) {
+        common::app::watch();
+    }
     let project = Project::open(&arguments.root)?;
     match &arguments.command {
         Command::List { json } => print(&list(&project, *json)?),

@@ -134,8 +134,10 @@ impl<'a> Trial<'a> {
                 "refused".to_owned()
             }
             Outcome::Crashes => {
+                // The program says so itself, unless RUST_BACKTRACE leaves it to the system.
                 let ended = wrong.status.is_some_and(|status| status.code().is_some());
-                ensure!(!ended, "{file}: no crash: {}", end(wrong.status));
+                let crashed = !ended || wrong.said.contains("crashed (SIG");
+                ensure!(crashed, "{file}: no crash: {}", end(wrong.status));
                 end(wrong.status)
             }
             Outcome::Differs(_) | Outcome::Slower(_) | Outcome::Forgiven => {

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
-use common::app::output::print;
+use common::app::output::{complain, print};
 use common::app::{Args, Milliseconds, Picture, Report, check_files, compile_shader, finish};
 use common::usage::Usage;
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
@@ -35,6 +35,9 @@ const PLACE: [f32; 12] = [
 
 /// Four 32-bit floats a pixel, linear; every Vulkan device can store to it.
 const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// Nanoseconds that the device may take for what is submitted: ten minutes.
+const PATIENCE: u64 = 600 * 1_000_000_000;
 
 fn main() -> ExitCode {
     finish(run)
@@ -864,7 +867,12 @@ impl<'a> Gpu<'a> {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
             let submitted = self.device.queue_submit2(self.queue, &submit, fence);
             let done =
-                submitted.and_then(|()| self.device.wait_for_fences(&[fence], true, u64::MAX));
+                submitted.and_then(|()| self.device.wait_for_fences(&[fence], true, PATIENCE));
+            if done == Err(vk::Result::TIMEOUT) {
+                // Every other way out of here destroys what the device may still use.
+                complain("error: the device has not answered for ten minutes");
+                std::process::exit(1);
+            }
             if done.is_err() {
                 // A wait may fail while the device works on, with what is destroyed from here on.
                 let _ = self.device.device_wait_idle();

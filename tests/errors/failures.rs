@@ -11,6 +11,7 @@ const OUT_OF_DEVICE_MEMORY: i32 = -2;
 const INITIALIZATION_FAILED: i32 = -3;
 const DEVICE_LOST: i32 = -4;
 const MEMORY_MAP_FAILED: i32 = -5;
+const TIMEOUT: i32 = 2;
 
 /// What a function may return, by the specification, that is treated differently here.
 fn results(function: &str) -> &'static [i32] {
@@ -111,4 +112,14 @@ fn a_device_that_is_never_to_be_waited_for_ends_the_process_in_one_line() {
     let (code, line) = run::refusal(output);
     assert_eq!(code, 1);
     assert!(line.contains("cannot be waited for"), "{line}");
+}
+
+#[test]
+fn a_device_that_does_not_answer_ends_the_process_in_one_line() {
+    for sample in ["01_foundation", "02_basic"] {
+        let (output, _) = run(sample, &format!("vkWaitForFences:1:{TIMEOUT}"));
+        let (code, line) = run::refusal(output);
+        assert_eq!(code, 1);
+        assert!(line.contains("has not answered for "), "{line}");
+    }
 }

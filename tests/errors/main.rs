@@ -9,8 +9,11 @@ mod machine;
 mod many;
 mod models;
 mod outputs;
+mod owners;
+mod scarce;
 mod scenes;
 mod shaders;
+mod signals;
 
 use std::path::Path;
 

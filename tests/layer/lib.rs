@@ -59,11 +59,37 @@ struct BelowDevice {
     get_device_proc_addr: vk::PFN_vkGetDeviceProcAddr,
 }
 
+/// Makes an instance by the `vkCreateInstance` below, which `over` may put another in the place of; returns
+/// where the functions below the instance are found.
+///
+/// # Errors
+/// If there is nothing below, or as the function has it.
+///
+/// # Safety
+/// The arguments are the loader's own, and what `over` returns is a function of that name.
+pub unsafe fn create_instance(
+    info: *const vk::InstanceCreateInfo,
+    allocator: *const vk::AllocationCallbacks,
+    instance: *mut vk::Instance,
+    over: impl FnOnce(*const c_char, vk::PFN_vkVoidFunction) -> vk::PFN_vkVoidFunction,
+) -> Result<vk::PFN_vkGetInstanceProcAddr, vk::Result> {
+    let name = c"vkCreateInstance".as_ptr();
+    // SAFETY: the caller's promise; the loader finds its own functions by name.
+    unsafe {
+        let next = below_instance(info).ok_or(vk::Result::ERROR_INITIALIZATION_FAILED)?;
+        let create = over(name, next(vk::Instance::null(), name));
+        let create =
+            std::mem::transmute::<vk::PFN_vkVoidFunction, vk::PFN_vkCreateInstance>(create);
+        create(info, allocator, instance).result()?;
+        Ok(next)
+    }
+}
+
 /// Where the functions below an instance are found that is being made; the next layer finds its own.
 ///
 /// # Safety
 /// `info` comes from the loader, once for each instance.
-pub unsafe fn below_instance(
+unsafe fn below_instance(
     info: *const vk::InstanceCreateInfo,
 ) -> Option<vk::PFN_vkGetInstanceProcAddr> {
     // SAFETY: the loader puts its structure, which may be written, in the chain of every layer.

@@ -33,6 +33,13 @@ pub fn command(name: &str) -> Command {
     command
 }
 
+/// The same, for tests that send signals: under `nohup` and in a script's background they would be ignored.
+pub fn heeding(name: &str) -> Command {
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT,TERM,HUP").arg(program(name)).current_dir(root());
+    command
+}
+
 /// Where the binary `name` lies, built from today's sources.
 pub fn program(name: &str) -> PathBuf {
     // Cargo builds a package's binaries for that package's tests, and names them. Others are built here.

@@ -49,7 +49,7 @@ impl Desk {
     pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
         let (server, display) = server();
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut command: Command = run::command(name);
+        let mut command: Command = run::heeding(name);
         command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         command.envs(environment.iter().copied()).stderr(Stdio::piped());
@@ -79,6 +79,11 @@ impl Desk {
             };
             attributes.map_state == MapState::VIEWABLE && !self.title(window).is_empty()
         })
+    }
+
+    /// The window's title.
+    pub fn named(&self) -> String {
+        self.title(self.window)
     }
 
     fn title(&self, window: u32) -> String {
@@ -221,12 +226,22 @@ impl Desk {
         self.x.sync();
     }
 
+    /// The sample's process.
+    pub fn id(&self) -> u32 {
+        self.sample.as_ref().expect("the sample runs").id()
+    }
+
     /// Waits until the sample has ended, and returns how, and what it said.
-    pub fn end(mut self) -> Output {
+    pub fn end(self) -> Output {
+        self.end_with(|| ()).0
+    }
+
+    /// The same, with a look at the folder before it goes.
+    pub fn end_with<T>(mut self, look: impl FnOnce() -> T) -> (Output, T) {
         let sample = self.sample.as_mut().expect("the sample runs");
         wait("the end", || sample.try_wait().expect("its state is known"));
         let sample = self.sample.take().expect("the sample runs");
-        sample.wait_with_output().expect("its words can be read")
+        (sample.wait_with_output().expect("its words can be read"), look())
     }
 }
 
@@ -237,12 +252,25 @@ pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)])
 
 /// What came of a sample that closes its window by itself.
 pub fn outcome(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> Output {
+    outcome_with(name, arguments, environment, |_| {})
+}
+
+/// The same, with something done to its process, of this number.
+pub fn outcome_with(
+    name: &str,
+    arguments: &[&str],
+    environment: &[(&str, OsString)],
+    then: impl FnOnce(u32),
+) -> Output {
     let (mut server, display) = server();
-    let mut command: Command = run::command(name);
+    let mut command: Command = run::heeding(name);
     command.args(arguments).env("DISPLAY", &display);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
     command.envs(environment.iter().map(|(name, value)| (name, value)));
-    let output = command.output().expect("the sample starts");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let child = child.expect("the sample starts");
+    then(child.id());
+    let output = child.wait_with_output().expect("its words can be read");
     let _ = server.kill();
     let _ = server.wait();
     output
@@ -284,6 +312,10 @@ fn server() -> (Child, String) {
 pub const KEY_F1: u32 = 0xffbe;
 /// F2.
 pub const KEY_F2: u32 = 0xffbf;
+/// F5.
+pub const KEY_F5: u32 = 0xffc2;
+/// Return.
+pub const KEY_RETURN: u32 = 0xff0d;
 /// Escape.
 pub const KEY_ESCAPE: u32 = 0xff1b;
 /// Tab.

@@ -5,6 +5,9 @@
 #![cfg(unix)]
 
 mod desk;
+mod long;
+mod lost;
+mod signals;
 
 use std::path::Path;
 use std::process::Output;

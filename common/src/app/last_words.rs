@@ -3,19 +3,33 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::io::{Write, stderr};
 use std::panic::PanicHookInfo;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::output;
+
+/// Whether it was said why the process ends. What crashes on the way to its end has nothing to add.
+static SAID: AtomicBool = AtomicBool::new(false);
+
+/// Says why the process ends.
+pub fn say(line: &str) {
+    SAID.store(true, Ordering::Relaxed);
+    output::complain(line);
+}
 
 /// From now on, a panic ends the process in one line. With `RUST_BACKTRACE` set, where it came from follows.
 pub fn for_panics() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        output::complain(&line(info));
-        if std::env::var_os("RUST_BACKTRACE").is_some_and(|value| value != "0") {
+        say(&line(info));
+        if is_traced() {
             usual(info);
         }
         std::process::exit(1);
     }));
+}
+
+fn is_traced() -> bool {
+    std::env::var_os("RUST_BACKTRACE").is_some_and(|value| value != "0")
 }
 
 fn line(info: &PanicHookInfo) -> String {
@@ -66,7 +80,97 @@ fn given(memory: *mut u8, size: usize) -> *mut u8 {
 
 #[cold]
 fn no_memory(size: usize) -> ! {
+    SAID.store(true, Ordering::Relaxed);
     // Nothing here may allocate: standard error is not buffered, and numbers are written to it as they are made.
     let _ = writeln!(stderr(), "error: no memory left for {size} bytes more");
     std::process::exit(1)
+}
+
+/// Elsewhere the system says what has crashed.
+#[cfg(not(target_os = "linux"))]
+pub fn for_crashes() {}
+
+#[cfg(target_os = "linux")]
+pub use crashes::for_crashes;
+
+/// What C and C++ do where memory is short, or where they are wrong: the driver and the shader compiler.
+#[cfg(target_os = "linux")]
+mod crashes {
+    use std::mem::MaybeUninit;
+    use std::sync::atomic::Ordering;
+    use std::time::Duration;
+
+    use libc::{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGXFSZ, c_int};
+
+    use super::{SAID, is_traced};
+
+    unsafe extern "C" {
+        /// `std::set_new_handler`: what C++ calls where `new` finds no memory, before it throws.
+        #[link_name = "_ZSt15set_new_handlerPFvvE"]
+        fn set_new_handler(handler: extern "C" fn()) -> Option<extern "C" fn()>;
+    }
+
+    /// From now on, a crash of the driver or of the shader compiler ends the process in one line, and so does a
+    /// file that grows beyond the system's limit. With `RUST_BACKTRACE` set, a crash is the system's, which may
+    /// keep its memory for a debugger.
+    pub fn for_crashes() {
+        // SAFETY: the handlers below call only what a signal's handler may, and none of them returns. To ignore
+        // a signal asks for nothing.
+        unsafe {
+            // Then the write fails, and what was half written is removed.
+            libc::signal(SIGXFSZ, libc::SIG_IGN);
+            set_new_handler(no_memory);
+            if is_traced() {
+                return;
+            }
+            let mut action = MaybeUninit::<libc::sigaction>::zeroed().assume_init();
+            action.sa_sigaction = crashed as *const () as usize;
+            // Rust gives its threads a second stack: the first may be what has overflowed.
+            action.sa_flags = libc::SA_ONSTACK;
+            for signal in [SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT] {
+                libc::sigaction(signal, &action, std::ptr::null_mut());
+            }
+        }
+    }
+
+    extern "C" fn no_memory() {
+        end("error: no memory left for the driver or the shader compiler\n")
+    }
+
+    /// Nothing can be put together where a signal is handled.
+    macro_rules! crash {
+        ($what:literal, $signal:literal) => {
+            concat!(
+                "error: the driver or the shader compiler ",
+                $what,
+                " (",
+                $signal,
+                "): memory may be short, or --validate may say why\n"
+            )
+        };
+    }
+
+    extern "C" fn crashed(signal: c_int) {
+        end(match signal {
+            SIGSEGV => crash!("crashed", "SIGSEGV"),
+            SIGBUS => crash!("crashed", "SIGBUS"),
+            SIGILL => crash!("crashed", "SIGILL"),
+            SIGFPE => crash!("crashed", "SIGFPE"),
+            _ => crash!("gave up", "SIGABRT"),
+        })
+    }
+
+    /// Says why, and ends the process at once: no lock, no allocation, no destructor.
+    fn end(line: &str) -> ! {
+        let said = SAID.swap(true, Ordering::Relaxed);
+        // SAFETY: a signal's handler may call these three; the line is as long as it says.
+        unsafe {
+            match said {
+                // Another thread may be at it.
+                true => std::thread::sleep(Duration::from_millis(200)),
+                false => _ = libc::write(2, line.as_ptr().cast(), line.len()),
+            }
+            libc::_exit(1)
+        }
+    }
 }

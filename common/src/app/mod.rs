@@ -30,6 +30,7 @@ pub use crate::output;
 pub use args::Args;
 pub use controls::Controls;
 pub use headless::{check_files, check_validation, headless};
+pub use interrupt::watch;
 pub use lighting::Lighting;
 pub use picture::{Format, Picture};
 pub use playback::Playback;
@@ -218,13 +219,14 @@ pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
 /// As [`finish`], for a program that heeds signals itself.
 pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
     last_words::for_panics();
+    last_words::for_crashes();
     let Err(error) = program() else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
     if error.is::<Stopped>() {
-        output::complain(&line);
+        last_words::say(&line);
         return ExitCode::from(3);
     }
-    output::complain(&format!("error: {line}"));
+    last_words::say(&format!("error: {line}"));
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 

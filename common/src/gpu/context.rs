@@ -22,6 +22,7 @@ use super::limits::Limits;
 use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
+use super::threads;
 use super::validation::Messages;
 
 /// How a [`Gpu`] shall be made.
@@ -150,6 +151,10 @@ impl Gpu {
         has_debug_utils: bool,
         options: &GpuOptions,
     ) -> Result<Self> {
+        let software = chosen.kind == vk::PhysicalDeviceType::CPU;
+        if software {
+            threads::ensure_some()?;
+        }
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;
         // Before the device, so that what is said of its creation counts.
@@ -199,7 +204,7 @@ impl Gpu {
             requirements: requirements.clone(),
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
-            software: chosen.kind == vk::PhysicalDeviceType::CPU,
+            software,
             is_watched: options.window.is_some(),
             arithmetic: options.arithmetic,
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),

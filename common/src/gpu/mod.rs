@@ -30,6 +30,7 @@ mod statistics;
 mod submit;
 mod swapchain;
 mod texture;
+mod threads;
 mod timing;
 mod validation;
 mod variants;

@@ -15,11 +15,12 @@ pub struct Statistics {
     pub acceleration_structure_bytes: u64,
     /// Host time of compiling shaders and making pipelines.
     pub pipeline_time: Duration,
-    /// Shader stages compiled, by path below `shaders/`.
+    /// Shader stages compiled, by path below `shaders/`; where there is a window, each once.
     pub stages: Vec<String>,
     /// Shader groups in all pipelines.
     pub groups: usize,
-    /// What every pipeline was made from, in the order in which they were made.
+    /// What every pipeline was made from, in the order in which they were made; where there is a window,
+    /// nothing.
     pub blueprints: Vec<Arc<Blueprint>>,
     /// What the driver's compiler says of the last pipeline, where it was wished for and does.
     pub executables: Vec<Executable>,

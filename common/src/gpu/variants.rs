@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::thread::JoinHandle;
+use std::thread::{Builder, JoinHandle};
 
 use anyhow::{Context, Result, anyhow};
 
@@ -49,13 +49,16 @@ impl Launch for GraphicsPipeline {
 /// Makes a variant's pipeline: the chapter's own `pipeline`.
 pub type Make<V, P> = fn(&Gpu, &TextureTable, V) -> Result<P>;
 
+/// How many pipelines a window keeps: all that were chosen lately.
+const MOST: usize = 32;
+
 /// The pipelines of a sample, each with what it was made for.
 ///
 /// Where someone watches, a variant that is not there yet is made by another thread while the old picture
 /// stays; a run without a window waits for it.
 pub struct Variants<V, P: Launch = RayTracingPipeline> {
+    /// In the order in which they were chosen, the present one last.
     made: Vec<Variant<V, P>>,
-    current: usize,
     order: Option<Order<V, P>>,
     /// What could not be made, until something else is wanted.
     refused: Option<V>,
@@ -80,7 +83,7 @@ pub struct Variant<V, P: Launch = RayTracingPipeline> {
 
 impl<V, P: Launch> Default for Variants<V, P> {
     fn default() -> Self {
-        Self { made: Vec::new(), current: 0, order: None, refused: None }
+        Self { made: Vec::new(), order: None, refused: None }
     }
 }
 
@@ -107,36 +110,47 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
         }
         let known = self.made.iter().position(|variant| variant.key == wanted);
         if let Some(known) = known {
-            self.current = known;
+            let chosen = self.made.remove(known);
+            self.made.push(chosen);
         } else if self.made.is_empty() || !gpu.is_watched {
             let pipeline = make(gpu, textures, wanted)?;
             self.keep(gpu, wanted, pipeline)?;
         } else if self.order.is_none() && self.refused != Some(wanted) {
-            self.order = Some(Order::begin(gpu, textures, wanted, make));
-            self.refused = None;
+            match Order::begin(gpu, textures, wanted, make) {
+                Ok(order) => (self.order, self.refused) = (Some(order), None),
+                Err(error) => {
+                    gpu.complain(format!("{error:#}"));
+                    self.refused = Some(wanted);
+                }
+            }
         }
-        self.made.get(self.current).context("no pipeline")
+        self.made.last().context("no pipeline")
     }
 
     /// What was chosen last.
     pub fn current(&self) -> Option<&Variant<V, P>> {
-        self.made.get(self.current)
+        self.made.last()
     }
 
     fn keep(&mut self, gpu: &Gpu, key: V, pipeline: P) -> Result<()> {
         let sbt = pipeline.table(gpu)?;
-        self.current = self.made.len();
+        // Who plays with the controls may do so for hours; a comparison takes its values in turns.
+        if gpu.is_watched && self.made.len() == MOST {
+            self.made.remove(0);
+        }
         self.made.push(Variant { key, pipeline, sbt });
         Ok(())
     }
 }
 
 impl<V: Copy + Send + 'static, P: Launch> Order<V, P> {
-    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V, P>) -> Self {
-        gpu.building.fetch_add(1, Ordering::Relaxed);
+    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V, P>) -> Result<Self> {
         let (device, textures) = (gpu.clone(), textures.clone());
-        let thread = std::thread::spawn(move || make(&device, &textures, key));
-        Self { key, thread: Some(thread), gpu: gpu.clone() }
+        let build = move || make(&device, &textures, key);
+        let thread = Builder::new().name("pipeline".to_owned()).spawn(build);
+        let thread = Some(thread.context("no thread to make a pipeline with")?);
+        gpu.building.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { key, thread, gpu: gpu.clone() })
     }
 
     fn is_finished(&self) -> bool {

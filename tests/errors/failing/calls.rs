@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_void};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock};
 
@@ -153,15 +154,38 @@ impl Function {
 /// What the variable `FAIL` asks for.
 struct Fault {
     name: String,
-    first: usize,
-    all_after: bool,
+    when: When,
     result: vk::Result,
+}
+
+/// Which call fails.
+enum When {
+    /// The one of this number.
+    At(usize),
+    /// That one and all after it.
+    From(usize),
+    /// The first for which this file is there, which goes with it.
+    File(PathBuf),
 }
 
 impl Fault {
     fn meets(&self, name: &CStr, number: usize) -> bool {
         self.name.as_bytes() == name.to_bytes()
-            && (number == self.first || self.all_after && number > self.first)
+            && match &self.when {
+                When::At(first) => number == *first,
+                When::From(first) => number >= *first,
+                When::File(file) => std::fs::remove_file(file).is_ok(),
+            }
+    }
+}
+
+impl When {
+    fn parse(text: &str) -> Option<Self> {
+        if text.starts_with('/') {
+            return Some(Self::File(text.into()));
+        }
+        let first = text.trim_end_matches('+').parse().ok()?;
+        Some(if text.ends_with('+') { Self::From(first) } else { Self::At(first) })
     }
 }
 
@@ -170,11 +194,10 @@ fn chosen() -> Option<&'static Fault> {
     let parse = || {
         let text = std::env::var("FAIL").ok()?;
         let mut words = text.split(':');
-        let (name, number, result) = (words.next()?, words.next()?, words.next()?);
+        let (name, when, result) = (words.next()?, words.next()?, words.next()?);
         Some(Fault {
             name: name.to_owned(),
-            first: number.trim_end_matches('+').parse().ok()?,
-            all_after: number.ends_with('+'),
+            when: When::parse(when)?,
             result: vk::Result::from_raw(result.parse().ok()?),
         })
     };

@@ -1,7 +1,7 @@
 //! A Vulkan layer for tests: it lets a chosen call fail.
 //!
 //! - `FAIL=vkQueueSubmit2:3:-4`: the third call of that function does nothing and returns that `VkResult`;
-//!   with `3+`, every call from the third on.
+//!   with `3+`, every call from the third on; with a file's path, the next call after the file was made.
 //! - `CALLS=FILE`: when the instance is destroyed, the file gets a line for each function that may fail and
 //!   was called: its name, and how often.
 //!
@@ -79,25 +79,20 @@ unsafe extern "system" fn create_instance(
 ) -> vk::Result {
     // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
     unsafe {
-        let Some(next) = layer::below_instance(info) else {
-            return vk::Result::ERROR_INITIALIZATION_FAILED;
+        let over = |name, below| calls::over(name, below);
+        let next = match layer::create_instance(info, allocator, instance, over) {
+            Ok(next) => next,
+            Err(error) => return error,
         };
         *BELOW_INSTANCE.lock().unwrap_or_else(PoisonError::into_inner) = Some(next);
-        let name = c"vkCreateInstance".as_ptr();
-        let create = calls::over(name, next(vk::Instance::null(), name));
-        let create =
-            std::mem::transmute::<vk::PFN_vkVoidFunction, vk::PFN_vkCreateInstance>(create);
-        let result = create(info, allocator, instance);
-        if result == vk::Result::SUCCESS {
-            INSTANCE.store((*instance).as_raw(), Ordering::Relaxed);
-            let destroy = next(*instance, c"vkDestroyInstance".as_ptr());
-            *DESTROY_INSTANCE.lock().unwrap_or_else(PoisonError::into_inner) =
-                std::mem::transmute::<vk::PFN_vkVoidFunction, Option<vk::PFN_vkDestroyInstance>>(
-                    destroy,
-                );
-        }
-        result
+        INSTANCE.store((*instance).as_raw(), Ordering::Relaxed);
+        let destroy = next(*instance, c"vkDestroyInstance".as_ptr());
+        *DESTROY_INSTANCE.lock().unwrap_or_else(PoisonError::into_inner) = std::mem::transmute::<
+            vk::PFN_vkVoidFunction,
+            Option<vk::PFN_vkDestroyInstance>,
+        >(destroy);
     }
+    vk::Result::SUCCESS
 }
 
 unsafe extern "system" fn create_device(

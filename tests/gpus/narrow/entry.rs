@@ -112,17 +112,13 @@ unsafe extern "system" fn create_instance(
 ) -> vk::Result {
     // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
     unsafe {
-        let Some(get_proc_addr) = layer::below_instance(info) else {
-            return vk::Result::ERROR_INITIALIZATION_FAILED;
-        };
-        let create = get_proc_addr(vk::Instance::null(), c"vkCreateInstance".as_ptr());
-        let create =
-            std::mem::transmute::<vk::PFN_vkVoidFunction, vk::PFN_vkCreateInstance>(create);
-        let result = create(info, allocator, instance);
-        if result == vk::Result::SUCCESS {
-            below::add_instance(*instance, get_proc_addr);
+        match layer::create_instance(info, allocator, instance, |_, below| below) {
+            Ok(get_proc_addr) => {
+                below::add_instance(*instance, get_proc_addr);
+                vk::Result::SUCCESS
+            }
+            Err(error) => error,
         }
-        result
     }
 }
 

@@ -10,6 +10,7 @@ mod facts;
 mod history;
 mod keys;
 mod lag;
+mod lost;
 mod navigation;
 mod pace;
 mod painter;
@@ -17,16 +18,18 @@ mod panel;
 mod reload;
 mod rows;
 mod session;
+mod stage;
 mod style;
 mod transport;
 mod view;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Error, Result, anyhow};
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
+use self::lost::{Choice, Lost};
 use self::session::Session;
 use super::Sample;
 use super::args::Args;
@@ -64,13 +67,13 @@ pub fn open<S: Sample>(name: &str, args: &Args) -> Result<()> {
     apart::want();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
-    let mut program = Program::<S> { name, args, proxy, session: None, outcome: Ok(()) };
+    let mut program = Program::<S> { name, args, proxy, shown: Shown::Nothing, outcome: Ok(()) };
     events.run_app(&mut program).context("the window system failed")?;
     program.outcome
 }
 
 /// What is wrong with the display, and what to do.
-fn no_display() -> anyhow::Error {
+fn no_display() -> Error {
     let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked = value("WAYLAND_DISPLAY").or_else(|| value("DISPLAY"));
     let why = asked.map_or_else(
@@ -90,53 +93,107 @@ fn log_if_asked() {
     let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();
 }
 
+/// What a window shows.
+enum Shown<S> {
+    /// There is no window yet, or no more.
+    Nothing,
+    /// The sample.
+    Session(Box<Session<S>>),
+    /// That the sample's device was lost.
+    Lost(Box<Lost>),
+}
+
 struct Program<'a, S> {
     name: &'a str,
     args: &'a Args,
     proxy: EventLoopProxy<Wake>,
-    session: Option<Session<S>>,
+    shown: Shown<S>,
     outcome: Result<()>,
 }
 
 impl<S: Sample> Program<'_, S> {
-    fn fail(&mut self, events: &ActiveEventLoop, error: anyhow::Error) {
+    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
         self.outcome = Err(error);
         events.exit();
+    }
+
+    fn show(&mut self, events: &ActiveEventLoop, shown: Result<Shown<S>>) {
+        match shown {
+            Ok(shown) => self.shown = shown,
+            Err(error) => self.fail(events, error),
+        }
+    }
+
+    fn take_shown(&mut self) -> Shown<S> {
+        std::mem::replace(&mut self.shown, Shown::Nothing)
+    }
+
+    /// The sample could not be drawn. Where somebody watches, a lost device is no reason to end.
+    fn stop(&mut self, events: &ActiveEventLoop, error: Error) {
+        match self.take_shown() {
+            Shown::Session(session) if lost::is_loss(&error) && !self.args.frames_given => {
+                let lost = session.lose(error);
+                self.show(events, lost.map(|lost| Shown::Lost(Box::new(lost))));
+            }
+            shown => {
+                self.shown = shown;
+                self.fail(events, error);
+            }
+        }
+    }
+
+    /// Whoever is asked about a lost device has answered.
+    fn choose(&mut self, events: &ActiveEventLoop, choice: Choice) {
+        match (choice, self.take_shown()) {
+            (Choice::GoOn, Shown::Lost(lost)) => {
+                let session = Session::go_on(*lost, self.name, self.proxy.clone());
+                self.show(events, session.map(|session| Shown::Session(Box::new(session))));
+            }
+            (Choice::Leave, Shown::Lost(lost)) => {
+                let Lost { stage, error, .. } = *lost;
+                let closed = stage.close().map(drop);
+                self.fail(events, closed.err().unwrap_or(error));
+            }
+            (_, shown) => self.shown = shown,
+        }
     }
 }
 
 impl<S: Sample> ApplicationHandler<Wake> for Program<'_, S> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        if self.session.is_some() {
-            return;
-        }
-        match Session::new(events, self.name, self.args, self.proxy.clone()) {
-            Ok(session) => self.session = Some(session),
-            Err(error) => self.fail(events, error),
+        if let Shown::Nothing = self.shown {
+            let session = Session::new(events, self.name, self.args, self.proxy.clone());
+            self.show(events, session.map(|session| Shown::Session(Box::new(session))));
         }
     }
 
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
-        if let Some(session) = &mut self.session {
+        if let Shown::Session(session) = &mut self.shown {
             session.wake(matches!(cause, StartCause::ResumeTimeReached { .. }));
         }
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        let Some(session) = &mut self.session else { return };
-        match event {
-            WindowEvent::CloseRequested => events.exit(),
-            WindowEvent::RedrawRequested => match session.draw() {
+        match (&mut self.shown, event) {
+            (Shown::Session(_), WindowEvent::CloseRequested) => events.exit(),
+            (Shown::Session(session), WindowEvent::RedrawRequested) => match session.draw() {
                 Ok(true) => {}
                 Ok(false) => events.exit(),
+                Err(error) => self.stop(events, error),
+            },
+            (Shown::Session(session), event) => session.take(&event),
+            (Shown::Lost(_), WindowEvent::CloseRequested) => self.choose(events, Choice::Leave),
+            (Shown::Lost(lost), WindowEvent::RedrawRequested) => match lost.draw() {
+                Ok(choice) => self.choose(events, choice),
                 Err(error) => self.fail(events, error),
             },
-            event => session.take(&event),
+            (Shown::Lost(lost), event) => lost.take(&event),
+            (Shown::Nothing, _) => {}
         }
     }
 
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
-        let Some(session) = &mut self.session else { return };
+        let Shown::Session(session) = &mut self.shown else { return };
         match wake {
             Wake::Saved(path) => session.saved(&path),
             Wake::Compiled(result) => session.compiled(result),
@@ -144,13 +201,21 @@ impl<S: Sample> ApplicationHandler<Wake> for Program<'_, S> {
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
-        let next = self.session.as_mut().and_then(Session::sleep);
+        let next = match &mut self.shown {
+            Shown::Session(session) => session.sleep(),
+            Shown::Lost(lost) => lost.sleep(),
+            Shown::Nothing => None,
+        };
         events.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         // The surface must go before the connection to the window system does.
-        let closed = self.session.take().map_or(Ok(()), Session::close);
+        let closed = match self.take_shown() {
+            Shown::Session(session) => session.close(),
+            Shown::Lost(lost) => lost.stage.close().map(drop),
+            Shown::Nothing => Ok(()),
+        };
         if self.outcome.is_ok() {
             self.outcome = closed;
         }

@@ -85,14 +85,14 @@ impl Painter {
         Ok(())
     }
 
-    /// Draws `picture`, scaled to `area`, at the right of a window of size `extent`, and the panel.
+    /// Draws a picture, scaled to its area, at the right of a window of size `extent`, and the panel.
     ///
     /// # Errors
     /// If memory is short or the device fails.
     pub fn paint(
         &mut self,
-        picture: &Image,
-        (area, extent): (vk::Extent2D, vk::Extent2D),
+        extent: vk::Extent2D,
+        picture: Option<(&Image, vk::Extent2D)>,
         (triangles, scale): (&[ClippedPrimitive], f32),
         target: Acquired,
     ) -> Result<()> {
@@ -106,13 +106,15 @@ impl Painter {
         let (gpu, panel, filter) = (&self.gpu, &mut self.panel, self.filter);
         gpu.submit_between(target.before, target.after, |cmd| {
             canvas.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
-            picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
-            if area != extent {
+            if picture.is_none_or(|(_, area)| area != extent) {
                 clear(gpu, cmd, canvas);
             }
-            let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
-            blit(gpu, cmd, picture, (canvas, area), filter);
-            picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
+            if let Some((picture, area)) = picture {
+                picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
+                let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
+                blit(gpu, cmd, picture, (canvas, area), filter);
+                picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
+            }
             canvas.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::COLOR_ATTACHMENT_OPTIMAL);
             let attachments = [vk::RenderingAttachmentInfo::default()
                 .image_view(canvas.view)

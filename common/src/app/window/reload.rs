@@ -1,6 +1,7 @@
 //! Shaders edited while the window is open: noticed, compiled beside it, compared.
 
 use std::path::PathBuf;
+use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
@@ -47,7 +48,7 @@ impl Reload {
     /// # Errors
     /// If one of them does not compile any more.
     pub fn learn(&mut self, stages: &[String]) -> Result<()> {
-        // The list only grows, by each pipeline that is made.
+        // The list only grows, by each stage that is new.
         if stages.len() == self.learnt {
             return Ok(());
         }
@@ -91,10 +92,12 @@ impl Reload {
         }
         (self.due, self.compiling) = (None, true);
         let (stages, proxy) = (self.stages.clone(), self.proxy.clone());
-        std::thread::spawn(move || {
-            // A closed event loop has no use for the result.
-            let _ = proxy.send_event(Wake::Compiled(compile(&stages)));
-        });
+        // A closed event loop has no use for the result.
+        let work = move || _ = proxy.send_event(Wake::Compiled(compile(&stages)));
+        if let Err(error) = Builder::new().name("shaders".to_owned()).spawn(work) {
+            let why = format!("no thread to compile shaders with: {error}");
+            let _ = self.proxy.send_event(Wake::Compiled(Err(why)));
+        }
         None
     }
 
@@ -103,6 +106,10 @@ impl Reload {
         self.compiling = false;
         let result = result.and_then(|()| self.compare());
         self.failed = result.is_err();
+        if result.is_ok() {
+            // They may include other files now.
+            self.learnt = 0;
+        }
         result
     }
 

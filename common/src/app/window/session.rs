@@ -3,49 +3,46 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Error, Result};
 use ash::vk;
 use egui::{FullOutput, ViewportId};
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
-use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
+use super::Wake;
 use super::facts::Facts;
 use super::keys::Ask;
 use super::lag::Lag;
-use super::painter::Painter;
+use super::lost::{Kept, Lost};
 use super::panel::{Outcome, Panel};
 use super::reload::Reload;
 use super::rows::Hidden;
+use super::stage::Stage;
 use super::view::{Stepped, View};
-use super::{Wake, style};
 use crate::app::args::Args;
-use crate::app::headless::{check_size, check_validation};
+use crate::app::controls::Listed;
+use crate::app::headless::check_size;
 use crate::app::{Controls, Sample, Setup, controls};
-use crate::gpu::{Gpu, GpuOptions, Swapchain, WindowHandles};
+use crate::gpu::{Gpu, Requirements};
 
 /// How often the title is written anew while pictures come.
 const TITLE: Duration = Duration::from_millis(500);
 
-/// Everything that lives as long as the window. It is dropped in this order, the window last.
+/// Everything that lives as long as the device. It is dropped in this order, the window last.
 pub struct Session<S> {
     view: View<S>,
-    painter: Painter,
-    swapchain: Swapchain,
     panel: Panel,
     facts: Facts,
     reload: Reload,
-    egui: egui_winit::State,
     args: Args,
-    gpu: Gpu,
     hidden: bool,
     redraw_at: Option<Instant>,
     presented: u32,
     titled: Option<Instant>,
     lag: Lag,
-    window: Window,
+    stage: Stage,
 }
 
 impl<S: Sample> Session<S> {
@@ -65,33 +62,40 @@ impl<S: Sample> Session<S> {
             .with_visible(false)
             .with_inner_size(PhysicalSize::new(args.size.width, args.size.height));
         let window = events.create_window(attributes).context("cannot open a window")?;
-        let handles = WindowHandles {
-            display: window.display_handle().context("the window has no display")?.as_raw(),
-            window: window.window_handle().context("the window has no handle")?.as_raw(),
-        };
-        let gpu = Gpu::new(&GpuOptions {
-            requirements: S::requirements().window().compiler_figures_where_offered(),
-            device: args.device.as_deref(),
-            validate: args.validate,
-            window: Some(handles),
-            arithmetic: args.arithmetic,
-        })?;
-        check_size(&gpu, args.size)?;
+        let stage = Stage::new(window, requirements::<S>(), args)?;
+        check_size(&stage.gpu, args.size)?;
         let setup = Setup::new(args);
-        let mut sample = S::new(&gpu, &setup)?;
+        let mut sample = S::new(&stage.gpu, &setup)?;
         setup.check()?;
         let mut panel = Panel::new(name);
         // The camera that the chapter chose is home, whatever `--set` makes of it.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
-        let swapchain = Swapchain::new(&gpu, handles)?;
-        let context = egui::Context::default();
-        style::apply(&context);
+        let kept = Kept { args: args.clone(), panel, values: Vec::new(), presented: 0 };
+        Self::on(stage, name, kept, sample, proxy)
+    }
+
+    /// Goes on with the device that came after a lost one.
+    ///
+    /// # Errors
+    /// If the sample cannot be made on it.
+    pub fn go_on(lost: Lost, name: &str, proxy: EventLoopProxy<Wake>) -> Result<Self> {
+        let Lost { stage, mut kept, .. } = lost;
+        let sample = again(&stage.gpu, &kept.args, &mut kept.panel, &kept.values)?;
+        Self::on(stage, name, kept, sample, proxy)
+    }
+
+    fn on(
+        stage: Stage,
+        name: &str,
+        kept: Kept,
+        sample: S,
+        proxy: EventLoopProxy<Wake>,
+    ) -> Result<Self> {
+        let gpu = &stage.gpu;
         let mut session = Self {
-            view: View::new(&gpu, sample)?,
-            painter: Painter::new(&gpu, &swapchain)?,
-            swapchain,
-            panel,
+            view: View::new(gpu, sample)?,
+            panel: kept.panel,
             facts: Facts {
                 name: name.to_owned(),
                 device: gpu.name.clone(),
@@ -100,28 +104,19 @@ impl<S: Sample> Session<S> {
                 ..Facts::default()
             },
             reload: Reload::new(proxy),
-            egui: egui_winit::State::new(
-                context,
-                ViewportId::ROOT,
-                &window,
-                Some(window.scale_factor() as f32),
-                None,
-                Some(gpu.limits.max_image_dimension as usize),
-            ),
-            args: args.clone(),
-            gpu,
+            args: kept.args,
             hidden: false,
             redraw_at: None,
-            presented: 0,
+            presented: kept.presented,
             titled: None,
             lag: Lag::default(),
-            window,
+            stage,
         };
         // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
-        while let Stepped::Part = session.view.step(args.size)? {}
+        while let Stepped::Part = session.view.step(session.args.size)? {}
         session.learn();
-        session.window.set_visible(true);
-        session.window.request_redraw();
+        session.stage.window.set_visible(true);
+        session.stage.window.request_redraw();
         Ok(session)
     }
 
@@ -129,7 +124,7 @@ impl<S: Sample> Session<S> {
     pub fn wake(&mut self, due: bool) {
         self.lag.wake();
         if due {
-            self.window.request_redraw();
+            self.stage.window.request_redraw();
         }
     }
 
@@ -139,7 +134,7 @@ impl<S: Sample> Session<S> {
         let reload_at = self.reload.poll(now);
         if self.redraw_at.is_some_and(|at| at <= now) {
             self.redraw_at = None;
-            self.window.request_redraw();
+            self.stage.window.request_redraw();
         }
         self.lag.sleep();
         [reload_at, self.redraw_at].into_iter().flatten().min()
@@ -152,10 +147,23 @@ impl<S: Sample> Session<S> {
     pub fn close(self) -> Result<()> {
         let longest = self.lag.longest.as_millis();
         tracing::info!("{} frames; longest wait for a frame {longest} ms", self.presented);
-        // Messages about what was never destroyed come when the device is.
-        let validation = self.gpu.validation();
-        drop(self);
-        check_validation(&validation)
+        let Self { view, stage, .. } = self;
+        drop(view);
+        stage.close().map(drop)
+    }
+
+    /// The device is lost: frees what was made from it, and takes another.
+    ///
+    /// # Errors
+    /// If there is no other, or validation had something to say.
+    pub fn lose(mut self, error: Error) -> Result<Lost> {
+        let values = controls::list(|c| self.view.sample.controls(c));
+        let Self { view, mut panel, facts, args, presented, stage, .. } = self;
+        drop(view);
+        panel.error = None;
+        let stage = Stage::new(stage.close()?, requirements::<S>(), &args)
+            .with_context(|| format!("{error:#}; and then"))?;
+        Ok(Lost::new(stage, &facts.name, Kept { args, panel, values, presented }, error))
     }
 
     /// A file below `shaders/` was written.
@@ -175,9 +183,8 @@ impl<S: Sample> Session<S> {
             | WindowEvent::KeyboardInput { .. } => self.lag.input(),
             _ => {}
         }
-        let response = self.egui.on_window_event(&self.window, event);
-        if response.repaint || matches!(event, WindowEvent::Occluded(_)) {
-            self.window.request_redraw();
+        if self.stage.take(event) || matches!(event, WindowEvent::Occluded(_)) {
+            self.stage.window.request_redraw();
         }
     }
 
@@ -186,15 +193,12 @@ impl<S: Sample> Session<S> {
     /// # Errors
     /// If the sample, the device or the window system fails.
     pub fn draw(&mut self) -> Result<bool> {
-        let size = self.window.inner_size();
-        let wanted = vk::Extent2D { width: size.width, height: size.height };
-        let extent = match self.swapchain.fit(wanted)? {
+        let extent = match self.stage.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.
             _ => return Ok(true),
         };
-        let (outcome, mut drawing) = self.panel();
-        self.painter.textures(std::mem::take(&mut drawing.textures_delta))?;
+        let (outcome, drawing) = self.panel()?;
         if outcome.changed {
             self.view.change();
         }
@@ -226,16 +230,12 @@ impl<S: Sample> Session<S> {
     }
 
     /// Shows the panel, and answers the keys that ask something of the window.
-    fn panel(&mut self) -> (Outcome, FullOutput) {
-        let input = self.egui.take_egui_input(&self.window);
-        let context = self.egui.egui_ctx().clone();
+    fn panel(&mut self) -> Result<(Outcome, FullOutput)> {
         let mut outcome = Outcome::default();
-        let mut drawing = context.run_ui(input, |ui| {
+        let drawing = self.stage.over(|ui| {
             let sample = &mut self.view.sample;
             outcome.merge(self.panel.show(ui, &self.facts, &mut |c| sample.controls(c)));
-        });
-        let platform = std::mem::take(&mut drawing.platform_output);
-        self.egui.handle_platform_output(&self.window, platform);
+        })?;
         if outcome.asked.contains(&Ask::Picture) {
             self.view.ask_picture();
         }
@@ -243,24 +243,19 @@ impl<S: Sample> Session<S> {
             self.panel.tell("compiling shaders …".to_owned());
             self.reload.ask(Instant::now());
         }
-        (outcome, drawing)
+        Ok((outcome, drawing))
     }
 
     /// Puts picture and panel on the window.
     fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<()> {
-        let scale = drawing.pixels_per_point;
-        let triangles = self.egui.egui_ctx().tessellate(drawing.shapes, scale);
-        let area = self.area(extent, scale);
-        let mut shown = false;
-        if let Some(target) = self.swapchain.acquire()? {
-            self.painter.paint(&self.view.image, (area, extent), (&triangles, scale), target)?;
-            self.window.pre_present_notify();
-            shown = self.swapchain.present(target)?;
+        let area = self.area(extent, drawing.pixels_per_point);
+        let presented = self.stage.present(extent, Some((&self.view.image, area)), drawing)?;
+        if presented.is_some() {
             self.presented += 1;
             let waited = self.lag.present();
             tracing::debug!("presented; {} ms since the last", waited.as_millis());
         }
-        if !shown {
+        if presented != Some(true) {
             self.redraw_at = Some(Instant::now());
         }
         Ok(())
@@ -288,7 +283,7 @@ impl<S: Sample> Session<S> {
         let resting = picture_at.is_none();
         if self.titled.is_none_or(|at| resting || now > at + TITLE) {
             self.titled = Some(now);
-            self.window.set_title(&self.facts.title());
+            self.stage.window.set_title(&self.facts.title());
         }
         let counted = self.args.frames_given.then_some(now);
         let panel_at = now.checked_add(panel_delay);
@@ -310,14 +305,14 @@ impl<S: Sample> Session<S> {
             self.panel.tell(format!("shaders reloaded in {seconds:.1} s"));
         }
         self.panel.error = result.err();
-        self.window.request_redraw();
+        self.stage.window.request_redraw();
     }
 
     /// Opens a file that was dropped on the window, as if `--scene` had named it.
     fn open(&mut self, file: &Path) {
         let args = Args { scene: Some(file.to_owned()), ..self.args.clone() };
         let setup = Setup::new(&args);
-        let made = S::new(&self.gpu, &setup).and_then(|mut sample| {
+        let made = S::new(&self.stage.gpu, &setup).and_then(|mut sample| {
             setup.check()?;
             self.panel.navigation.forget_home();
             sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
@@ -330,31 +325,42 @@ impl<S: Sample> Session<S> {
             }
             Err(error) => self.panel.error = Some(format!("{error:#}")),
         }
-        self.window.request_redraw();
+        self.stage.window.request_redraw();
     }
 
     /// Makes the sample anew and gives it the values that its controls had.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let mut sample = S::new(&self.gpu, &Setup::new(&self.args))?;
-        self.panel.navigation.forget_home();
-        sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
-        for control in values {
-            // A control may have gone, or take other values: then the new one stands.
-            let _ = controls::set(&control.name, &control.value, |c| sample.controls(c));
-        }
+        let sample = again(&self.stage.gpu, &self.args, &mut self.panel, &values)?;
         self.view.replace(sample)
     }
 
     /// Watches the shaders of the pipelines that there are by now.
     fn learn(&mut self) {
-        let statistics = self.gpu.statistics();
+        let statistics = self.stage.gpu.statistics();
         if let Err(error) = self.reload.learn(&statistics.stages) {
             self.panel.error = Some(format!("{error:#}"));
         }
         self.facts.programs = statistics.executables;
-        if let Some(complaint) = self.gpu.complaints().pop() {
+        if let Some(complaint) = self.stage.gpu.complaints().pop() {
             self.panel.error = Some(complaint);
         }
     }
+}
+
+/// What a device has to offer for a sample in a window.
+fn requirements<S: Sample>() -> Requirements {
+    S::requirements().window().compiler_figures_where_offered()
+}
+
+/// Makes a sample once more and gives it the values that its controls had.
+fn again<S: Sample>(gpu: &Gpu, args: &Args, panel: &mut Panel, values: &[Listed]) -> Result<S> {
+    let mut sample = S::new(gpu, &Setup::new(args))?;
+    panel.navigation.forget_home();
+    sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
+    for control in values {
+        // A control may have gone, or take other values: then the new one stands.
+        let _ = controls::set(&control.name, &control.value, |c| sample.controls(c));
+    }
+    Ok(sample)
 }

@@ -367,9 +367,16 @@ impl<'a> PipelineBuilder<'a> {
         gpu.count(|statistics| {
             let Blueprint { stages, groups, .. } = &*pipeline.blueprint;
             statistics.pipeline_time += pipeline.build_time;
-            statistics.stages.extend(stages.iter().map(|stage| stage.path.clone()));
+            for Stage { path, .. } in stages {
+                if !gpu.is_watched || !statistics.stages.contains(path) {
+                    statistics.stages.push(path.clone());
+                }
+            }
             statistics.groups += groups.len();
-            statistics.blueprints.push(pipeline.blueprint.clone());
+            // A window makes pipelines for as long as it is open, and nobody asks what from.
+            if !gpu.is_watched {
+                statistics.blueprints.push(pipeline.blueprint.clone());
+            }
             statistics.executables = executables;
         });
         Ok(pipeline)

@@ -1,0 +1,122 @@
+//! A window, the device that draws to it, and the panel's library between them.
+
+use anyhow::{Context, Result};
+use ash::vk;
+use egui::{FullOutput, Ui, ViewportId};
+use winit::event::WindowEvent;
+use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
+use winit::window::Window;
+
+use super::painter::Painter;
+use super::style;
+use crate::app::args::Args;
+use crate::app::headless::check_validation;
+use crate::gpu::{Gpu, GpuOptions, Image, Requirements, Swapchain, WindowHandles};
+
+/// What draws to a window. It is dropped in this order, the window last.
+pub struct Stage {
+    painter: Painter,
+    swapchain: Swapchain,
+    egui: egui_winit::State,
+    /// The device.
+    pub gpu: Gpu,
+    /// The window.
+    pub window: Window,
+}
+
+impl Stage {
+    /// Opens the device that the arguments name, to draw to a window.
+    ///
+    /// # Errors
+    /// If there is none that can, or the window shows no 8-bit colour.
+    pub fn new(window: Window, requirements: Requirements, args: &Args) -> Result<Self> {
+        let handles = WindowHandles {
+            display: window.display_handle().context("the window has no display")?.as_raw(),
+            window: window.window_handle().context("the window has no handle")?.as_raw(),
+        };
+        let gpu = Gpu::new(&GpuOptions {
+            requirements,
+            device: args.device.as_deref(),
+            validate: args.validate,
+            window: Some(handles),
+            arithmetic: args.arithmetic,
+        })?;
+        let swapchain = Swapchain::new(&gpu, handles)?;
+        let context = egui::Context::default();
+        style::apply(&context);
+        Ok(Self {
+            painter: Painter::new(&gpu, &swapchain)?,
+            swapchain,
+            egui: egui_winit::State::new(
+                context,
+                ViewportId::ROOT,
+                &window,
+                Some(window.scale_factor() as f32),
+                None,
+                Some(gpu.limits.max_image_dimension as usize),
+            ),
+            gpu,
+            window,
+        })
+    }
+
+    /// Hands an event to the panel; whether the window is to be drawn for it.
+    pub fn take(&mut self, event: &WindowEvent) -> bool {
+        self.egui.on_window_event(&self.window, event).repaint
+    }
+
+    /// How large a drawing has to be; `None` while there is nothing to draw to.
+    ///
+    /// # Errors
+    /// If the window system or the device fails.
+    pub fn fit(&mut self) -> Result<Option<vk::Extent2D>> {
+        let size = self.window.inner_size();
+        self.swapchain.fit(vk::Extent2D { width: size.width, height: size.height })
+    }
+
+    /// Lets `show` declare what lies over the picture.
+    ///
+    /// # Errors
+    /// If memory is short for its textures.
+    pub fn over(&mut self, show: impl FnMut(&mut Ui)) -> Result<FullOutput> {
+        let input = self.egui.take_egui_input(&self.window);
+        let context = self.egui.egui_ctx().clone();
+        let mut drawing = context.run_ui(input, show);
+        let platform = std::mem::take(&mut drawing.platform_output);
+        self.egui.handle_platform_output(&self.window, platform);
+        self.painter.textures(std::mem::take(&mut drawing.textures_delta))?;
+        Ok(drawing)
+    }
+
+    /// Puts a picture, scaled to its area, and what lies over it on the window. `None` if the window had no
+    /// image; `false` if it has changed and wants another.
+    ///
+    /// # Errors
+    /// If the window system or the device fails.
+    pub fn present(
+        &mut self,
+        extent: vk::Extent2D,
+        picture: Option<(&Image, vk::Extent2D)>,
+        drawing: FullOutput,
+    ) -> Result<Option<bool>> {
+        let scale = drawing.pixels_per_point;
+        let triangles = self.egui.egui_ctx().tessellate(drawing.shapes, scale);
+        let Some(target) = self.swapchain.acquire()? else { return Ok(None) };
+        self.painter.paint(extent, picture, (&triangles, scale), target)?;
+        self.window.pre_present_notify();
+        self.swapchain.present(target).map(Some)
+    }
+
+    /// Closes the device, and hands back the window.
+    ///
+    /// # Errors
+    /// If validation had something to say.
+    pub fn close(self) -> Result<Window> {
+        let Self { painter, swapchain, egui, gpu, window } = self;
+        // Messages about what was never destroyed come when the device is.
+        let validation = gpu.validation();
+        drop((painter, swapchain, egui, gpu));
+        check_validation(&validation)?;
+        Ok(window)
+    }
+}

@@ -1,0 +1,219 @@
+//! A machine that has too little: address space, threads, room for a file. A run ends in a picture or in one
+//! line, and leaves a file as it was or writes it whole.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use common::app::sums::{Header, Origin, Sums};
+
+/// A program under a limit of the system's, in the words of `prlimit`.
+fn limited(limit: &str, program: &str) -> Command {
+    let mut command = Command::new("prlimit");
+    command.arg(limit).arg(run::program(program)).current_dir(run::root());
+    // A developer's own setting leaves crashes to the system.
+    command.env_remove("RUST_BACKTRACE");
+    command
+}
+
+/// Exit code 0 and nothing said, or 1 and one line of the program's own; whether it was the first.
+///
+/// What the driver and its compiler write themselves, before they give up, may stand above that line.
+#[track_caller]
+fn done_or_said(what: &str, output: Output) -> bool {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let own = errors.lines().filter(|line| line.starts_with("error: ")).count();
+    match output.status.code() {
+        Some(0) => assert!(own == 0, "{what}: {errors}"),
+        Some(1) => {
+            let last = errors.lines().last().unwrap_or_default();
+            assert!(own == 1 && last.starts_with("error: "), "{what}: {errors}");
+            assert!(errors.lines().count() == 1 || last.contains("gave up"), "{what}: {errors}");
+        }
+        _ => panic!("{what}: {}, {errors}", output.status),
+    }
+    output.status.success()
+}
+
+/// Runs a sample in so many megabytes of address space; whether there is a picture.
+fn in_megabytes(sample: &str, megabytes: u64) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("a.png");
+    let mut command = limited(&format!("--as={}", megabytes << 20), sample);
+    command.args(["--headless", "--size", "8x8", "--out"]).arg(&picture);
+    let done = done_or_said(&format!("{sample}, {megabytes} MB"), command.output().unwrap());
+    assert_eq!(picture.exists(), done, "{sample}, {megabytes} MB");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), usize::from(done));
+    done
+}
+
+#[test]
+fn with_any_address_space_there_is_a_picture_or_one_line() {
+    let sizes = (200..=1000).step_by(50).chain([4000]);
+    let done: Vec<bool> = sizes.map(|size| in_megabytes("02_basic", size)).collect();
+    assert!(!done[0] && done[done.len() - 1], "{done:?}");
+}
+
+#[test]
+#[ignore = "minutes: every chapter in steps of 25 MB"]
+fn so_it_is_in_every_chapter() {
+    for sample in run::chapters() {
+        let done = (200..=1400).step_by(25).filter(|size| in_megabytes(&sample, *size)).count();
+        println!("{sample}: {done} pictures of 49");
+    }
+}
+
+/// A user without files and processes.
+const NOBODY: &str = "61234";
+
+/// A command as another user than root, whom limits do not bind; `None`, and a line, where that cannot be.
+pub fn as_nobody(command: &Command) -> Option<Command> {
+    let nobody = ["--reuid", NOBODY, "--regid", NOBODY, "--clear-groups"];
+    let mut reads = Command::new("setpriv");
+    reads.args(nobody).args(["test", "-r"]).arg(run::root().join("Cargo.toml"));
+    let may_read = reads.output();
+    if !may_read.is_ok_and(|output| output.status.success()) {
+        println!("not tried: this needs root, and a project that others may read");
+        return None;
+    }
+    let mut other = Command::new("setpriv");
+    other.args(nobody).arg(command.get_program()).args(command.get_args());
+    // The driver would tell that it has no home for its cache.
+    other.current_dir(run::root()).env("MESA_SHADER_CACHE_DISABLE", "1");
+    other.env_remove("RUST_BACKTRACE");
+    Some(other)
+}
+
+#[test]
+fn with_any_number_of_threads_there_is_a_picture_or_one_line() {
+    let mut done = Vec::new();
+    for threads in (1..8).chain([64]) {
+        let mut command = limited(&format!("--nproc={threads}"), "02_basic");
+        command.args(["--headless", "--size", "8x8"]);
+        let Some(command) = as_nobody(&command) else { return };
+        // What waits forever is a failure, and not ten minutes of a test.
+        let mut patient = Command::new("timeout");
+        patient.args(["-s", "KILL", "60"]).arg(command.get_program()).args(command.get_args());
+        for (name, value) in command.get_envs() {
+            value.map(|value| patient.env(name, value));
+        }
+        let output =
+            patient.env_remove("RUST_BACKTRACE").current_dir(run::root()).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        done.push(done_or_said(&format!("{threads} threads"), output));
+        if threads == 1 {
+            assert!(errors.contains("starts no more (ulimit -u)"), "{errors}");
+        }
+    }
+    assert!(!done[0] && done[done.len() - 1], "{done:?}");
+}
+
+/// Merges to a file where files may have any number of bytes, from none to enough, in these steps: `merge` writes
+/// by the same code as a render, and needs no driver, which has files of its own.
+/// The file holds `before` then, or is not there.
+fn at_every_byte(
+    name: &str,
+    step: usize,
+    before: Option<&[u8]>,
+    write: impl Fn(Command, &Path) -> Command,
+) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(name);
+    let run = |limit: &str| {
+        let _ = fs::remove_file(&file);
+        if let Some(bytes) = before {
+            fs::write(&file, bytes).unwrap();
+        }
+        write(limited(limit, "chapters"), &file).output().expect("prlimit starts")
+    };
+    let output = run("--fsize=unlimited");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let whole = fs::read(&file).unwrap();
+    for bytes in (0..whole.len()).step_by(step).chain([whole.len() - 1, whole.len()]) {
+        let output = run(&format!("--fsize={bytes}"));
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        let what = format!("{name}, {bytes} of {} bytes", whole.len());
+        let done = done_or_said(&what, output);
+        assert_eq!(done, bytes == whole.len(), "{what}: {errors}");
+        assert!(done || errors.contains("file too large"), "{what}: {errors}");
+        let expected = if done { Some(&whole[..]) } else { before };
+        assert!(fs::read(&file).ok().as_deref() == expected, "{what}: neither the old nor the new");
+        let left = fs::read_dir(&folder).unwrap().count();
+        assert_eq!(left, usize::from(expected.is_some()), "{what}: more is left");
+    }
+    println!("{name}: {} bytes", whole.len());
+}
+
+/// A file of sums of so many samples of a small picture.
+fn sums(file: &Path, samples: Range<u32>) {
+    let origin = Origin { size: [3, 2], shaders: Some(0), ..Origin::default() };
+    let header = Header { origin, samples: samples.into(), ..Header::default() };
+    let values = (0..24).map(|value| i128::from(value) << 60).collect();
+    Sums { header, values }.save(file).expect("it can be written");
+}
+
+#[test]
+fn on_a_disk_that_is_full_after_any_byte_a_merged_file_is_whole_or_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let [part, other] = ["part.sums", "other.sums"].map(|name| folder.path().join(name));
+    sums(&part, 0..4);
+    sums(&other, 4..6);
+    let merge = |mut command: Command, out: &Path| {
+        command.arg("merge").arg(out).arg(&part);
+        command
+    };
+    at_every_byte("a.png", 1, Some(b"precious"), merge);
+    at_every_byte("a.exr", 7, None, merge);
+    let into_one = |mut command: Command, out: &Path| {
+        command.arg("merge").arg(out).arg(&part).arg(out);
+        command
+    };
+    at_every_byte("a.sums", 5, Some(&fs::read(other).unwrap()), into_one);
+}
+
+/// Renders to a disk that has room for so many pages of 4096 bytes, beside a file `a.exr` that was there; whether
+/// that is another now, after a run that said nothing. `None`, and a line, where no disk can be mounted.
+fn on_disk(pages: usize, whole: &[u8]) -> Option<bool> {
+    let folder = tempfile::tempdir().unwrap();
+    let [disk, after, list] = ["disk", "after.exr", "list"].map(|name| folder.path().join(name));
+    fs::create_dir(&disk).unwrap();
+    // What is mounted is seen by this shell alone.
+    let script = "mount -t tmpfs -o size=64k none \"$1\" || exit 77
+        cd \"$1\" && printf precious > a.exr && head -c \"$2\" /dev/zero > fill
+        \"$3\" --headless --size 32x32 --out a.exr; code=$?
+        cp a.exr \"$4\"; ls -A > \"$5\"; exit $code";
+    let filled = (16 - 1 - pages) * 4096;
+    let mut command = Command::new("unshare");
+    command.args(["--map-root-user", "--mount", "sh", "-c", script, "sh"]).arg(&disk);
+    command.arg(filled.to_string()).arg(run::program("02_basic")).args([&after, &list]);
+    let output = command.env_remove("RUST_BACKTRACE").output().unwrap();
+    if !after.exists() {
+        println!("not tried: {}", String::from_utf8_lossy(&output.stderr));
+        return None;
+    }
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    let done = done_or_said(&format!("{pages} pages"), output);
+    assert!(done || errors.contains("no storage space"), "{errors}");
+    assert_eq!(fs::read_to_string(list).unwrap(), "a.exr\nfill\n", "{pages} pages");
+    let expected = if done { whole } else { b"precious" };
+    assert!(fs::read(after).unwrap() == expected, "{pages} pages: neither the old nor the new");
+    Some(done)
+}
+
+#[test]
+fn on_a_full_disk_a_rendered_file_is_whole_or_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("whole.exr");
+    let mut command = run::command("02_basic");
+    command.args(["--headless", "--size", "32x32", "--out"]).arg(&file);
+    assert!(command.status().unwrap().success());
+    let whole = fs::read(&file).unwrap();
+    let needed = whole.len().div_ceil(4096);
+    assert!((2..12).contains(&needed), "{} bytes", whole.len());
+    for pages in 0..=needed {
+        let Some(done) = on_disk(pages, &whole) else { return };
+        assert_eq!(done, pages == needed, "{pages} of {needed} pages");
+    }
+}
