@@ -111,7 +111,7 @@ fn a_run_that_is_asked_to_end_leaves_no_half_written_file() {
             files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
         };
         // It writes after each sample. The second signal does not wait for the end of the writing.
-        let mut command = run::command("04_jitter_camera");
+        let mut command = run::heeding("04_jitter_camera");
         command.args(["--size", "400x400", "--samples", "0..100000", "--save-every", "0"]);
         command.current_dir(&folder).args(["--save", "a.sums"]).stderr(Stdio::null());
         let mut child = command.spawn().unwrap();

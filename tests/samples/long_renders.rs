@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use common::app::Picture;
 use common::app::sums::{Header, merge};
-use run::{bits, command, refusal, render};
+use run::{bits, command, heeding, refusal, render};
 use tempfile::TempDir;
 
 /// A sample that gathers, and quick.
@@ -37,7 +37,7 @@ impl Parts {
     /// The command that begins or goes on with a part.
     fn task(&self, samples: &str, file: &str) -> Command {
         let file = self.path(file);
-        let mut task = command(self.chapter);
+        let mut task = heeding(self.chapter);
         task.args(SIZE).args(["--samples", samples, "--save-every", "0", "--save"]);
         task.arg(&file).arg("--resume").arg(&file);
         task
@@ -158,7 +158,7 @@ fn a_task_that_is_asked_to_stop_before_its_first_sample_does_not_wait_for_it() {
     // A signal that comes before the sample has begun ends any program. Had it waited for the end of the sample,
     // there would be a file, and another line.
     for wait in [1, 2, 4, 8, 16, 32, 64] {
-        let mut task = command(parts.chapter);
+        let mut task = heeding(parts.chapter);
         task.args(["--size", "1000x1000", "--samples", "0..4", "--save", "part"]);
         task.current_dir(&parts.folder).stderr(std::process::Stdio::piped());
         let child = task.spawn().expect("the sample starts");

@@ -38,10 +38,11 @@ impl Drop for Interrupt {
 pub fn watch() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
-    let watch = || {
-        // What started this process may have asked it to live on: `nohup`, or a shell's `&`.
-        let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-        let Ok(mut signals) = Signals::new(heeded) else { return };
+    // What started this process may have asked it to live on: `nohup`, or a shell's `&`.
+    let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+    // Here, not in the thread, which may begin only after the first file has.
+    let Ok(mut signals) = Signals::new(heeded) else { return };
+    let watch = move || {
         for signal in signals.forever() {
             let first = !CAME.swap(true, Ordering::Relaxed);
             if first && LISTENING.load(Ordering::Relaxed) {
