@@ -360,7 +360,7 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&scene, 1, &["'camera eye' is '-5.6,4.8,9.2' in it"]);
     // Another scene has another camera, too, but that is not what is wrong.
     let scene = with(&["--size", "24x16", "--scene", "samples/assets/box_on_plane.obj"]);
-    refused(&scene, 1, &["the CRC-32 of 'chess.obj' is ", " in it and nothing here"]);
+    refused(&scene, 1, &["the CRC-32 of 'chess.mtl' is ", " in it and nothing here"]);
     refused(&with(&["--size", "24x16", "--arithmetic", "worst"]), 1, &["--arithmetic is 'driver'"]);
     let unordered = with(&["--size", "24x16", "--unordered"]);
     refused(&unordered, 1, &["--unordered is false in it and true here"]);
