@@ -63,10 +63,10 @@ impl<R: Reader> Session<R> {
         let other = random.below(self.kept.len());
         let (base, other) = (&self.kept[base], &self.kept[other]);
         let mut input = mutate(random, base, other, &self.words, self.format.most);
-        if let Some(seal) = self.format.seal {
-            if random.below(8) != 0 {
-                seal(&mut input);
-            }
+        if let Some(seal) = self.format.seal
+            && random.below(8) != 0
+        {
+            seal(&mut input);
         }
         input
     }

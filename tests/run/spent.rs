@@ -19,6 +19,8 @@ pub struct Spent {
 /// Runs a command to its end.
 pub fn spend(command: &mut Command) -> Spent {
     let command = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    // It is waited for below, by the call that also tells what it has used.
+    #[allow(clippy::zombie_processes)]
     let mut child = command.spawn().expect("the program starts");
     let mut stderr = Vec::new();
     let errors = child.stderr.as_mut().expect("it is piped");

@@ -10,6 +10,7 @@ use crate::grammar::Grammar;
 
 #[allow(dead_code, missing_docs)]
 #[path = "../../../samples/14_animation/game.rs"]
+#[allow(clippy::module_inception)]
 mod game;
 #[allow(dead_code, missing_docs)]
 #[path = "../../../samples/14_animation/position.rs"]

@@ -135,6 +135,7 @@ fn extra(random: &mut Random, to: &mut Vec<u8>) {
 }
 
 /// Puts the checksums of all chunks right.
+#[allow(clippy::ptr_arg)]
 fn seal(bytes: &mut Vec<u8>) {
     let mut at = SIGNATURE.len();
     while let Some(length) = bytes.get(at..at + 4) {
