@@ -1,7 +1,6 @@
 //! Calls of Vulkan that fail: each is answered in one line, and nothing is left or freed too early.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::process::Output;
 
 use run::layer::Layer;
@@ -45,12 +44,7 @@ fn run(sample: &str, fault: &str) -> (Output, BTreeMap<String, usize>) {
     let mut command = layer.command(sample);
     command.args(["--headless", "--size", "8x8"]).env("CALLS", &file);
     let output = command.output().expect("the sample starts");
-    let told = fs::read_to_string(file).unwrap_or_default();
-    let pair = |line: &str| {
-        let (name, number) = line.split_once(' ').unwrap();
-        (name.to_owned(), number.parse().unwrap())
-    };
-    (output, told.lines().map(pair).collect())
+    (output, Layer::calls(&file))
 }
 
 /// Runs a sample once for each call that is to fail, and holds the answers. `numbers` chooses them: of a

@@ -31,12 +31,7 @@ fn calls(count: usize) -> BTreeMap<String, usize> {
     command.args(["--headless", "--size", "8x8", "--scene"]).arg(folder.path().join("model.obj"));
     let output = command.env("CALLS", &told).output().expect("the sample starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let told = fs::read_to_string(told).unwrap();
-    let pair = |line: &str| {
-        let (name, number) = line.split_once(' ').unwrap();
-        (name.to_owned(), number.parse().unwrap())
-    };
-    told.lines().map(pair).collect()
+    Layer::calls(&told)
 }
 
 #[test]

@@ -64,7 +64,7 @@ pub struct Format {
     /// Inputs that are right, or were wrong once.
     pub seeds: fn() -> Vec<Vec<u8>>,
     /// Puts checksums right that a mutation has broken.
-    pub seal: Option<fn(&mut Vec<u8>)>,
+    pub seal: Option<fn(&mut [u8])>,
 }
 
 /// A function that reads, and what it may take.

@@ -1,5 +1,6 @@
 //! Layers between a program and the driver, for tests alone.
 
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -30,6 +31,17 @@ impl Layer {
         let alone = ("NODEVICE_SELECT", "1".into());
         let variables = vec![("FAIL", fault.into()), alone];
         Self::new("failing", failing::NAME, failing::NAME.to_owned(), variables)
+    }
+
+    /// How often a program under a failing layer called each function, from the file that it was told to leave,
+    /// `CALLS` in its environment; nothing if it came to no end.
+    pub fn calls(file: &Path) -> BTreeMap<String, usize> {
+        let told = std::fs::read_to_string(file).unwrap_or_default();
+        let pair = |line: &str| {
+            let (name, number) = line.split_once(' ').expect("a name and a number");
+            (name.to_owned(), number.parse().expect("a number"))
+        };
+        told.lines().map(pair).collect()
     }
 
     fn new(

@@ -96,7 +96,7 @@ impl MaterialLibrary {
             return Ok(());
         }
         let text = Text::read(&file.path, file.shown.clone(), limits.mtl_bytes)?;
-        self.bytes += text.len() as u64;
+        self.bytes += text.size() as u64;
         ensure!(
             self.bytes <= limits.mtl_bytes,
             "{}: is too large: with the MTL files before it {} bytes, at most {} are read",

@@ -63,7 +63,7 @@ impl<'a> Check<'a> {
             has_objects: false,
             limits,
         };
-        check.tally.text = text.len() + check.plain.len();
+        check.tally.text = text.size() + check.plain.len();
         let mut stray = None;
         for statement in text.statements() {
             let (keyword, rest) = statement.split().map_err(|error| statement.at(error))?;

@@ -10,8 +10,7 @@ use crate::grammar::Grammar;
 
 #[allow(dead_code, missing_docs)]
 #[path = "../../../samples/14_animation/game.rs"]
-#[allow(clippy::module_inception)]
-mod game;
+mod moves;
 #[allow(dead_code, missing_docs)]
 #[path = "../../../samples/14_animation/position.rs"]
 mod position;
@@ -36,10 +35,10 @@ pub const FORMAT: Format = Format {
 pub const FUNCTION: Function = Function {
     beside: nothing,
     read: |path| {
-        let game = game::open(path)?;
+        let game = moves::open(path)?;
         let became = game.iter().filter(|played| played.by.becomes.is_some()).count();
         let taken = game.iter().filter(|played| played.taken.is_some()).count();
-        assert!(game.len() <= game::MOST && taken <= 30 && became <= 16);
+        assert!(game.len() <= moves::MOST && taken <= 30 && became <= 16);
         let castled = game.iter().any(|played| played.rook.is_some());
         Ok(format!("became {} castled {castled}", became > 0))
     },

@@ -95,8 +95,7 @@ fn make(random: &mut Random) -> Vec<u8> {
 }
 
 /// Puts the header's length and the checksum right.
-#[allow(clippy::ptr_arg)]
-fn seal(bytes: &mut Vec<u8>) {
+fn seal(bytes: &mut [u8]) {
     let end = bytes.windows(3).position(|three| three == b"}}\x78").map(|at| at + 2);
     if let (Some(end), true) = (end, bytes.len() > 12) {
         let length = (end as u32).saturating_sub(12);

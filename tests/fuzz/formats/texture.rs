@@ -135,8 +135,7 @@ fn extra(random: &mut Random, to: &mut Vec<u8>) {
 }
 
 /// Puts the checksums of all chunks right.
-#[allow(clippy::ptr_arg)]
-fn seal(bytes: &mut Vec<u8>) {
+fn seal(bytes: &mut [u8]) {
     let mut at = SIGNATURE.len();
     while let Some(length) = bytes.get(at..at + 4) {
         let length = u32::from_be_bytes([length[0], length[1], length[2], length[3]]) as usize;

@@ -199,7 +199,7 @@ fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() 
     let mut packed =
         flate2::write::ZlibEncoder::new(b"p\0\0".to_vec(), flate2::Compression::best());
     let zeros = vec![0; 1 << 20];
-    for _ in 0..2 * BESIDE_BYTES >> 20 {
+    for _ in 0..(2 * BESIDE_BYTES) >> 20 {
         std::io::Write::write_all(&mut packed, &zeros).unwrap();
     }
     let profile = with(chunk(b"iCCP", &packed.finish().unwrap()));
