@@ -7,7 +7,7 @@ use ash::{Device, Entry, Instance, khr, vk};
 
 use super::instance::{self, WindowHandles};
 use super::limits::Limits;
-use super::requirements::{Features, Requirements};
+use super::{Features, Requirements};
 use crate::usage::Usage;
 
 /// A physical device, described well enough to choose it or to say why not.

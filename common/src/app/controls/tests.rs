@@ -1,5 +1,7 @@
 //! Controls set, listed and refused.
 
+use glam::DVec3;
+
 use super::*;
 
 #[derive(Default)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
-use crate::files::write_whole;
+use crate::files::{read_cached, write_whole};
 use crate::scene::Camera;
 
 /// Cameras by digit, kept in `target/bookmarks` from one run to the next.
@@ -24,7 +24,7 @@ impl Bookmarks {
 
     fn open_in(folder: &Path, name: &str) -> Self {
         let file = folder.join(name).with_extension("json");
-        let places = std::fs::read(&file).ok().and_then(|b| serde_json::from_slice(&b).ok());
+        let places = read_cached(&file).and_then(|bytes| serde_json::from_slice(&bytes).ok());
         Self { file, places: places.unwrap_or_default() }
     }
 
@@ -61,5 +61,13 @@ mod tests {
         bookmarks.set(3, camera);
         assert_eq!(Bookmarks::open_in(folder.path(), "02_basic").get(3), Some(camera));
         assert_eq!(Bookmarks::open_in(folder.path(), "03_any_hit").get(3), None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_could_deliver_without_end_holds_no_bookmarks() {
+        let folder = tempfile::tempdir().unwrap();
+        std::os::unix::fs::symlink("/dev/zero", folder.path().join("02_basic.json")).unwrap();
+        assert_eq!(Bookmarks::open_in(folder.path(), "02_basic").get(3), None);
     }
 }

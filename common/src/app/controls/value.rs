@@ -1,0 +1,106 @@
+//! A control's value, and the text that sets it.
+
+use std::ops::RangeInclusive;
+
+use glam::{DVec3, Vec3};
+
+/// A control's value, borrowed from the sample, and what it may be.
+pub enum Value<'a> {
+    /// A number between two others.
+    Slider(&'a mut f32, RangeInclusive<f32>),
+    /// A whole number between two others.
+    Integer(&'a mut u32, RangeInclusive<u32>),
+    /// On or off.
+    Checkbox(&'a mut bool),
+    /// A linear colour, each part 0 to 1.
+    Color(&'a mut Vec3),
+    /// One of several words, held as its position among them.
+    Choice(&'a mut u32, &'a [&'a str]),
+    /// Three numbers, each between two others.
+    Vector(&'a mut Vec3, RangeInclusive<f32>),
+    /// A point in f64, anywhere that f32 can tell.
+    Point(&'a mut DVec3),
+}
+
+impl Value<'_> {
+    /// The kind, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Slider(..) => "number",
+            Self::Integer(..) => "whole number",
+            Self::Checkbox(_) => "switch",
+            Self::Color(_) => "colour",
+            Self::Choice(..) => "choice",
+            Self::Vector(..) => "vector",
+            Self::Point(_) => "point",
+        }
+    }
+
+    /// What it may be, as an error or a table says it.
+    pub fn possible(&self) -> String {
+        match self {
+            Self::Slider(_, range) => format!("{} to {}", range.start(), range.end()),
+            Self::Integer(_, range) => format!("{} to {}", range.start(), range.end()),
+            Self::Checkbox(_) => "on, off".to_owned(),
+            Self::Color(_) => "r,g,b, each 0 to 1".to_owned(),
+            Self::Choice(_, options) => options.join(", "),
+            Self::Vector(_, range) => format!("x,y,z, each {} to {}", range.start(), range.end()),
+            Self::Point(_) => "x,y,z".to_owned(),
+        }
+    }
+
+    /// The value, in the form that [`Value::set`] takes.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Slider(value, _) => value.to_string(),
+            Self::Integer(value, _) => value.to_string(),
+            Self::Checkbox(value) => if **value { "on" } else { "off" }.to_owned(),
+            Self::Color(v) | Self::Vector(v, _) => format!("{},{},{}", v.x, v.y, v.z),
+            Self::Choice(value, options) => {
+                options.get(**value as usize).copied().unwrap_or_default().to_owned()
+            }
+            Self::Point(v) => format!("{},{},{}", v.x, v.y, v.z),
+        }
+    }
+
+    /// Sets the value from text; `None` if the text is not one that is possible.
+    pub fn set(&mut self, text: &str) -> Option<()> {
+        let within =
+            |number: f32, range: &RangeInclusive<f32>| range.contains(&number).then_some(number);
+        match self {
+            Self::Slider(value, range) => **value = within(text.parse().ok()?, range)?,
+            Self::Integer(value, range) => {
+                **value = text.parse().ok().filter(|number| range.contains(number))?;
+            }
+            Self::Checkbox(value) => {
+                **value = match text {
+                    "on" | "true" | "1" => true,
+                    "off" | "false" | "0" => false,
+                    _ => return None,
+                }
+            }
+            Self::Color(value) => **value = vector(text, &(0.0..=1.0))?,
+            Self::Choice(value, options) => {
+                **value = options.iter().position(|option| *option == text)? as u32;
+            }
+            Self::Vector(value, range) => **value = vector(text, range)?,
+            // Shaders get it in 32 bits.
+            Self::Point(value) => {
+                let point = DVec3::from_array(three(text)?);
+                **value = point.as_vec3().is_finite().then_some(point)?;
+            }
+        }
+        Some(())
+    }
+}
+
+fn three(text: &str) -> Option<[f64; 3]> {
+    let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let point: [f64; 3] = parts?.try_into().ok()?;
+    point.iter().all(|part| part.is_finite()).then_some(point)
+}
+
+fn vector(text: &str, range: &RangeInclusive<f32>) -> Option<Vec3> {
+    let parts = three(text)?.map(|part| part as f32);
+    parts.iter().all(|part| range.contains(part)).then_some(Vec3::from_array(parts))
+}
