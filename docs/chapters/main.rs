@@ -132,8 +132,8 @@ enum Command {
         #[arg(long)]
         page: bool,
         /// Lines around each change
-        #[arg(long, value_name = "N", default_value_t = 3)]
-        context: usize,
+        #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16))]
+        context: u16,
     },
     /// Make a chapter as a copy of another, such as `new 13 callable_shader --from 05`
     New {
@@ -255,7 +255,7 @@ fn run(arguments: &Arguments) -> Result<()> {
             let diffs = diff::chapters(&project, old, new, parts)?;
             let mut text = show::heading(old, new);
             if !stat {
-                text.push_str(&show::changes(old, new, &diffs, *context));
+                text.push_str(&show::changes(old, new, &diffs, usize::from(*context)));
             }
             text.push_str(&show::statistics(&diffs));
             print(&text)

@@ -17,6 +17,10 @@ use common::usage::Usage;
 /// written, or is a file of sums that is not among them: its samples would be lost.
 pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<String> {
     check_writable(out)?;
+    if Format::of(out).is_err() && out.extension().is_none_or(|it| it != "sums") {
+        let what = "a picture is .png or .exr, and sums are .sums";
+        bail!(Usage(format!("cannot write '{}': {what}", out.display())));
+    }
     refuse_to_lose(out, files)?;
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
     let sums = merge(&files)?;

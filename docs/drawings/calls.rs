@@ -21,7 +21,7 @@ pub fn shader_calls() -> String {
     s.card([186.0, 250.0], [176.0, 72.0], DEVICE, "triangle test", &["by the device"]);
     let inside = ["says where the ray", "meets what is inside"];
     s.card([468.0, 250.0], [176.0, 72.0], YOURS, "intersection", &inside);
-    let counts = ["unless the candidate is opaque:", "does it count?"];
+    let counts = ["does the candidate count?", "terminateRayEXT ends the search"];
     s.card([290.0, 404.0], [250.0, 72.0], YOURS, "any-hit", &counts);
     let function = ["a function from the", "table, without a ray"];
     s.card([650.0, 404.0], [166.0, 72.0], YOURS, "callable", &function);
@@ -33,10 +33,15 @@ pub fn shader_calls() -> String {
     s.arrow(&[[510.0, 162.0], [510.0, 248.0]]);
     s.note([518.0, 206.0], Start, "a box");
     s.arrow(&[[320.0, 322.0], [320.0, 402.0]]);
-    s.note([312.0, 366.0], End, "nearer hit");
+    s.note([312.0, 358.0], End, "nearer,");
+    s.note([312.0, 374.0], End, "not opaque");
     s.arrow(&[[510.0, 322.0], [510.0, 402.0]]);
     s.note([518.0, 346.0], Start, "reportIntersectionEXT");
     s.arrow(&[[415.0, 404.0], [415.0, 164.0]]);
+    s.arrow(&[[362.0, 286.0], [388.0, 286.0], [388.0, 164.0]]);
+    s.note([382.0, 240.0], End, "opaque");
+    s.arrow(&[[468.0, 286.0], [442.0, 286.0], [442.0, 164.0]]);
+    s.note([448.0, 240.0], Start, "opaque");
     for (row, text) in ["accepted", "or ignored:", "go on"].into_iter().enumerate() {
         s.note([408.0, 344.0 + 17.0 * row as f64], End, text);
     }
@@ -48,8 +53,9 @@ pub fn shader_calls() -> String {
     s.arrow(&[[816.0, 220.0], [828.0, 220.0], [828.0, 44.0], [84.0, 44.0], [84.0, 70.0]]);
     s.note([816.0, 36.0], End, "traceRayEXT returns; the payload holds the answer");
     s.arrow(&[[733.0, 384.0], [733.0, 402.0]]);
-    s.note([733.0, 362.0], Middle, "executeCallableEXT, from ray");
-    s.note([733.0, 378.0], Middle, "generation, closest hit or miss");
+    s.note([733.0, 344.0], Middle, "executeCallableEXT, from");
+    s.note([733.0, 360.0], Middle, "ray generation, closest hit,");
+    s.note([733.0, 376.0], Middle, "miss or callable shaders");
     s.card([24.0, 490.0], [14.0, 14.0], YOURS, "", &[]);
     s.note([46.0, 502.0], Start, "your shaders");
     s.card([150.0, 490.0], [14.0, 14.0], DEVICE, "", &[]);

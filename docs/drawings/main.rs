@@ -26,6 +26,7 @@ const DRAWINGS: &[Drawing] = &[
     ("address_chain", structures::address_chain),
     ("any_hit_order", calls::any_hit_order),
     ("barycentrics", rays::barycentrics),
+    ("edge_plane", rays::edge_plane),
     ("footprint", rays::footprint),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),
@@ -35,6 +36,7 @@ const DRAWINGS: &[Drawing] = &[
     ("slabs", shapes::slabs),
     ("solid_angles", lights::solid_angles),
     ("solid_intervals", shapes::intervals),
+    ("table_of_foundation", table::chapter_01),
     ("thin_lens", lens::thin_lens),
 ];
 

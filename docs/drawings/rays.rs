@@ -1,9 +1,9 @@
-//! Rays and triangles, in the plane.
+//! Rays and triangles.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::sheet::Anchor::{End, Middle, Start};
-use crate::sheet::{BROWN, FAINT, GREEN, LINE, Point, RED, Sheet, WHITE, YOURS};
+use crate::sheet::{BROWN, FAINT, GREEN, LINE, Point, RED, SEA, Sheet, WHITE, YOURS};
 
 fn cross(a: DVec2, b: DVec2) -> f64 {
     a.x * b.y - a.y * b.x
@@ -228,5 +228,46 @@ pub fn footprint() -> String {
     }
     s.dot(point(eye), 5.0, LINE);
     s.note([eye.x, eye.y - 12.0], Middle, "eye");
+    s.svg()
+}
+
+/// The plane through the eye and a triangle's edge, and a pixel's distance to it in the picture.
+pub fn edge_plane() -> String {
+    let mut s = Sheet::new([840, 400], "The plane through the eye and an edge");
+    // Seen from the side: the view goes to the right.
+    let shown = |p: DVec3| [64.0 + 236.0 * p.z - 70.0 * p.x, 214.0 - 140.0 * p.y + 60.0 * p.x];
+    let eye = DVec3::ZERO;
+    let [b, c] = [DVec3::new(-1.0, 0.8, 2.2), DVec3::new(0.7, -0.75, 2.3)];
+    let a = DVec3::new(-1.2, -0.5, 2.6);
+    let normal = b.cross(c);
+    let frame = [(-0.75, 0.5), (-0.75, -0.5), (0.75, -0.5), (0.75, 0.5)];
+    s.polygon(&[a, b, c].map(shown), YOURS, BROWN);
+    s.polygon(&frame.map(|(x, y)| shown(DVec3::new(x, y, 1.0))), WHITE, LINE);
+    s.line(&[b, c].map(shown), RED, 4.0);
+    for end in [b, c] {
+        s.dashes(&[eye, end].map(shown), LINE, 1.2);
+    }
+    // In the picture the plane is a line; a pixel's distance to it is n·d over the length of n's part there.
+    let [from, to] = [b, c].map(|end| end / end.z);
+    s.line(&[from, to].map(shown), RED, 3.0);
+    let pixel = DVec3::new(-0.33, -0.16, 1.0);
+    let gradient = DVec3::new(normal.x, normal.y, 0.0);
+    let foot = pixel - normal.dot(pixel) / gradient.length_squared() * gradient;
+    let along = (b - a).cross(c - a);
+    let hit = pixel * along.dot(a) / along.dot(pixel);
+    s.line(&[pixel, foot].map(shown), SEA, 3.0);
+    s.arrow(&[eye, hit].map(shown));
+    s.dot(shown(pixel), 5.0, SEA);
+    s.dot(shown(hit), 4.0, LINE);
+    s.dot(shown(eye), 5.0, LINE);
+    s.note([64.0, 240.0], Middle, "eye");
+    s.note([300.0, 360.0], Middle, "the picture, at distance 1");
+    s.title([704.0, 60.0], Start, "the edge");
+    s.note([704.0, 78.0], Start, "It spans a plane");
+    s.note([704.0, 95.0], Start, "with the eye: n·d = 0.");
+    s.title([24.0, 72.0], Start, "In the picture");
+    s.note([24.0, 90.0], Start, "the plane is a line (red).");
+    s.note([24.0, 107.0], Start, "The pixel’s distance to it");
+    s.note([24.0, 124.0], Start, "(blue) is what is asked.");
     s.svg()
 }

@@ -24,7 +24,7 @@ pub fn two_levels() -> String {
     );
     s.card([117.0, 266.0], [298.0, 66.0], WHITE, "rook", &["2952 triangles"]);
     s.card([502.0, 266.0], [144.0, 66.0], WHITE, "pawn", &["2128 triangles"]);
-    s.card([656.0, 266.0], [144.0, 66.0], WHITE, "board", &["64 triangles"]);
+    s.card([656.0, 266.0], [144.0, 66.0], WHITE, "light squares", &["64 triangles"]);
     for (from, to) in
         [(112.0, 190.0), (266.0, 266.0), (420.0, 342.0), (574.0, 574.0), (728.0, 728.0)]
     {
@@ -35,52 +35,51 @@ pub fn two_levels() -> String {
 
 /// From the push constants and the hit to three vertices.
 pub fn address_chain() -> String {
-    let mut s = Sheet::new([840, 330], "From a hit to its vertices");
-    s.card([24.0, 64.0], [168.0, 64.0], DEVICE, "push constants", &["scene.instances"]);
-    s.card([24.0, 214.0], [168.0, 64.0], GREEN, "the hit", &["what the device says"]);
-    s.dashed_arrow(&[[192.0, 246.0], [222.0, 246.0]]);
-    let vertices = [
-        "0: position, normal, uv",
-        "1: position, normal, uv",
-        "2: position, normal, uv",
-        "3: position, normal, uv",
+    let mut s = Sheet::new([840, 360], "From a hit to its vertices");
+    s.card([24.0, 96.0], [126.0, 64.0], DEVICE, "push constants", &["scene.instances"]);
+    s.card([24.0, 246.0], [126.0, 64.0], GREEN, "the hit", &["what the device says"]);
+    let corners = ["0: position, …", "1: position, …", "2: position, …", "3: position, …"];
+    // Of each its place, width, name and rows, and which of them are chosen.
+    type Column<'a> = (f64, f64, &'a str, [&'a str; 4], &'a [usize]);
+    let columns: [Column; 4] = [
+        (180.0, 150.0, "InstanceRecord", ["0", "1", "2", "…"], &[2]),
+        (382.0, 80.0, "original", ["2", "0", "1", "…"], &[2]),
+        (514.0, 110.0, "triangles", ["(0, 1, 2)", "(2, 1, 3)", "(3, 1, 4)", "…"], &[1]),
+        (676.0, 140.0, "vertices", corners, &[1, 2, 3]),
     ];
-    // Of each its place, name and rows, which of them are chosen, and by what.
-    type Column<'a> = (f64, &'a str, &'a [&'a str], &'a [usize], [&'a str; 2]);
-    let columns: [Column; 3] = [
-        (
-            232.0,
-            "instance records",
-            &["0", "1", "2", "…"],
-            &[2],
-            ["gl_InstanceCustomIndex", "chooses the record"],
-        ),
-        (
-            440.0,
-            "triangles",
-            &["(0, 1, 2)", "(2, 1, 3)", "(3, 1, 4)", "…"],
-            &[1],
-            ["gl_PrimitiveID", "chooses the triangle"],
-        ),
-        (648.0, "vertices", &vertices, &[1, 2, 3], ["its three indices", "choose the corners"]),
-    ];
-    for (x, name, rows, chosen, by) in columns {
+    let middle = |row: usize| 114.0 + 28.0 * row as f64;
+    for (x, width, name, rows, chosen) in columns {
         s.title([x, 60.0], Start, name);
         for (row, text) in rows.iter().enumerate() {
             let fill = if chosen.contains(&row) { YOURS } else { WHITE };
-            s.card([x, 70.0 + 28.0 * row as f64], [168.0, 28.0], fill, "", &[text]);
+            s.card([x, middle(row) - 14.0], [width, 28.0], fill, "", &[text]);
         }
-        s.note([x + 84.0, 232.0], Middle, by[0]);
-        s.note([x + 84.0, 250.0], Middle, by[1]);
-        s.dashed_arrow(&[[x + 84.0, 216.0], [x + 84.0, 186.0]]);
     }
-    s.arrow(&[[192.0, 96.0], [212.0, 96.0], [212.0, 78.0], [230.0, 78.0]]);
-    s.arrow(&[[400.0, 140.0], [420.0, 140.0], [420.0, 78.0], [438.0, 78.0]]);
+    s.arrow(&[[150.0, 128.0], [164.0, 128.0], [164.0, 108.0], [178.0, 108.0]]);
+    // The three addresses of a record.
+    for end in [422.0, 569.0, 746.0] {
+        s.arrow(&[[330.0, middle(2)], [354.0, middle(2)], [354.0, 78.0], [end, 78.0], [end, 98.0]]);
+    }
+    s.dashed_arrow(&[[150.0, 278.0], [255.0, 278.0], [255.0, 214.0]]);
+    s.dashed_arrow(&[[255.0, 278.0], [422.0, 278.0], [422.0, 214.0]]);
+    s.note([255.0, 298.0], Middle, "gl_InstanceCustomIndexEXT");
+    s.note([422.0, 298.0], Middle, "gl_PrimitiveID");
+    s.dashed_arrow(&[
+        [462.0, middle(2)],
+        [488.0, middle(2)],
+        [488.0, middle(1)],
+        [512.0, middle(1)],
+    ]);
     for row in 1..=3 {
-        let y = 84.0 + 28.0 * f64::from(row);
-        s.arrow(&[[608.0, 112.0], [628.0, 112.0], [628.0, y], [646.0, y]]);
+        let bend = 650.0;
+        s.dashed_arrow(&[
+            [624.0, middle(1)],
+            [bend, middle(1)],
+            [bend, middle(row)],
+            [674.0, middle(row)],
+        ]);
     }
-    s.note([24.0, 306.0], Start, "Solid arrows are addresses of 64 bits, dashed arrows are indices. A record holds its mesh’s addresses.");
+    s.note([24.0, 340.0], Start, "Solid arrows are addresses of 64 bits: where an array begins. Dashed arrows are indices: which element is meant.");
     s.svg()
 }
 

@@ -1,7 +1,36 @@
 //! The shader binding table.
 
 use crate::sheet::Anchor::{Middle, Start};
-use crate::sheet::{BLUE, Sheet, YOURS};
+use crate::sheet::{BLUE, Sheet, WHITE, YOURS};
+
+/// That of chapter 01 in bytes: one record a region, on a device like this one and on one that wants regions
+/// farther apart.
+pub fn chapter_01() -> String {
+    const HANDLE: u32 = 32;
+    const HANDLE_ALIGNMENT: u32 = 16;
+    let mut s = Sheet::new([840, 330], "The shader binding table of chapter 01, byte by byte");
+    let place = |byte: u32| 24.0 + 4.9 * f64::from(byte);
+    for (row, base_alignment) in [32u32, 64].into_iter().enumerate() {
+        let top = 96.0 + 112.0 * row as f64;
+        let stride = HANDLE.next_multiple_of(HANDLE_ALIGNMENT);
+        let region = stride.next_multiple_of(base_alignment);
+        s.title([24.0, top - 16.0], Start, &format!("shaderGroupBaseAlignment {base_alignment}"));
+        for (i, group) in ["camera.rgen", "sky.rmiss", "shade.rchit"].into_iter().enumerate() {
+            let start = i as u32 * region;
+            let width = place(stride) - place(0);
+            s.card([place(start), top], [width, 46.0], YOURS, group, &["handle"]);
+            s.note([place(start), top + 64.0], Middle, &start.to_string());
+            if region > stride && i < 2 {
+                let gap = place(region) - place(stride);
+                s.card([place(start + stride), top], [gap, 46.0], WHITE, "", &["unused"]);
+            }
+        }
+        let size = 2 * region + stride;
+        s.note([place(size), top + 64.0], Middle, &size.to_string());
+    }
+    s.note([24.0, 302.0], Start, "A handle has 32 bytes. Numbers are bytes from the table’s beginning; the last one is its size.");
+    s.svg()
+}
 
 /// That of chapter 13, which has records in all four regions.
 pub fn chapter_13() -> String {
@@ -24,6 +53,8 @@ pub fn chapter_13() -> String {
             s.card([x, 98.0 + 34.0 * row as f64], [180.0, 30.0], YOURS, "", &[record]);
         }
     }
+    s.note([432.0, 250.0], Start, "the same shader four times:");
+    s.note([432.0, 267.0], Start, "callables draw the patterns");
     let lines = [
         "A record is a handle of shaderGroupHandleSize bytes, and behind it bytes of your own (shaderRecordEXT).",
         "The stride from one record to the next is a multiple of shaderGroupHandleAlignment,",

@@ -158,6 +158,7 @@ const EXTENSIONS: [&CStr; 4] = [
 ];
 // ANCHOR_END: extensions
 
+// ANCHOR: features
 /// The features that this program uses, as a chain that `f` gets: on, to make a device with, or off,
 /// for a physical device to say which it has.
 fn with_features<R>(
@@ -184,6 +185,7 @@ fn with_features<R>(
     ];
     (result, now)
 }
+// ANCHOR_END: features
 
 fn with_device<R>(
     instance: &Instance,
@@ -473,6 +475,7 @@ fn render(
 
     // ---- 9. The frame, recorded once: trace, then copy
 
+    // ANCHOR: descriptors
     let levels = [top.handle];
     let mut level =
         vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&levels);
@@ -489,6 +492,7 @@ fn render(
             .descriptor_type(vk::DescriptorType::STORAGE_IMAGE)
             .image_info(&images),
     ];
+    // ANCHOR_END: descriptors
     let layers = vk::ImageSubresourceLayers::default().aspect_mask(color).layer_count(1);
     let pixel_copy =
         [vk::BufferImageCopy::default().image_subresource(layers).image_extent(extent)];

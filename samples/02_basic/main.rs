@@ -19,7 +19,6 @@ use common::{Controls, Frame, Sample, Setup};
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
-// ANCHOR_END: main
 
 struct Demo {
     scene: SceneOnGpu,
@@ -28,6 +27,7 @@ struct Demo {
     sun: Sun,
     show: Show,
 }
+// ANCHOR_END: main
 
 // ANCHOR: show
 common::shader_enum! {

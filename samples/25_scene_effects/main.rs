@@ -149,7 +149,9 @@ impl Sample for Demo {
         let camera = self.camera.basis(frame.aspect());
         let shapes = self.geometry.as_ref().context("no scene")?.shapes;
         // With --samples, each frame has rays of its own.
-        let first = frame.first().wrapping_mul(self.scene.samples);
+        let rays = self.scene.samples;
+        let next = frame.first().checked_add(1).and_then(|next| next.checked_mul(rays));
+        let first = next.context("rays are numbered up to 2^32: ask for fewer samples")? - rays;
         let world = World::new(&self.scene, shapes, self.camera.eye, first);
         self.world.update(frame.cmd, &[world])?;
         let recipe = self.recipe();

@@ -2,7 +2,9 @@
 #include "pattern.glsl"
 #include "finish.glsl"
 
+// ANCHOR: caller
 layout(location = 0) callableDataEXT Pattern pattern;
+// ANCHOR_END: caller
 
 // ANCHOR: choose
 // The weight of a pattern at a place.

@@ -42,7 +42,8 @@ fn what_cannot_be_merged_is_refused_by_name_and_nothing_is_written() {
     part(&fixture, "b.sums", 3..5);
     fs::write(fixture.path("text"), "Once upon a time").unwrap();
     let file = |name: &str| fixture.path(name).to_str().expect("a plain name").to_owned();
-    let [a, b, text, out, gone] = ["a.sums", "b.sums", "text", "out.sums", "gone.sums"].map(file);
+    let [a, b, text, out, gone, jpeg] =
+        ["a.sums", "b.sums", "text", "out.sums", "gone.sums", "out.jpg"].map(file);
     for (arguments, code, words) in [
         (&[&out, &a, &b][..], 1, "samples 3..4 are in "),
         (&[&out, &a, &a], 1, "a.sums, too"),
@@ -50,6 +51,7 @@ fn what_cannot_be_merged_is_refused_by_name_and_nothing_is_written() {
         (&[&out, &a, &text], 1, "text: is no file of sums that --save has written"),
         (&[&out, &gone], 1, "gone.sums: there is no such file"),
         (&[&out], 2, "<FILE>..."),
+        (&[&jpeg, &a], 2, "out.jpg': a picture is .png or .exr, and sums are .sums"),
     ] {
         let arguments: Vec<&str> = arguments.iter().map(|argument| argument.as_str()).collect();
         let outcome = fixture.run(&[&["merge"], &arguments[..]].concat());

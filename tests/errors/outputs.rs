@@ -52,6 +52,17 @@ fn one_file_for_both() {
 }
 
 #[test]
+fn what_is_read_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let [model, same] = ["m.json", "./m.json"].map(|name| folder.path().join(name));
+    fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let scene = ["--scene", text(&model), "--report", text(&same)];
+    refused(&scene, 2, &["--scene and --report both name '"]);
+    refused(&["--report", "a.sums"], 2, &["--report a.sums: a report is .json, or -"]);
+    assert!(fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
+}
+
+#[test]
 fn a_failed_run_leaves_the_files_that_were_there() {
     let folder = tempfile::tempdir().unwrap();
     let [out, report] = ["a.png", "a.json"].map(|name| folder.path().join(name));

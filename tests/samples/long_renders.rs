@@ -382,7 +382,18 @@ fn what_does_not_fit_is_refused_by_name() {
     fs::write(&file, bytes).unwrap();
     let resume = [&kept[..], &["--resume", name]].concat();
     refused(&resume, 1, &["part: is damaged: it is cut off, or"]);
-    refused(&["--samples", "4..4"], 2, &["samples are A..B", "such as 0..64"]);
+    refused(&["--samples", "4"], 2, &["samples are A..B", "such as 0..64"]);
+    refused(&["--samples", "4..4"], 2, &["samples are A..B, and A must be below B"]);
+    refused(&["--samples", "0..4294967296"], 2, &["B is at most 4294967295"]);
+    refused(
+        &["--samples", "0..4", "--save", "-"],
+        2,
+        &["--save -: sums of samples are no picture"],
+    );
+    let picture = ["--size", "24x16", "--samples", "0..2", "--save", text.to_str().unwrap()];
+    refused(&picture, 1, &["text' is there already, and is no file of sums: choose another name"]);
+    let out = ["--samples", "0..4", "--resume", name, "--save", name, "--report", name];
+    refused(&out, 2, &["--resume and --report both name '"]);
     refused(&["--headless", "--save", name], 2, &["--samples <A..B>"]);
     let picture = ["--samples", "0..4", "--save", "part.PNG"];
     refused(&picture, 2, &["--save part.PNG: sums of samples are no picture"]);

@@ -132,8 +132,9 @@ impl Args {
     /// Fails if the sums are to go where one would look for a picture: no viewer opens them.
     fn sums_are_no_picture(&self) -> Result<(), Usage> {
         let Some(path) = &self.save else { return Ok(()) };
-        let ends = |end| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
-        match ends("png") || ends("exr") {
+        let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+        let others = ["png", "exr", "jpg", "jpeg", "tif", "tiff", "json"];
+        match others.iter().any(ends) || path.as_os_str() == "-" {
             true => Err(Usage(format!(
                 "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
                 path.display()

@@ -61,7 +61,12 @@ pub fn resumed(args: &Args) -> Result<Option<Sums>> {
     let is_there = |path: &Path| path.symlink_metadata().is_ok();
     if let Some(save) = save.filter(|save| Some(*save) != resume && is_there(save)) {
         let name = shown(save);
-        bail!("'{name}' is there already: --resume '{name}' goes on with it");
+        match Sums::begins(save) {
+            true => bail!("'{name}' is there already: --resume '{name}' goes on with it"),
+            false => {
+                bail!("'{name}' is there already, and is no file of sums: choose another name")
+            }
+        }
     }
     // The command that goes on is that which begins: a batch system repeats it as it stands.
     let resume = resume.filter(|resume| save != Some(resume) || is_there(resume));

@@ -196,12 +196,25 @@ pub fn check_files(args: &Args) -> Result<()> {
     let files =
         [("--out", args.out.as_deref()), ("--report", report), ("--save", args.save.as_deref())];
     let files: Vec<_> = files.into_iter().filter_map(|(name, file)| Some((name, file?))).collect();
+    let inputs = [("--scene", args.scene.as_deref()), ("--resume", args.resume.as_deref())];
     for (i, (name, file)) in files.iter().enumerate() {
         files::check_writable(file)?;
         if let Some((other, _)) = files[..i].iter().find(|(_, other)| files::same(other, file)) {
             let file = file.display();
             return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
         }
+        // Only sums are written into the file from which they come.
+        let read = inputs.iter().filter(|(input, _)| (*input, *name) != ("--resume", "--save"));
+        if let Some((input, _)) =
+            read.clone().find(|(_, it)| it.is_some_and(|it| files::same(it, file)))
+        {
+            let file = file.display();
+            return Err(Usage(format!("{input} and {name} both name '{file}'")).into());
+        }
+    }
+    if let Some(report) = report.filter(|path| !path.extension().is_some_and(|it| it == "json")) {
+        let line = "a report is .json, or - for standard output";
+        bail!(Usage(format!("--report {}: {line}", report.display())));
     }
     Ok(())
 }

@@ -136,9 +136,12 @@ impl fmt::Display for Samples {
 /// # Errors
 /// With what would be right.
 pub fn range(text: &str) -> Result<Range<u32>, String> {
-    let ends = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
+    let ends = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse::<u64>()));
+    let end = u64::from(u32::MAX);
     match ends {
-        Some((Ok(start), Ok(end))) if start < end => Ok(start..end),
+        Some((Ok(start), Ok(b))) if b <= end && start < b as u32 => Ok(start..b as u32),
+        Some((Ok(_), Ok(b))) if b > end => Err(format!("samples are A..B, and B is at most {end}")),
+        Some((Ok(_), Ok(_))) => Err("samples are A..B, and A must be below B".to_owned()),
         _ => Err("samples are A..B, from A to the one before B, such as 0..64".to_owned()),
     }
 }

@@ -135,6 +135,11 @@ impl Sums {
         Self::parse(&bytes, &name)
     }
 
+    /// Whether a file begins as one of sums.
+    pub fn begins(path: &Path) -> bool {
+        Header::open(path).is_ok()
+    }
+
     fn parse(bytes: &[u8], name: &str) -> Result<Self> {
         // What it is comes before whether it is whole: a picture that is given by mistake is no damage.
         let mut all = bytes;

@@ -107,10 +107,23 @@ impl TextureFile {
     fn decode(self, left: &mut u64, limits: &Limits) -> Result<Texture> {
         let shown = &self.named.shown;
         let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
-        let mut signature = [0; 8];
-        let is_png = file.read_exact(&mut signature).is_ok() && &signature == b"\x89PNG\r\n\x1a\n";
+        let unread = || format!("{shown}: cannot be read");
+        let mut head = Vec::new();
+        file.by_ref().take(24).read_to_end(&mut head).with_context(unread)?;
+        let is_png = head.starts_with(b"\x89PNG\r\n\x1a\n");
         ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
-        file.rewind().with_context(|| format!("{shown}: cannot be read"))?;
+        file.rewind().with_context(unread)?;
+        // The decoder would say of a row that is too long for it only that it is too long for it.
+        if let [.., a, b, c, d, e, f, g, h] = head[8..]
+            && head.len() == 24
+        {
+            let [width, height] = [[a, b, c, d], [e, f, g, h]].map(u32::from_be_bytes);
+            let side = limits.texture_side;
+            ensure!(
+                width.max(height) <= side,
+                "{shown}: is {width} x {height} texels, at most {side} x {side} are read"
+            );
+        }
 
         let broken = |error| match error {
             ImageError::Limits(_) => anyhow!(
@@ -122,11 +135,6 @@ impl TextureFile {
         beside.max_alloc = Some(BESIDE_BYTES);
         let decoder = PngDecoder::with_limits(file, beside).map_err(broken)?;
         let (width, height) = decoder.dimensions();
-        let side = limits.texture_side;
-        ensure!(
-            width.max(height) <= side,
-            "{shown}: is {width} x {height} texels, at most {side} x {side} are read"
-        );
         let texels = u64::from(width) * u64::from(height);
         let (color, decoded) = (decoder.color_type(), decoder.total_bytes());
         let wants_luminance = self.opacity && !color.has_alpha();

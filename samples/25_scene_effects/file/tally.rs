@@ -87,7 +87,8 @@ impl Tally {
     /// # Errors
     /// With what it is, and of what.
     pub fn check(&self) -> Result<()> {
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        // Upwards, so that what is too much is more than what is allowed.
+        let gigabytes = |bytes: u64| (bytes as f64 / 1e8).ceil() / 10.0;
         let Self { tokens, tables, keys, lists, .. } = self;
         ensure!(
             self.bytes() <= MOST,

@@ -47,7 +47,7 @@ fn filters() {
         ticks: &[-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5],
         logarithmic: false,
     };
-    let y = Axis { label: "", ticks: &[0.0, 0.5, 1.0, 1.5], logarithmic: false };
+    let y = Axis { label: "", ticks: &[0.0, 0.5, 1.0, 1.5, 2.0], logarithmic: false };
     let chart = |title: &'static str| {
         let offsets =
             offsets(&run("480x300", 1, &[&format!("filter={title}"), "show=ray direction"]));
