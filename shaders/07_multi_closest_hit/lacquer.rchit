@@ -9,7 +9,6 @@
 // Lacquer: a deep coat with gold dust in it.
 void main() {
     vec3 normal = world_normal(surface_at_hit());
-    // ANCHOR: dust
     vec3 p = object_position();
     vec3 q = 20.0 * look.scale * p;
     float width = 20.0 * look.scale * pixel_width(normal);
@@ -23,6 +22,5 @@ void main() {
     float fade = max(1.0 - 1.2 * p.y, 0.0);
     flake = mix(0.06 * fade * fade * fade, flake, detail(1.0, width));
     vec3 base = mix(look.tint, vec3(0.83, 0.53, 0.16) * (0.3 + unit.x), flake);
-    // ANCHOR_END: dust
     payload = answer(GROUP_LACQUER, polished(base, normal));
 }

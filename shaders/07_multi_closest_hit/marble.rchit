@@ -13,6 +13,7 @@ void main() {
     vec3 p = look.scale * object_position();
     float width = look.scale * pixel_width(normal);
     uint seed = 64 * look.record;
+    // ANCHOR_END: veins
     // Bent by noise, or else the veins would be smooth.
     vec3 bend = vec3(fractal_noise(2.0 * p, seed, 2.0 * width),
                      fractal_noise(2.0 * p, seed + 8, 2.0 * width),
@@ -27,6 +28,5 @@ void main() {
     float halo = 1.0 - smoothstep(0.0, 0.3, vein);
     vec3 base = look.tint * mix(vec3(1.0), vec3(0.62, 0.6, 0.58), clouds * (0.3 + 0.4 * halo));
     base = mix(base, look.tint * vec3(0.33, 0.3, 0.28), 0.6 * line);
-    // ANCHOR_END: veins
     payload = answer(GROUP_MARBLE, polished(base, normal));
 }

@@ -10,7 +10,6 @@
 void main() {
     vec3 normal = world_normal(surface_at_hit());
     vec3 p = object_position();
-    // ANCHOR: rings
     // Inside the frame lie squares of one unit; the frame is four boards, mitred at the corners.
     bool frame = max(abs(p.x), abs(p.z)) > 4.0;
     ivec3 block = frame ? ivec3(0) : ivec3(floor(p.x), 1, floor(p.z));
@@ -29,6 +28,5 @@ void main() {
     ring = mix(0.265, ring, detail(1.0, 9.0 * width));
     float fibres = noise(q * vec3(70.0, 70.0, 2.0), look.record) * detail(1.0, 70.0 * width);
     vec3 base = look.tint * (1.1 - 0.4 * ring + 0.25 * fibres);
-    // ANCHOR_END: rings
     payload = answer(GROUP_WOOD, polished(base, normal));
 }

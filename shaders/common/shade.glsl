@@ -34,6 +34,7 @@ float power_of_cosine(float s, float n) {
 
 // Lambert's law and a normalised Blinn-Phong highlight (Akenine-Moeller et al., Real-Time Rendering,
 // 4th ed., section 9.8). All vectors are unit; `view` points to the eye, `light` to the light.
+// ANCHOR: brightness
 vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 view, vec3 light) {
     // ANCHOR: lambert
     float lambert = max(dot(normal, light), 0.0);
@@ -46,4 +47,5 @@ vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 
     float highlight = power_of_cosine(0.5 * dot(apart, apart), shininess);
     return (base + specular * highlight * (shininess + 8.0) / 8.0) * lambert / 3.14159265;
 }
+// ANCHOR_END: brightness
 // ANCHOR_END: reflect
