@@ -87,6 +87,7 @@ pub const INKS: &[Ink] = &[
     ink("#0072B2", "#6db9ec", For::Line),
     ink("#009E73", "#3fcf9f", For::Line),
     ink("#C46B9D", "#e79cc6", For::Line),
+    ink("#8C8C8C", "#9fb0bf", For::Line),
     ink("#E1E1E1", "#3a4150", For::Grid),
 ];
 

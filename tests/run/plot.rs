@@ -28,6 +28,8 @@ const COLORS: [RGBColor; 5] = [
     RGBColor(196, 107, 157),
 ];
 const GRID: RGBColor = RGBColor(225, 225, 225);
+/// A line from a dot to its name.
+const LEADER: RGBColor = RGBColor(140, 140, 140);
 /// The font of the names of dots.
 const SMALL: (&str, i32) = ("sans-serif", 15);
 
@@ -152,7 +154,7 @@ fn draw_one<'a>(
             let here = |(x, y): (i32, i32)| (x - origin.0, y - origin.1);
             if let Some(near) = leader(dot, corner, name) {
                 let line = vec![here(dot), here(near)];
-                area.draw(&PathElement::new(line, RGBColor(160, 160, 160)))?;
+                area.draw(&PathElement::new(line, LEADER))?;
             }
             area.draw_text(name, &style, here(corner))?;
         }

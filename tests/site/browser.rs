@@ -113,10 +113,21 @@ impl Browser {
         self.events.clear();
         let opened = self.call("Page.navigate", &json!({ "url": address }));
         assert!(opened["errorText"].is_null(), "{address}: {}", opened["errorText"]);
+        self.loaded(address)
+    }
+
+    /// Runs what leads to another page, such as a click on a link, and waits for that; what was told meanwhile.
+    pub fn follow(&mut self, script: &str) -> Vec<Value> {
+        self.events.clear();
+        self.run(script);
+        self.loaded(script)
+    }
+
+    fn loaded(&mut self, doing: &str) -> Vec<Value> {
         let start = Instant::now();
         let loaded = |event: &Value| event["method"] == "Page.loadEventFired";
         while !self.events.iter().any(loaded) {
-            let told = self.next(address, start);
+            let told = self.next(doing, start);
             self.events.push_back(told);
         }
         // What the page's own scripts do last.

@@ -72,10 +72,8 @@ fn where_there_is_no_page_a_link_leads_back_from_any_depth() {
         let wrong = checked(&mut browser).wrong;
         assert!(wrong.is_empty(), "{scheme}: {wrong:?}");
     }
-    browser.run("document.querySelector('#back a').click()");
-    let title = browser.run(
-        "new Promise(done => setTimeout(() => done(document.querySelector('h1.menu-title')?.textContent), 2000))",
-    );
+    browser.follow("document.querySelector('#back a').click()");
+    let title = browser.run("document.querySelector('h1.menu-title')?.textContent");
     assert!(title.as_str().is_some_and(|title| title.contains("Ray Tracing in Vulkan")), "{title}");
 }
 

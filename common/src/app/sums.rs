@@ -105,8 +105,11 @@ impl Header {
         ensure!(length <= HEADER_BYTES, damaged(name, "its header is too long"));
         let mut text = vec![0; length as usize];
         file.read_exact(&mut text).map_err(|_| damaged(name, "it ends within its header"))?;
-        let header: Self = serde_json::from_slice(&text)
-            .map_err(|error| damaged(name, &format!("its header: {error}")))?;
+        let header: Self = serde_json::from_slice(&text).map_err(|error| {
+            // What it quotes of the file may hold line breaks.
+            let error = error.to_string().replace(char::is_control, "\u{fffd}");
+            damaged(name, &format!("its header: {error}"))
+        })?;
         let [width, height] = header.origin.size;
         let pixels = u64::from(width) * u64::from(height);
         ensure!(

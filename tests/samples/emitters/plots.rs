@@ -98,8 +98,9 @@ fn errors() {
                 let (alone, theory) = (error_alone(&sets, expected), of(1)[1]);
                 println!("{scene}, {name}: one sample {alone:.5}, by theory {theory:.5}");
                 assert!((alone / theory - 1.0).abs() < 0.1, "{scene}, {name}: {alone} {theory}");
-                let worse = points.iter().zip(FRAMES).find(|(p, n)| p[1] > 1.15 * of(*n)[1]);
-                println!("{scene}, {name}: above theory {worse:?}");
+                // One sample of each pixel alone may miss theory by chance.
+                let mut several = points.iter().zip(FRAMES).skip(1);
+                assert!(several.all(|(p, n)| p[1] < 1.15 * of(n)[1]), "{scene}, {name}: {points:?}");
                 lines.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
             }
             series.push((*name, points, true));
