@@ -100,7 +100,10 @@ fn errors() {
                 assert!((alone / theory - 1.0).abs() < 0.1, "{scene}, {name}: {alone} {theory}");
                 // One sample of each pixel alone may miss theory by chance.
                 let mut several = points.iter().zip(FRAMES).skip(1);
-                assert!(several.all(|(p, n)| p[1] < 1.15 * of(n)[1]), "{scene}, {name}: {points:?}");
+                assert!(
+                    several.all(|(p, n)| p[1] < 1.15 * of(n)[1]),
+                    "{scene}, {name}: {points:?}"
+                );
                 lines.push((["theory, BSDF", "theory, light"][i], FRAMES.map(of).to_vec(), false));
             }
             series.push((*name, points, true));
