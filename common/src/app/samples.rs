@@ -199,8 +199,17 @@ mod tests {
     #[test]
     fn text_that_is_no_range_is_refused() {
         assert_eq!(range("0..64"), Ok(0..64));
-        for wrong in ["", "4", "4..4", "5..4", "-1..4", "0..4294967296", "a..b", "0..=4"] {
-            assert!(range(wrong).unwrap_err().contains("such as 0..64"), "{wrong}");
+        for (wrong, what) in [
+            ("", "such as 0..64"),
+            ("4", "such as 0..64"),
+            ("-1..4", "such as 0..64"),
+            ("a..b", "such as 0..64"),
+            ("0..=4", "such as 0..64"),
+            ("4..4", "A must be below B"),
+            ("5..4", "A must be below B"),
+            ("0..4294967296", "B is at most 4294967295"),
+        ] {
+            assert!(range(wrong).unwrap_err().contains(what), "{wrong}");
         }
     }
 
