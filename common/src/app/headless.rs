@@ -204,15 +204,13 @@ pub fn check_files(args: &Args) -> Result<()> {
             return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
         }
         // Only sums are written into the file from which they come.
-        let read = inputs.iter().filter(|(input, _)| (*input, *name) != ("--resume", "--save"));
-        if let Some((input, _)) =
-            read.clone().find(|(_, it)| it.is_some_and(|it| files::same(it, file)))
-        {
+        let mut read = inputs.iter().filter(|(input, _)| (*input, *name) != ("--resume", "--save"));
+        if let Some((input, _)) = read.find(|(_, it)| it.is_some_and(|it| files::same(it, file))) {
             let file = file.display();
             return Err(Usage(format!("{input} and {name} both name '{file}'")).into());
         }
     }
-    if let Some(report) = report.filter(|path| !path.extension().is_some_and(|it| it == "json")) {
+    if let Some(report) = report.filter(|path| path.extension().is_none_or(|it| it != "json")) {
         let line = "a report is .json, or - for standard output";
         bail!(Usage(format!("--report {}: {line}", report.display())));
     }
