@@ -93,9 +93,10 @@ pub const ALL: [Tried; 9] = [
         command: |_, _| {
             let mut command = run::command("04_jitter_camera");
             command.args(["--size", "2x1", "--samples", "0..2", "--resume", "a.sums"]);
+            command.args(["--out", "o.exr"]);
             command
         },
-        writes: &[],
+        writes: &["o.exr"],
         count: 12,
     },
     Tried {
