@@ -124,7 +124,11 @@ fn a_comparison_is_plain_when_piped() {
 #[test]
 fn wrong_arguments_are_one_line_and_exit_code_2() {
     let fixture = Fixture::new();
-    let cases: [(&[&str], &str); 4] = [
+    let cases: [(&[&str], &str); 5] = [
+        (
+            &["diff", "1", "2", "--context", "18446744073709551615"],
+            "error: invalid value '18446744073709551615' for '--context <N>'",
+        ),
         (&["diff", "1", "9"], "error: no chapter '9'; there is 01_one, 02_basic"),
         (&["diff", "1"], "error: the following required arguments were not provided"),
         (&["mend"], "error: unrecognized subcommand 'mend'"),

@@ -422,3 +422,16 @@ fn each_gathered_sample_has_rays_of_its_own() {
     }
     assert_ne!(bits(&first), bits(&second), "the second sample has the rays of the first");
 }
+
+#[test]
+fn rays_beyond_the_last_number_are_refused_and_not_those_of_the_first_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("a.png");
+    let sets =
+        ["--headless", "--size", "8x8", "--set", "scene=soft evening", "--set", "samples=64"];
+    // 64 rays a sample: this one would begin with ray 2^32.
+    let last = ["--samples", "67108864..67108865", "--out", out.to_str().unwrap()];
+    let (code, line) = run::refused(NAME, &[&sets[..], &last].concat());
+    assert!(code == 1 && line.contains("rays are numbered up to 2^32"), "{code}: {line}");
+    assert!(!out.exists());
+}

@@ -191,6 +191,15 @@ fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
 }
 
 #[test]
+fn a_row_that_no_decoder_has_room_for_is_too_wide_and_no_text() {
+    let mut wide = png(&[[1, 2, 3, 4]], 1);
+    let header = [&(1u32 << 30).to_be_bytes()[..], &wide[20..29]].concat();
+    wide.splice(8..33, chunk(b"IHDR", &header));
+    let words = "the texture t.png: is 1073741824 x 1 texels, at most 16384 x 16384 are read";
+    warned("map_Kd t.png", &wide, words);
+}
+
+#[test]
 fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() {
     let plain = png(&[[1, 2, 3, 4]], 1);
     // The header's chunk ends here.
