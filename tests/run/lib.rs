@@ -1,5 +1,6 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
+pub mod failures;
 pub mod figures;
 pub mod layer;
 pub mod leaving;

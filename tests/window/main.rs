@@ -5,6 +5,7 @@
 #![cfg(unix)]
 
 mod desk;
+mod failures;
 mod long;
 mod lost;
 mod signals;

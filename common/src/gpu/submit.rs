@@ -4,6 +4,7 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
+use ash::prelude::VkResult;
 use ash::vk;
 
 use super::Gpu;
@@ -86,15 +87,29 @@ impl Gpu {
     }
 
     /// Waits until the device has done what signals a fence, or is lost, which ends its work too.
+    fn wait(&self, fence: vk::Fence) -> VkResult<()> {
+        let patience = PATIENCE.as_nanos() as u64;
+        // SAFETY: the fence is alive, and submitted.
+        self.insist(|| unsafe { self.device.wait_for_fences(&[fence], true, patience) })
+    }
+
+    /// Waits until the queue has done all its work, or the device is lost.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub(super) fn wait_for_queue(&self) -> VkResult<()> {
+        // SAFETY: the queue is used by one thread at a time.
+        self.insist(|| unsafe { self.device.queue_wait_idle(self.queue) })
+    }
+
+    /// Waits, again if need be.
     ///
     /// Whoever waits may free afterwards what the device has used. So this never returns while the device
     /// may be at work: a wait that goes on failing, or that has no end, ends the process.
-    fn wait(&self, fence: vk::Fence) -> Result<(), vk::Result> {
-        let patience = PATIENCE.as_nanos() as u64;
+    fn insist(&self, wait: impl Fn() -> VkResult<()>) -> VkResult<()> {
         let mut last = vk::Result::TIMEOUT;
         for _ in 0..TRIES {
-            // SAFETY: the fence is alive, and submitted.
-            match unsafe { self.device.wait_for_fences(&[fence], true, patience) } {
+            match wait() {
                 Ok(()) => return Ok(()),
                 Err(vk::Result::ERROR_DEVICE_LOST) => return Err(vk::Result::ERROR_DEVICE_LOST),
                 Err(vk::Result::TIMEOUT) => break,

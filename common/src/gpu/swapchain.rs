@@ -268,16 +268,16 @@ impl Swapchain {
     }
 
     fn destroy_images(&mut self) -> Result<()> {
-        // SAFETY: an idle queue uses neither image nor semaphore.
+        let idle = self.gpu.wait_for_queue();
+        // SAFETY: a queue that is idle, or whose device is lost, uses neither image nor semaphore.
         unsafe {
-            self.gpu.device.queue_wait_idle(self.gpu.queue)?;
             for semaphore in self.drawn.drain(..) {
                 self.gpu.device.destroy_semaphore(semaphore, None);
             }
             self.swapchains.destroy_swapchain(self.handle, None);
         }
         self.handle = vk::SwapchainKHR::null();
-        Ok(())
+        Ok(idle?)
     }
 
     fn destroy(&mut self) {

@@ -1,0 +1,136 @@
+//! Calls of Vulkan that fail, one a run: each is to be answered in one line.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Output;
+
+use crate::layer::Layer;
+
+const OUT_OF_HOST_MEMORY: i32 = -1;
+const OUT_OF_DEVICE_MEMORY: i32 = -2;
+const INITIALIZATION_FAILED: i32 = -3;
+const DEVICE_LOST: i32 = -4;
+const MEMORY_MAP_FAILED: i32 = -5;
+const SURFACE_LOST: i32 = -1_000_000_000;
+const OUT_OF_DATE: i32 = -1_000_001_004;
+
+/// What a function may return, by the specification, that is treated differently here.
+fn results(function: &str) -> &'static [i32] {
+    match function {
+        "vkQueueSubmit"
+        | "vkQueueSubmit2"
+        | "vkWaitForFences"
+        | "vkDeviceWaitIdle"
+        | "vkGetQueryPoolResults" => &[OUT_OF_HOST_MEMORY, DEVICE_LOST],
+        "vkCreateDevice" => &[OUT_OF_HOST_MEMORY, INITIALIZATION_FAILED, DEVICE_LOST],
+        "vkAllocateMemory" => &[OUT_OF_HOST_MEMORY, OUT_OF_DEVICE_MEMORY],
+        "vkMapMemory" => &[OUT_OF_HOST_MEMORY, MEMORY_MAP_FAILED],
+        "vkAcquireNextImageKHR" | "vkQueuePresentKHR" => {
+            &[OUT_OF_HOST_MEMORY, DEVICE_LOST, SURFACE_LOST, OUT_OF_DATE]
+        }
+        "vkCreateSwapchainKHR" => &[OUT_OF_HOST_MEMORY, DEVICE_LOST, SURFACE_LOST],
+        _ => &[OUT_OF_HOST_MEMORY],
+    }
+}
+
+/// Whether a run can do without it: its failure may go unsaid.
+fn needless(function: &str, result: i32) -> bool {
+    // What a window system takes away is made again.
+    matches!(result, SURFACE_LOST | OUT_OF_DATE)
+        || matches!(
+            function,
+            "vkCreatePipelineCache"
+                | "vkGetPipelineCacheData"
+                | "vkSetDebugUtilsObjectNameEXT"
+                // The last wait of all: what it waits for was waited for.
+                | "vkDeviceWaitIdle"
+                // They are begun again.
+                | "vkWaitForFences"
+                | "vkQueueWaitIdle"
+                // A device is chosen without it, too, and the swapchain asks again.
+                | "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"
+        )
+}
+
+/// What came of the failures.
+pub struct Answers {
+    /// How many there were.
+    pub failures: usize,
+    /// Those that were not told of in one line and exit code 1.
+    pub wrong: Vec<String>,
+}
+
+/// Runs a program once for each call that is to fail.
+///
+/// `run` starts the program under a layer, with the file in `CALLS` to which its calls are told. `numbers`
+/// chooses the calls: of a function that is called so often, those with these numbers fail.
+pub fn answers(
+    name: &str,
+    run: impl Fn(&Layer, &Path) -> Output,
+    numbers: impl Fn(usize) -> Vec<usize>,
+) -> Answers {
+    let run = |fault: &str| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("calls");
+        let output = run(&Layer::failing(fault), &file);
+        (output, Layer::calls(&file))
+    };
+    let (whole, calls) = run("");
+    assert!(whole.status.success(), "{name}: {}", String::from_utf8_lossy(&whole.stderr));
+    assert!(calls.len() > 20, "{name}: {calls:?}");
+    let mut answers = Answers { failures: 0, wrong: Vec::new() };
+    for (function, result, number) in faults(&calls, numbers) {
+        let fault = format!("{function}:{number}:{result}");
+        let (output, now) = run(&fault);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        // How many bands a picture has depends on the time: this run may have had fewer calls.
+        let unmet = now.get(function).is_some_and(|&calls| calls < number);
+        let may_succeed = needless(function, result) || unmet;
+        let right = match output.status.code() {
+            Some(0) if may_succeed => errors.is_empty(),
+            Some(1) => errors.starts_with("error: ") && errors.lines().count() == 1,
+            _ => false,
+        };
+        answers.failures += usize::from(!output.status.success());
+        if !right {
+            answers.wrong.push(format!("{name} {fault}: {}: {errors}", output.status));
+        }
+    }
+    answers
+}
+
+/// The function, the result and the number of each call that is to fail.
+fn faults(
+    calls: &BTreeMap<String, usize>,
+    numbers: impl Fn(usize) -> Vec<usize>,
+) -> Vec<(&str, i32, usize)> {
+    let mut faults = Vec::new();
+    for (function, &count) in calls {
+        for number in numbers(count) {
+            faults.extend(
+                results(function).iter().map(|&result| (function.as_str(), result, number)),
+            );
+        }
+    }
+    faults
+}
+
+/// The first and the last call.
+pub fn ends(count: usize) -> Vec<usize> {
+    if count == 1 { vec![1] } else { vec![1, count] }
+}
+
+/// Every call.
+pub fn all(count: usize) -> Vec<usize> {
+    (1..=count).collect()
+}
+
+/// The chapters whose calls shall fail: those that `CHAPTERS` names by their first letters, else all.
+pub fn chapters() -> Vec<String> {
+    let chosen = std::env::var("CHAPTERS").unwrap_or_default();
+    let mut all = crate::chapters();
+    if !chosen.is_empty() {
+        all.retain(|name| chosen.split_whitespace().any(|first| name.starts_with(first)));
+    }
+    all
+}
