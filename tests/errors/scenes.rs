@@ -48,6 +48,9 @@ fn files_that_are_no_scene() {
     file_refused("version = 1\n", "s.toml:1: missing field `camera`");
     file_refused(&HEAD[..HEAD.len() - 30], "s.toml:4: ");
     file_refused("version = 1\nversion = 1\n", "s.toml:2: duplicate key");
+    let deep = format!("\n\na{} = 1\n", ".a".repeat(300));
+    table_refused(&deep, "s.toml:8: this stands in more than 16 tables and lists");
+    table_refused(&format!("x = {}", "[".repeat(300)), "s.toml:6: this stands in more than 16");
     let (_folder, command) = command(b"version = 1\n# \xff\xfe\n", &[]);
     refused_by(command, 1, &["s.toml:2: this is no UTF-8 text; a scene file is TOML"]);
     let mut command = run::command("25_scene_effects");
@@ -303,12 +306,15 @@ fn pieces_and_models_that_are_wrong() {
 }
 
 #[test]
-fn models_that_reach_too_far() {
+fn models_that_reach_too_far_or_are_too_small() {
     let model = HEAD.replace("[camera]", "model = \"m.obj\"\n[camera]");
     let triangle = |far: &str| format!("o a\nv 0 0 {far}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let (_folder, command) = command(model.as_bytes(), &[("m.obj", &triangle("1e30"))]);
-    refused_by(command, 1, &["m.obj: reaches 1e30 from the origin; beyond 1e18, products of two"]);
+    refused_by(command, 1, &["m.obj: reaches 1e30 from the origin; beyond 1e9, products of four"]);
     let piece = format!("{model}[[piece]]\nmesh = \"a\"\nat = [0, 0, 0]\nsize = 100\n");
-    let (_folder, command) = self::command(piece.as_bytes(), &[("m.obj", &triangle("1e17"))]);
-    refused_by(command, 1, &["s.toml:7: a piece that reaches 1e19 from its place; beyond 1e18"]);
+    let (_folder, command) = self::command(piece.as_bytes(), &[("m.obj", &triangle("1e8"))]);
+    refused_by(command, 1, &["s.toml:7: a piece that reaches 1e10 from its place; beyond 1e9"]);
+    let speck = "v 0 0 1e-25\nv 1e-25 0 0\nv 0 1e-25 0\nf 1 2 3\n";
+    let (_folder, command) = self::command(model.as_bytes(), &[("m.obj", speck)]);
+    refused_by(command, 1, &["m.obj: is 1e-25 from end to end; below 1e-18, products of two"]);
 }

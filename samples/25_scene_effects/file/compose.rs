@@ -91,10 +91,6 @@ impl Description {
                 error.to_string().replace("the OBJ file's folder", "the scene file's folder");
             source.error(named.span().start, &what)
         })?;
-        if !found.path.is_file() {
-            let what = format!("model names {}, which is no file", quoted(named.get_ref()));
-            return Err(source.error(named.span().start, &what));
-        }
         // Opened as a scene, it is held to where rays can go.
         Ok(Scene::open(&path.with_file_name(&found.name))?.model)
     }
@@ -217,7 +213,7 @@ fn place(
         let reach = reaches[mesh] * size;
         if reach > REACH {
             let what = format!(
-                "a piece that reaches {reach:e} from its place; beyond {REACH:e}, products of two coordinates \
+                "a piece that reaches {reach:e} from its place; beyond {REACH:e}, products of four coordinates \
                  overflow in 32 bits"
             );
             return Err(source.error(piece.span().start, &what));

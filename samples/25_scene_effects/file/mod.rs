@@ -2,6 +2,7 @@
 
 mod bounded;
 mod compose;
+mod depth;
 mod description;
 mod names;
 mod polytope;

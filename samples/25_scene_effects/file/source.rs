@@ -9,6 +9,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
+use super::depth::MOST;
 use super::tally::Tally;
 
 /// Bytes of a scene file.
@@ -57,11 +58,15 @@ impl Source {
         anyhow!("{}:{line}: {}", self.shown, what.trim().replace('\n', "; "))
     }
 
-    /// The text as a table, unless that would take too much memory.
+    /// The text as a table, unless that would take too much memory or goes too deep.
     pub fn table(&self) -> Result<Spanned<DeTable<'_>>> {
-        Tally::of(&self.text)
-            .and_then(|tally| tally.check())
+        let tally = Tally::of(&self.text)
+            .and_then(|tally| tally.check().map(|()| tally))
             .map_err(|error| anyhow!("{}: {error}", self.shown))?;
+        if let Some(at) = tally.too_deep {
+            let what = format!("this stands in more than {MOST} tables and lists");
+            return Err(self.error(at, &what));
+        }
         DeTable::parse(&self.text).map_err(|error| self.wrong(&error))
     }
 

@@ -7,10 +7,12 @@ use toml_parser::Source;
 use toml_parser::lexer::Token;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
+use super::depth::Depth;
+
 /// Bytes that reading may take. A hundred thousand spheres take half of it.
 const MOST: u64 = 800_000_000;
 
-/// How deep tables and lists may stand in each other: as deep as `toml` reads them.
+/// How deep the parser goes down, which calls itself: as deep as `toml` reads.
 const DEPTH: u32 = 80;
 
 /// How many there are of whatever takes memory.
@@ -27,6 +29,8 @@ pub(super) struct Tally {
     lists: usize,
     /// Commas: values of a list, or keys in braces.
     values: usize,
+    /// The byte at which something stands in too many tables and lists.
+    pub too_deep: Option<usize>,
 }
 
 impl Tally {
@@ -39,8 +43,13 @@ impl Tally {
         let mut tally = Self { text: text.len(), tokens, ..Self::default() };
         tally.check()?;
         let tokens = Source::new(text).lex().into_vec();
-        let mut add = |event: Event| tally.add(event.kind());
+        let mut depth = Depth::default();
+        let mut add = |event: Event| {
+            tally.add(event.kind());
+            depth.add(&event);
+        };
         parse_document(&tokens, &mut RecursionGuard::new(&mut add, DEPTH), &mut ());
+        tally.too_deep = depth.too_deep;
         Ok(tally)
     }
 
@@ -65,7 +74,7 @@ impl Tally {
     /// full, and those above them. A list is a `Vec`, with room for 4 at least, or for twice as many as it has.
     /// Text is there once more where something in it is escaped.
     pub fn bytes(&self) -> u64 {
-        let &Self { text, tokens, events, tables, keys, lists, values } = self;
+        let &Self { text, tokens, events, tables, keys, lists, values, .. } = self;
         let value = size_of::<Spanned<DeValue>>();
         let entry = size_of::<Spanned<DeString>>() + value;
         let (token, event) = (size_of::<Token>(), size_of::<Event>());
