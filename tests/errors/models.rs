@@ -239,6 +239,9 @@ fn files_of_other_exporters() {
         let files = [("model.obj", obj.as_bytes()), ("model.mtl", mtl.as_bytes())];
         files_warned(&files, warnings);
     }
+    let folder = format!("mtllib .\n{TRIANGLE}");
+    let words = "model.obj:1: mtllib names \".\", which is no file";
+    files_warned(&[("model.obj", folder.as_bytes())], &[words]);
     let gone = "model.obj:3: mtllib names \"model.mtl\", which is not there";
     let grey = "model.obj:15: the material \"Material.001\" is not defined";
     files_warned(&[("model.obj", BLENDER.as_bytes())], &[gone, grey]);

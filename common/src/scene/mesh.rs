@@ -15,8 +15,12 @@ common::shader_struct! {
     }
 }
 
-/// The farthest coordinate: intersection multiplies two of them and adds up a few such products.
-pub const REACH: f32 = 1e18;
+/// The farthest coordinate: the length of a normal, which is a product of two edges, is a root of products of
+/// four.
+pub const REACH: f32 = 1e9;
+
+/// The least that a model measures from end to end: intersection multiplies two lengths.
+pub const LEAST: f32 = 1e-18;
 
 /// Triangles of one material.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +59,8 @@ impl Mesh {
     }
 }
 
-fn around(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
+/// Lowest and highest corner of the box around points.
+pub(super) fn around(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| {
         (low.min(point), high.max(point))
     })

@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 
 use super::limits::Limits;
 use super::material::Material;
-use super::mesh::{Mesh, REACH, Vertex};
+use super::mesh::{LEAST, Mesh, REACH, Vertex, around};
 use super::obj_check::Check;
 use super::text::{Folder, Text, shown};
 use super::texture::Texture;
@@ -43,15 +43,22 @@ pub struct Model {
 ///
 /// # Errors
 /// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it reaches
-/// too far, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
+/// too far or is too small, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
 /// folder; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
     let model = load_within(path, &Limits::DEFAULT)?;
     let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
     ensure!(
         reach <= REACH,
-        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of two coordinates overflow in \
+        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in \
          32 bits",
+        shown(path)
+    );
+    let (low, high) = around(model.meshes.iter().flat_map(|mesh| <[Vec3; 2]>::from(mesh.bounds())));
+    let size = (high - low).max_element();
+    ensure!(
+        size == 0.0 || size >= LEAST,
+        "{}: is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits",
         shown(path)
     );
     Ok(model)

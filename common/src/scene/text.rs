@@ -306,6 +306,7 @@ impl Folder {
             _ => missing(format!("names {}, which cannot be read: {error}", quoted(name))),
         })?;
         let inside = path.strip_prefix(&self.root).map_err(|_| outside())?;
+        ensure!(path.is_file(), missing(format!("names {}, which is no file", quoted(name))));
         let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
         let (name, shown) = (parts.join("/"), shown(&self.given.join(inside)));
         Ok(Named { name, shown, path })
