@@ -26,7 +26,7 @@ pub struct Args {
     pub size: vk::Extent2D,
 
     /// Frames to render; the last one is the picture. A window closes after so many, if given
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = frames)]
     pub frames: u32,
 
     /// Whether --frames was given: without it, a window stays open
@@ -54,7 +54,7 @@ pub struct Args {
     pub resume: Option<PathBuf>,
 
     /// Seconds from one --save to the next; 0 saves after each sample
-    #[arg(long, value_name = "SECONDS", default_value = "60", requires = "save")]
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, requires = "save")]
     pub save_every: u64,
 
     /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
@@ -210,6 +210,15 @@ fn size(text: &str) -> Result<vk::Extent2D, String> {
         }
         _ => Err("a size is two whole numbers of at least 1, such as 640x400".to_owned()),
     }
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|&number| number > 0);
+    number.ok_or_else(|| format!("frames are a whole number from 1 to {}", u32::MAX))
+}
+
+fn seconds(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "seconds are a whole number, such as 60".to_owned())
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

@@ -210,7 +210,8 @@ pub fn check_files(args: &Args) -> Result<()> {
             return Err(Usage(format!("{input} and {name} both name '{file}'")).into());
         }
     }
-    if let Some(report) = report.filter(|path| path.extension().is_none_or(|it| it != "json")) {
+    let is_json = |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
+    if let Some(report) = report.filter(|path| !is_json(path)) {
         let line = "a report is .json, or - for standard output";
         bail!(Usage(format!("--report {}: {line}", report.display())));
     }

@@ -141,7 +141,7 @@ fn wrong_names_and_values_say_what_there_is() {
         ("tint", "1,1", "r,g,b"),
         ("tint", "1,1,2", "0 to 1"),
         ("camera eye", "1,2,inf", "x,y,z"),
-        ("camera eye", "1,2,1e39", "x,y,z"),
+        ("camera eye", "1,2,-1.1e18", "x,y,z, each -1e18 to 1e18"),
     ];
     for (name, text, possible) in wrong {
         let error = set_on(&mut sample, name, text).unwrap_err();

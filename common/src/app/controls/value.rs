@@ -4,6 +4,9 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec3, Vec3};
 
+/// How far a point may be along each axis: shaders square its distances, in 32 bits.
+const FAR: f64 = 1e18;
+
 /// A control's value, borrowed from the sample, and what it may be.
 pub enum Value<'a> {
     /// A number between two others.
@@ -18,7 +21,7 @@ pub enum Value<'a> {
     Choice(&'a mut u32, &'a [&'a str]),
     /// Three numbers, each between two others.
     Vector(&'a mut Vec3, RangeInclusive<f32>),
-    /// A point in f64, anywhere that f32 can tell.
+    /// A point in f64, each coordinate within ±[`FAR`].
     Point(&'a mut DVec3),
 }
 
@@ -45,7 +48,7 @@ impl Value<'_> {
             Self::Color(_) => "r,g,b, each 0 to 1".to_owned(),
             Self::Choice(_, options) => options.join(", "),
             Self::Vector(_, range) => format!("x,y,z, each {} to {}", range.start(), range.end()),
-            Self::Point(_) => "x,y,z".to_owned(),
+            Self::Point(_) => format!("x,y,z, each -{FAR:e} to {FAR:e}"),
         }
     }
 
@@ -84,10 +87,9 @@ impl Value<'_> {
                 **value = options.iter().position(|option| *option == text)? as u32;
             }
             Self::Vector(value, range) => **value = vector(text, range)?,
-            // Shaders get it in 32 bits.
             Self::Point(value) => {
                 let point = DVec3::from_array(three(text)?);
-                **value = point.as_vec3().is_finite().then_some(point)?;
+                **value = (point.abs().max_element() <= FAR).then_some(point)?;
             }
         }
         Some(())
