@@ -15,6 +15,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use common::app::output::{complain, print};
 use common::app::{Args, Milliseconds, Picture, Report, check_files, compile_shader, finish};
+use common::gpu::ensure_threads;
 use common::usage::Usage;
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
 
@@ -71,6 +72,8 @@ fn run() -> Result<()> {
         return Ok(());
     }
     check_files(&args)?;
+    // A software driver waits forever for threads that the system does not start.
+    ensure_threads()?;
     let mut story =
         Story { lines: Vec::new(), silent: args.report.as_deref() == Some(Path::new("-")) };
     let (picture, mut report) = with_instance(args.validate, &messages, |instance| {

@@ -63,3 +63,10 @@ fn a_device_that_does_not_answer_ends_the_process_in_one_line() {
         assert!(line.contains("has not answered for "), "{line}");
     }
 }
+
+#[test]
+fn memory_that_is_mapped_nowhere_is_not_written_to() {
+    let (code, line) = run::refusal(run("02_basic", "vkMapMemory:1:0"));
+    assert_eq!(code, 1);
+    assert!(line.contains("no address space for the buffer '"), "{line}");
+}

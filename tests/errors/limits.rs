@@ -80,11 +80,24 @@ fn a_model_of_too_many_triangles_is_refused_before_it_takes_the_memory() {
     let folder = folder(&[("model.obj", obj.as_bytes())]);
     drop(obj);
     let (success, line, peak) = run_beyond("02_basic", &folder, "model.obj");
-    let words = "error: model.obj: would take up to 4.2 GB of memory with its 22000003 corners of 22001 \
+    let words = "error: model.obj: would take up to 13.8 GB of memory with its 22000003 corners of 22001 \
                  faces, 3 positions and 0 meshes; at most 4.0 GB are taken\n";
     assert!(!success && line == words, "{line}");
     // The file, and what was written of it until then.
     assert!(peak < 44_000_000 * 6, "{peak}");
+}
+
+/// Polygons are the smallest files of many triangles, and their corners share no vertices.
+#[test]
+fn a_model_takes_no_more_memory_than_was_counted() {
+    let polygon = format!("f{}\n", " 1 2 3 2".repeat(250));
+    let triangles = 500 * 998;
+    let obj = format!("{TRIANGLE}{}", polygon.repeat(500));
+    let (_, line, peak) =
+        run_beyond("02_basic", &folder(&[("model.obj", obj.as_bytes())]), "model.obj");
+    assert!(line.is_empty(), "{line}");
+    let counted = 5 * obj.len() as u64 + (108 + 512) * triangles;
+    assert!(counted / 2 < peak && peak < counted, "{peak} of {counted}");
 }
 
 #[test]

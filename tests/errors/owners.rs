@@ -11,7 +11,7 @@ use crate::scarce::as_nobody;
 /// tried.
 fn refusal_over(file: &Path) -> Option<String> {
     let mut command = crate::sample();
-    command.arg("--out").arg(file);
+    command.arg("--out").arg(file).env("VULKAN_LOADER", "/nonexistent");
     let before = fs::read(file).unwrap();
     let (code, line) = run::refusal(as_nobody(&command)?.output().unwrap());
     assert_eq!(code, 1, "{line}");

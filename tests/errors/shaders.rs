@@ -110,7 +110,11 @@ fn a_compiler_that_crashes_takes_its_own_process_alone() {
     let sum = format!("float much(float x) {{ float y = 0.0; y += x{terms}; return y; }}");
     let folder = folder("02_basic/sky.rmiss", appended(&sum));
     let words = "shader '02_basic/sky.rmiss' does not compile: the compiler crashed (signal: ";
-    shaders_refused(folder.path(), &[words]);
+    for backtrace in ["0", "1"] {
+        let mut command = sample();
+        command.env("SHADERS", folder.path()).env("RUST_BACKTRACE", backtrace);
+        refused_by(command, 1, &[words]);
+    }
 }
 
 #[test]

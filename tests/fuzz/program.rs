@@ -117,9 +117,6 @@ impl Reader for Program {
     }
 }
 
-/// What a program says when it has panicked, or has no memory left: one line, but no refusal.
-const MISTAKES: [&str; 3] = ["this is a mistake of the program", "panicked at", "no memory left"];
-
 /// Refused in one line, or taken with warnings, a line each.
 fn answer(code: i32, said: &[u8]) -> Result<Answer, Fault> {
     let Ok(text) = std::str::from_utf8(said) else {
@@ -135,7 +132,7 @@ fn answer(code: i32, said: &[u8]) -> Result<Answer, Fault> {
             refusals.count() == 1 && warned
         }
     };
-    if MISTAKES.iter().any(|mistake| text.contains(mistake)) {
+    if run::MISTAKES.iter().any(|mistake| text.contains(mistake)) {
         return Err(Fault::Panic(text.trim().chars().take(1000).collect()));
     }
     match (right, code) {

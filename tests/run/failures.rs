@@ -11,6 +11,8 @@ const OUT_OF_DEVICE_MEMORY: i32 = -2;
 const INITIALIZATION_FAILED: i32 = -3;
 const DEVICE_LOST: i32 = -4;
 const MEMORY_MAP_FAILED: i32 = -5;
+const FRAGMENTED_POOL: i32 = -12;
+const OUT_OF_POOL_MEMORY: i32 = -1_000_069_000;
 const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 
@@ -23,7 +25,10 @@ fn results(function: &str) -> &'static [i32] {
         | "vkDeviceWaitIdle"
         | "vkGetQueryPoolResults" => &[OUT_OF_HOST_MEMORY, DEVICE_LOST],
         "vkCreateDevice" => &[OUT_OF_HOST_MEMORY, INITIALIZATION_FAILED, DEVICE_LOST],
-        "vkAllocateMemory" => &[OUT_OF_HOST_MEMORY, OUT_OF_DEVICE_MEMORY],
+        "vkAllocateMemory" | "vkCreateImage" | "vkBindBufferMemory" | "vkBindImageMemory" => {
+            &[OUT_OF_HOST_MEMORY, OUT_OF_DEVICE_MEMORY]
+        }
+        "vkAllocateDescriptorSets" => &[OUT_OF_HOST_MEMORY, FRAGMENTED_POOL, OUT_OF_POOL_MEMORY],
         "vkMapMemory" => &[OUT_OF_HOST_MEMORY, MEMORY_MAP_FAILED],
         "vkAcquireNextImageKHR" | "vkQueuePresentKHR" => {
             &[OUT_OF_HOST_MEMORY, DEVICE_LOST, SURFACE_LOST, OUT_OF_DATE]
@@ -35,21 +40,17 @@ fn results(function: &str) -> &'static [i32] {
 
 /// Whether a run can do without it: its failure may go unsaid.
 fn needless(function: &str, result: i32) -> bool {
-    // What a window system takes away is made again.
-    matches!(result, SURFACE_LOST | OUT_OF_DATE)
-        || matches!(
-            function,
-            "vkCreatePipelineCache"
-                | "vkGetPipelineCacheData"
-                | "vkSetDebugUtilsObjectNameEXT"
-                // The last wait of all: what it waits for was waited for.
-                | "vkDeviceWaitIdle"
-                // They are begun again.
-                | "vkWaitForFences"
-                | "vkQueueWaitIdle"
-                // A device is chosen without it, too, and the swapchain asks again.
-                | "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"
-        )
+    match function {
+        "vkCreatePipelineCache" | "vkGetPipelineCacheData" | "vkSetDebugUtilsObjectNameEXT" => true,
+        // The last wait of all: what it waits for was waited for.
+        "vkDeviceWaitIdle" => true,
+        // They are begun again.
+        "vkWaitForFences" | "vkQueueWaitIdle" => result == OUT_OF_HOST_MEMORY,
+        // A device is chosen without it, too, and the swapchain asks again.
+        "vkGetPhysicalDeviceSurfaceCapabilitiesKHR" => true,
+        // What a window system takes away is made again.
+        _ => matches!(result, SURFACE_LOST | OUT_OF_DATE),
+    }
 }
 
 /// What came of the failures.
@@ -88,7 +89,11 @@ pub fn answers(
         let may_succeed = needless(function, result) || unmet;
         let right = match output.status.code() {
             Some(0) if may_succeed => errors.is_empty(),
-            Some(1) => errors.starts_with("error: ") && errors.lines().count() == 1,
+            Some(1) => {
+                errors.starts_with("error: ")
+                    && errors.lines().count() == 1
+                    && !crate::MISTAKES.iter().any(|mistake| errors.contains(mistake))
+            }
             _ => false,
         };
         answers.failures += usize::from(!output.status.success());

@@ -27,10 +27,19 @@ pub struct Run {
     pub report: Value,
 }
 
-/// A command that runs the binary `name` in the project's root.
+/// What a program says when it has panicked or crashed, or has no memory left: one line, but no refusal.
+pub const MISTAKES: [&str; 5] = [
+    "this is a mistake of the program",
+    "panicked at",
+    "no memory left",
+    "crashed (SIG",
+    "gave up (SIG",
+];
+
+/// A command that runs the binary `name` in the project's root, as users have it: without a backtrace.
 pub fn command(name: &str) -> Command {
     let mut command = Command::new(program(name));
-    command.current_dir(root());
+    command.current_dir(root()).env_remove("RUST_BACKTRACE");
     command
 }
 
@@ -38,6 +47,7 @@ pub fn command(name: &str) -> Command {
 pub fn heeding(name: &str) -> Command {
     let mut command = Command::new("env");
     command.arg("--default-signal=INT,TERM,HUP").arg(program(name)).current_dir(root());
+    command.env_remove("RUST_BACKTRACE");
     command
 }
 

@@ -47,7 +47,7 @@ pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
 impl Desk {
     /// Opens a sample with arguments and environment, and waits until its window shows a picture.
     pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
-        let (server, display) = server();
+        let (server, display) = server(&[]);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut command: Command = run::heeding(name);
         command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
@@ -262,7 +262,17 @@ pub fn outcome_with(
     environment: &[(&str, OsString)],
     then: impl FnOnce(u32),
 ) -> Output {
-    let (mut server, display) = server();
+    outcome_on(server(&[]), name, arguments, environment, then)
+}
+
+/// The same, on this server.
+pub fn outcome_on(
+    (mut server, display): (Child, String),
+    name: &str,
+    arguments: &[&str],
+    environment: &[(&str, OsString)],
+    then: impl FnOnce(u32),
+) -> Output {
     let mut command: Command = run::heeding(name);
     command.args(arguments).env("DISPLAY", &display);
     command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
@@ -296,9 +306,10 @@ impl Sync for RustConnection {
     }
 }
 
-/// Starts an X server on a free display.
-fn server() -> (Child, String) {
+/// Starts an X server on a free display, with these arguments, too.
+pub fn server(more: &[&str]) -> (Child, String) {
     let mut command = Command::new("Xvfb");
+    command.args(more);
     command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
     let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup"));

@@ -11,7 +11,7 @@ use run::layer::Layer;
 use crate::desk::{
     Desk, KEY_COMMA, KEY_F1, KEY_F5, KEY_HOME, KEY_PERIOD, KEY_SPACE, KEY_TAB, wait,
 };
-use crate::{alone, copy_shaders, ended_well};
+use crate::{LIGHT_SHADOWS, alone, copy_shaders, ended_well};
 
 const NAME: &str = "25_scene_effects";
 
@@ -143,6 +143,9 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
             println!("{line}");
         }
     }
+    // In an hour: so many pictures of other sizes, and edits, as the test is there for.
+    let least = |count: usize, hourly: f64| count as f64 >= hourly * minutes / 60.0;
+    assert!(least(counts[3], 2000.0) && least(counts[4], 500.0), "{counts:?}");
     let (early, late) = (quarters[1], quarters[3]);
     assert!(late.megabytes <= early.megabytes * 5 / 4 + 32, "memory grows");
     assert!(
@@ -155,15 +158,27 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
 fn controls_may_change_faster_than_pipelines_are_made() {
     let _alone = alone();
     let arguments = ["--validate", "--size", "800x700", "--set", "scene=opening"];
-    let desk = Desk::open(NAME, &arguments, &[]);
-    let shaders = Path::new("");
-    let mut hand =
-        Hand { random: Random(4), desk: &desk, shaders, size: [800, 700], counts: [0; 6] };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let calls = folder.path().join("calls");
+    let layer = Layer::failing("");
+    let environment = layer.environment();
+    let mut environment: Vec<_> =
+        environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
+    environment.push(("CALLS", &calls));
+    let desk = Desk::open(NAME, &arguments, &environment);
+    let (mut random, mut clicks) = (Random(4), 0);
     let start = Instant::now();
     while start.elapsed() < Duration::from_secs(10) {
-        hand.drag(20, 340);
+        // A switch of an effect, or beside it.
+        let switch = (LIGHT_SHADOWS.0, 390 + random.below(270) as i16);
+        desk.drag(switch, switch, 1);
+        clicks += 1;
     }
     desk.picture();
     desk.close();
     ended_well(desk.end());
+    let made = Layer::calls(&calls)["vkCreateRayTracingPipelinesKHR"];
+    println!("{clicks} clicks, {made} pipelines");
+    // The first, and some in the background; what was changed meanwhile was never made.
+    assert!((3..clicks).contains(&made), "{clicks} clicks, {made} pipelines");
 }

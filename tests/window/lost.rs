@@ -4,8 +4,10 @@ use std::path::Path;
 
 use run::layer::Layer;
 
-use crate::desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_RETURN, wait};
-use crate::{DEVICE_LOST, SLIDER, alone, same, tells_error};
+use crate::desk::{Desk, KEY_ESCAPE, KEY_F1, KEY_PERIOD, KEY_RETURN, wait};
+use crate::{DEVICE_LOST, LIGHT_SHADOWS, SLIDER, alone, same, tells_error};
+
+const SMALL: [&str; 2] = ["--size", "640x420"];
 
 /// A sample that loses its device in the next call of a function, once that is asked for.
 struct Losing {
@@ -15,7 +17,7 @@ struct Losing {
 }
 
 impl Losing {
-    fn open(function: &str) -> Self {
+    fn open(name: &str, more: &[&str], function: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [fault, calls] = ["fault", "calls"].map(|name| folder.path().join(name));
         let layer = Layer::failing(&format!("{function}:{}:{DEVICE_LOST}", fault.display()));
@@ -23,8 +25,8 @@ impl Losing {
         let mut environment: Vec<_> =
             environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
         environment.push(("CALLS", &calls));
-        let arguments = ["--validate", "--size", "640x420"];
-        let desk = Desk::open("02_basic", &arguments, &environment);
+        let arguments = [&["--validate"], more].concat();
+        let desk = Desk::open(name, &arguments, &environment);
         Self { desk, folder, _layer: layer }
     }
 
@@ -47,7 +49,7 @@ fn a_window_goes_on_with_another_device_where_it_was() {
     let functions =
         ["vkQueueSubmit2", "vkWaitForFences", "vkQueuePresentKHR", "vkAcquireNextImageKHR"];
     for function in functions {
-        let losing = Losing::open(function);
+        let losing = Losing::open("02_basic", &SMALL, function);
         let desk = &losing.desk;
         desk.drag((500, 300), (400, 260), 10);
         desk.drag(SLIDER[0], SLIDER[1], 10);
@@ -77,9 +79,55 @@ fn a_window_goes_on_with_another_device_where_it_was() {
 }
 
 #[test]
+fn an_animation_goes_on_where_it_was() {
+    let _alone = alone();
+    let losing =
+        Losing::open("14_animation", &[SMALL[0], SMALL[1], "--set", "play=off"], "vkQueueSubmit2");
+    let desk = &losing.desk;
+    let (start, _) = desk.picture();
+    for _ in 0..7 {
+        desk.key(KEY_PERIOD);
+    }
+    let before = wait("another time", || {
+        let (shown, _) = desk.picture();
+        (!same(&start, &shown)).then_some(shown)
+    });
+    losing.lose();
+    desk.key(KEY_RETURN);
+    wait("the sample", || (!desk.named().contains("lost")).then_some(()));
+    assert!(same(&before, &desk.picture().0), "the time is not what it was");
+    desk.close();
+    let output = losing.desk.end();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// In 25 another pipeline is made in the background for other controls.
+#[test]
+fn a_device_may_be_lost_while_a_pipeline_is_made() {
+    let _alone = alone();
+    let losing = Losing::open(
+        "25_scene_effects",
+        &["--size", "800x700", "--set", "scene=opening"],
+        "vkQueueSubmit2",
+    );
+    let desk = &losing.desk;
+    for _ in 0..3 {
+        let (x, y) = LIGHT_SHADOWS;
+        desk.drag((x, y), (x, y), 1);
+        losing.lose();
+        desk.key(KEY_RETURN);
+        wait("the sample", || (!desk.named().contains("lost")).then_some(()));
+    }
+    desk.picture();
+    desk.close();
+    let output = losing.desk.end();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
 fn whoever_does_not_go_on_leaves_with_the_error() {
     let _alone = alone();
-    let losing = Losing::open("vkQueueSubmit2");
+    let losing = Losing::open("02_basic", &SMALL, "vkQueueSubmit2");
     losing.lose();
     losing.desk.key(KEY_ESCAPE);
     let output = losing.desk.end();
@@ -103,7 +151,7 @@ fn a_device_that_is_lost_again_and_again_ends_the_window() {
 #[test]
 fn the_offer_can_be_resized_and_minimised() {
     let _alone = alone();
-    let losing = Losing::open("vkQueueSubmit2");
+    let losing = Losing::open("02_basic", &SMALL, "vkQueueSubmit2");
     losing.lose();
     for (width, height) in [(300, 200), (1, 1), (700, 500)] {
         losing.desk.resize(width, height);

@@ -13,6 +13,7 @@ mod signals;
 use std::path::Path;
 use std::process::Output;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
 
@@ -219,8 +220,12 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     wait("the error", || tells_error(&desk).then_some(()));
     assert!(same(&desk.picture().0, &first), "the last good picture stays");
 
-    // What a compiler's bindings take for a mistake of the program: a zero byte, and a version of desktops.
-    for text in [format!("{good}\0"), good.replace("#version 460", "#version 110")] {
+    // What a compiler's bindings take for a mistake of the program: a zero byte, and a version of desktops. And
+    // what overflows the compiler's stack.
+    let terms = " + x * y".repeat(100_000);
+    let sum = format!("float much(float x) {{ float y = 0.0; y += x{terms}; return y; }}");
+    let version = good.replace("#version 460", "#version 110");
+    for text in [format!("{good}\0"), version, format!("{good}{sum}\n")] {
         edit(&text);
         wait("the error", || tells_error(&desk).then_some(()));
         assert!(same(&desk.picture().0, &first), "the last good picture stays");
@@ -258,18 +263,51 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
     ended_well(desk.end());
 }
 
-/// One line, and exit code 1.
+/// A file that changes between the look of the check and that of the compiler is of no consequence.
+#[test]
+fn a_shader_may_change_while_it_is_compiled() {
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    copy_shaders(copy.path(), &["common", "02_basic"]);
+    let sky = copy.path().join("02_basic/sky.rmiss");
+    let good = std::fs::read_to_string(&sky).expect("the sky");
+    let bad = format!("{good}\0");
+    let desk = Desk::open("02_basic", &["--size", "640x420"], &[("SHADERS", copy.path())]);
+    let (first, _) = desk.picture();
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(5) {
+        for text in [&bad, &good] {
+            std::fs::write(&sky, text).expect("an edit");
+        }
+    }
+    wait("no error", || (!tells_error(&desk)).then_some(()));
+    assert!(same(&desk.picture().0, &first));
+    desk.close();
+    ended_well(desk.end());
+}
+
+/// One line that tells of the window system, and exit code 1.
 #[track_caller]
 fn failed(output: Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), errors.lines().count()), (Some(1), 1), "{errors}");
+    println!("{errors}");
+    let is_told = ["error: the window system", "X connection to"];
+    assert!(is_told.iter().any(|words| errors.starts_with(words)), "{errors}");
+    assert!(!run::MISTAKES.iter().any(|mistake| errors.contains(mistake)), "{errors}");
+}
+
+#[test]
+fn a_server_without_an_extension_is_said_in_one_line() {
+    let _alone = alone();
+    let server = desk::server(&["-extension", "RANDR"]);
+    failed(desk::outcome_on(server, "02_basic", &["--size", "320x200"], &[], |_| {}));
 }
 
 #[test]
 fn a_server_that_dies_ends_the_window_in_one_line() {
     let _alone = alone();
-    let mut desk =
-        Desk::open("02_basic", &["--size", "320x200"], &[("RUST_BACKTRACE", "0".as_ref())]);
+    let mut desk = Desk::open("02_basic", &["--size", "320x200"], &[]);
     desk.kill_server();
     failed(desk.end());
 }
@@ -277,7 +315,7 @@ fn a_server_that_dies_ends_the_window_in_one_line() {
 #[test]
 fn a_window_that_another_client_destroys_ends_in_one_line() {
     let _alone = alone();
-    let desk = Desk::open("02_basic", &["--size", "320x200"], &[("RUST_BACKTRACE", "0".as_ref())]);
+    let desk = Desk::open("02_basic", &["--size", "320x200"], &[]);
     desk.destroy();
     failed(desk.end());
 }

@@ -219,7 +219,10 @@ pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
 /// As [`finish`], for a program that heeds signals itself.
 pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
     last_words::for_panics();
-    last_words::for_crashes();
+    // Of the compiler's child, its parent tells, which can name the shader.
+    if !apart::is_asked() {
+        last_words::for_crashes();
+    }
     let Err(error) = program() else { return ExitCode::SUCCESS };
     let line = format!("{error:#}").replace('\n', " ");
     if error.is::<Stopped>() {

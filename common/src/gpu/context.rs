@@ -153,7 +153,7 @@ impl Gpu {
     ) -> Result<Self> {
         let software = chosen.kind == vk::PhysicalDeviceType::CPU;
         if software {
-            threads::ensure_some()?;
+            threads::ensure_threads()?;
         }
         let physical_device = chosen.handle;
         let queue_family = chosen.queue_family.context("no compute queue")?;

@@ -64,6 +64,7 @@ pub use sbt::{Record, ShaderBindingTable};
 pub use statistics::Statistics;
 pub use swapchain::{Acquired, Swapchain};
 pub use texture::TextureTable;
+pub use threads::ensure_threads;
 pub use timing::Timer;
 pub use validation::Messages;
 pub use variants::{Launch, Make, Variant, Variants};

@@ -14,7 +14,7 @@ const MOST: usize = 32 + 1;
 ///
 /// # Errors
 /// Then, with what to do.
-pub fn ensure_some() -> Result<()> {
+pub fn ensure_threads() -> Result<()> {
     let wanted = thread::available_parallelism().map_or(1, NonZero::get) + 1;
     // All of them wait here, so that they are there at the same time.
     let gate = Mutex::new(());
@@ -37,6 +37,6 @@ mod tests {
 
     #[test]
     fn a_system_that_starts_threads_is_told_so() {
-        ensure_some().unwrap();
+        ensure_threads().unwrap();
     }
 }

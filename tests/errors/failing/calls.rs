@@ -37,7 +37,7 @@ macro_rules! functions {
                 let function = &FUNCTIONS[Number::$name as usize];
                 type Below = unsafe extern "system" fn($($argument: functions!(@word $argument)),*) -> vk::Result;
                 // SAFETY: the address is that of the function below, which takes these arguments.
-                function.answer(|address| unsafe {
+                function.answer(&[$($argument),*], |address| unsafe {
                     std::mem::transmute::<usize, Below>(address)($($argument),*)
                 })
             }
@@ -134,7 +134,7 @@ pub unsafe fn over(name: *const c_char, below: vk::PFN_vkVoidFunction) -> vk::PF
 
 impl Function {
     /// Counts a call, and lets it fail if it is the chosen one.
-    fn answer(&self, below: impl FnOnce(usize) -> vk::Result) -> vk::Result {
+    fn answer(&self, arguments: &[usize], below: impl Fn(usize) -> vk::Result) -> vk::Result {
         let number = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
         let below = || below(self.below.load(Ordering::Relaxed));
         match chosen() {
@@ -143,6 +143,12 @@ impl Function {
                 if fault.result == vk::Result::ERROR_DEVICE_LOST && self.name == c"vkWaitForFences"
                 {
                     let _ = below();
+                }
+                if fault.result == vk::Result::SUCCESS && self.name == c"vkMapMemory" {
+                    let result = below();
+                    // SAFETY: the last argument is where the pointer goes. `MAP_FAILED` is -1.
+                    unsafe { *(arguments[5] as *mut usize) = usize::MAX };
+                    return result;
                 }
                 fault.result
             }

@@ -2,6 +2,7 @@
 //!
 //! - `FAIL=vkQueueSubmit2:3:-4`: the third call of that function does nothing and returns that `VkResult`;
 //!   with `3+`, every call from the third on; with a file's path, the next call after the file was made.
+//!   `vkMapMemory:1:0` succeeds, and gives `MAP_FAILED`, as a driver may where address space is short.
 //! - `CALLS=FILE`: when the instance is destroyed, the file gets a line for each function that may fail and
 //!   was called: its name, and how often.
 //!
