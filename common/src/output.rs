@@ -39,22 +39,28 @@ const MOST: usize = 2000;
 /// A line may hold what a file says. What is no plain letter in it, a terminal's commands for one, is
 /// written as `\u{1b}`, and a line that is too long is cut.
 pub fn complain(line: &str) {
-    let _ = writeln!(stderr(), "{}", plain(line));
+    let _ = writeln!(stderr(), "{}", short(line));
 }
 
-fn plain(line: &str) -> String {
-    let mut text = String::new();
-    for (number, letter) in line.chars().enumerate() {
-        if number == MOST {
-            text.push('…');
-            break;
-        }
-        match is_plain(letter) {
-            true => text.push(letter),
-            false => text.extend(letter.escape_default()),
-        }
+fn short(line: &str) -> String {
+    let mut letters = line.chars();
+    let mut text = plain(&letters.by_ref().take(MOST).collect::<String>());
+    if letters.next().is_some() {
+        text.push('…');
     }
     text
+}
+
+/// A text as a terminal may show it: what is no plain letter is escaped.
+pub fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for letter in text.chars() {
+        match is_plain(letter) {
+            true => plain.push(letter),
+            false => plain.extend(letter.escape_default()),
+        }
+    }
+    plain
 }
 
 /// Whether a terminal shows a letter as a letter: no control, and nothing that turns the direction of text.
@@ -83,7 +89,7 @@ mod tests {
 
     #[test]
     fn a_line_has_an_end() {
-        let line = plain(&"x".repeat(15_000_000));
+        let line = short(&"x".repeat(15_000_000));
         assert_eq!((line.chars().count(), line.chars().last()), (MOST + 1, Some('…')));
     }
 }

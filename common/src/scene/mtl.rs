@@ -147,6 +147,11 @@ impl MaterialLibrary {
         match keyword {
             "Kd" | "Ks" | "Ke" | "Tf" => {
                 let Some(color) = color(keyword, rest, &mut pass_over)? else { return Ok(()) };
+                let most = color.max_element();
+                ensure!(
+                    most <= BRIGHTEST,
+                    "{keyword} is {most:?}; it cannot be more than {BRIGHTEST}"
+                );
                 match keyword {
                     "Kd" => {
                         material.base_color = color;
@@ -154,14 +159,7 @@ impl MaterialLibrary {
                     }
                     "Ks" => material.specular = color,
                     "Tf" => material.transmission = color,
-                    _ => {
-                        let most = color.max_element();
-                        ensure!(
-                            most <= BRIGHTEST,
-                            "Ke is {most:?}; it cannot be more than {BRIGHTEST}"
-                        );
-                        material.emission = color;
-                    }
+                    _ => material.emission = color,
                 }
             }
             "Ns" => material.shininess = number(keyword, rest, f32::MAX)?,

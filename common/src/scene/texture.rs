@@ -1,7 +1,7 @@
 //! A texture: an image as the device takes it, and the PNG files that textures come from.
 
 use std::collections::HashMap;
-use std::io::{BufReader, Read, Seek};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, ensure};
@@ -112,7 +112,8 @@ impl TextureFile {
         file.by_ref().take(24).read_to_end(&mut head).with_context(unread)?;
         let is_png = head.starts_with(b"\x89PNG\r\n\x1a\n");
         ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
-        file.rewind().with_context(unread)?;
+        check_palette(&mut file)
+            .with_context(|| format!("{shown}: cannot be decoded, it is damaged or cut off"))?;
         // The decoder would say of a row that is too long for it only that it is too long for it.
         if let [.., a, b, c, d, e, f, g, h] = head[8..]
             && head.len() == 24
@@ -159,6 +160,32 @@ impl TextureFile {
         }
         Ok(Texture { name: self.named.name, width, height, rgba, srgb: self.color })
     }
+}
+
+/// Holds that a PNG file begins as one and that its palette has whole colours, which the decoder takes for
+/// granted. Leaves the file at its start.
+fn check_palette(file: &mut (impl Read + Seek)) -> Result<()> {
+    file.seek(SeekFrom::Start(8))?;
+    let mut is_first = true;
+    loop {
+        let mut head = [0; 8];
+        // What is cut off, the decoder tells of.
+        if file.read_exact(&mut head).is_err() {
+            break;
+        }
+        let [a, b, c, d, kind @ ..] = head;
+        let length = u32::from_be_bytes([a, b, c, d]);
+        ensure!(!is_first || &kind == b"IHDR", "its first chunk is not IHDR");
+        is_first = false;
+        match &kind {
+            b"PLTE" => ensure!(length % 3 == 0, "its palette has {length} bytes, no multiple of 3"),
+            b"IDAT" | b"IEND" => break,
+            _ => {}
+        }
+        file.seek(SeekFrom::Current(i64::from(length) + 4))?;
+    }
+    file.rewind()?;
+    Ok(())
 }
 
 #[cfg(test)]

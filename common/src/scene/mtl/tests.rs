@@ -45,6 +45,7 @@ fn numbers_that_are_wrong() {
     line_refused("Kd nan 0 0", "\"nan\" is not a finite 32-bit number");
     line_refused("Ke 0 1e40 0", "\"1e40\" is not a finite 32-bit number");
     line_refused("Ke 1 1 1e38", "Ke is 1e38; it cannot be more than 1000000");
+    line_refused("Ks 1e38", "Ks is 1e38; it cannot be more than 1000000");
     line_refused("Kd 0 -0.5 0", "Kd has a negative number; a colour has none");
     line_refused("Ks 0 1", "Ks has 2 numbers; a colour has 3, or 1 for a grey");
     line_refused("Ks", "Ks has 0 numbers; a colour has 3, or 1 for a grey");

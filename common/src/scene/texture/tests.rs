@@ -200,6 +200,25 @@ fn a_row_that_no_decoder_has_room_for_is_too_wide_and_no_text() {
 }
 
 #[test]
+fn a_palette_of_half_a_colour_is_no_mistake_of_the_program() {
+    let plain = png(&[[1, 2, 3, 4]], 1);
+    let header = chunk(b"IHDR", &[0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0]);
+    let with =
+        |palette: &[u8]| [&plain[..8], &header, &chunk(b"PLTE", palette), &plain[33..]].concat();
+    for (palette, size) in [(&b"abcd"[..], 4), (&[0; 767], 767), (b"a", 1)] {
+        let words = format!(
+            "the texture t.png: cannot be decoded, it is damaged or cut off: its palette has {size} \
+             bytes, no multiple of 3"
+        );
+        warned("map_Kd t.png", &with(palette), &words);
+    }
+    let other = [&plain[..8], &chunk(b"CgBI", b"abcd"), &plain[8..]].concat();
+    let words =
+        "the texture t.png: cannot be decoded, it is damaged or cut off: its first chunk is";
+    warned("map_Kd t.png", &other, words);
+}
+
+#[test]
 fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() {
     let plain = png(&[[1, 2, 3, 4]], 1);
     // The header's chunk ends here.
