@@ -215,3 +215,13 @@ fn no_shape_shadows_itself() {
     println!("{lit} lit, {dark} dark, {grazes} at outlines");
     assert!(lit > 200 && dark > 50 && grazes < 10, "{lit} {dark} {grazes}");
 }
+
+/// A grain may be smaller than the rounding of its hit.
+#[test]
+fn dust_has_a_normal_everywhere() {
+    for show in ["picture", "normal", "shadow origin"] {
+        let show = format!("show={show}");
+        let picture = picture(SIZE, &["scene=dust", &show]);
+        assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()), "{show}");
+    }
+}

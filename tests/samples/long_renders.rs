@@ -80,6 +80,14 @@ fn merged(files: &[PathBuf]) -> Vec<u8> {
 }
 
 #[test]
+fn of_two_runs_that_save_into_one_file_only_one_succeeds() {
+    let parts = Parts::new();
+    let tasks = ["0..4", "4..8"].map(|samples| parts.task(samples, "all.sums").spawn().unwrap());
+    let ended = tasks.map(|mut task| task.wait().unwrap().success());
+    assert_eq!(ended.iter().filter(|success| **success).count(), 1, "{ended:?}");
+}
+
+#[test]
 fn a_render_cut_two_and_seven_ways_is_the_render_in_one_piece() {
     let parts = Parts::new();
     let whole = parts.whole(16);

@@ -53,3 +53,9 @@ fn a_picture_larger_than_a_device_draws_is_refused_in_one_line() {
     assert_eq!(code, 2);
     assert!(line.contains("100000x4 is too large"), "{line}");
 }
+
+#[test]
+fn weights_are_numbers_also_where_nothing_is_seen() {
+    let picture = picture("64x40", &["show=weights"]);
+    assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()));
+}

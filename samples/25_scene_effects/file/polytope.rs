@@ -36,10 +36,14 @@ pub(super) fn solid(
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = corners.iter().fold(nothing, |(l, h), c| (l.min(*c), h.max(*c)));
     if corners.is_empty() || (high - low).min_element() < 1e-6 {
-        return Err("the planes enclose nothing; a normal points out of the solid");
+        return Err(
+            "the planes enclose nothing, or a body thinner than 1e-6; a normal points out of the solid",
+        );
     }
     if low.abs().max(high.abs()).max_element() > 0.99 * FAR {
-        return Err("the planes enclose no bounded body; add what closes it");
+        return Err(
+            "the planes enclose no body that ends within 1e6 of its center; add what closes it",
+        );
     }
     let solid = Solid { center, first, count, material };
     // A rounding of the faces moves the corners.
