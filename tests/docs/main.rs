@@ -130,7 +130,10 @@ fn wrong_arguments_are_one_line_and_exit_code_2() {
             "error: invalid value '18446744073709551615' for '--context <N>'",
         ),
         (&["diff", "1", "9"], "error: no chapter '9'; there is 01_one, 02_basic"),
-        (&["diff", "1"], "error: the following required arguments were not provided"),
+        (
+            &["diff", "1"],
+            "error: the following required arguments were not provided: <NEW>; --help",
+        ),
         (&["mend"], "error: unrecognized subcommand 'mend'"),
         (&["sync", "--pictures", "x"], "error: no page makes a picture 'x'; there is 01_one, 02"),
     ];

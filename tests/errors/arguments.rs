@@ -22,6 +22,8 @@ fn options() {
             "invalid value '1.5' for '--save-every <SECONDS>': seconds are a whole number",
         ),
         (&["--frames=-1"], "invalid value '-1' for '--frames <N>'"),
+        (&["--frames", "-1"], "invalid value '-1' for '--frames <N>'"),
+        (&["--samples", "-1..4"], "invalid value '-1..4' for '--samples <A..B>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE>'"),
         (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, all]"),
@@ -83,7 +85,9 @@ fn comparisons() {
 #[test]
 fn sizes() {
     let whole = "a size is two whole numbers of at least 1, such as 640x400";
-    for size in ["0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "8.5x8", "99999999999x8", ""] {
+    for size in
+        ["-1x4", "0x0", "0x8", "8x0", "8", "8x", "x8", "8x8x8", "8.5x8", "99999999999x8", ""]
+    {
         refused_by(sized(size), 2, &[&format!("invalid value '{size}'"), whole]);
     }
     // No device has so large an image, or traces so many rays at once.
@@ -145,6 +149,13 @@ fn help_that_nobody_can_read_is_an_error() {
     let output = sample().arg("--help").stdout(full).output().unwrap();
     let (code, line) = run::refusal(output);
     assert!(code == 1 && line.contains("cannot write to standard output"), "{line}");
+}
+
+#[test]
+fn the_chess_set_tells_its_usage() {
+    let output = run::command("chess_set").arg("--help").output().unwrap();
+    assert!(output.status.success() && output.stderr.is_empty());
+    assert!(String::from_utf8(output.stdout).unwrap().starts_with("usage: chess_set"));
 }
 
 #[test]

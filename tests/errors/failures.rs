@@ -30,6 +30,8 @@ fn each_is_answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool
 fn the_first_and_the_last_call_of_each_function_may_fail() {
     assert!(each_is_answered("01_foundation", ends));
     assert!(each_is_answered("02_basic", ends));
+    // It has the most kinds of objects.
+    assert!(each_is_answered("25_scene_effects", ends));
 }
 
 #[test]

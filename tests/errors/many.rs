@@ -45,3 +45,89 @@ fn many_meshes_and_textures_take_as_many_buffers_and_submissions_as_few() {
     // The layer does count what goes with their number.
     assert!(many["vkCreateImage"] >= 1000, "{many:?}");
 }
+
+/// A scene with so many of something, which is shown.
+struct Shown {
+    name: &'static str,
+    chapter: &'static str,
+    file: &'static str,
+    write: fn(folder: &Path, count: usize),
+}
+
+/// Those of scene files stand in one place, where no box of an acceleration structure tells them apart.
+const SHOWN: [Shown; 4] = [
+    Shown {
+        name: "triangles",
+        chapter: "02_basic",
+        file: "model.obj",
+        write: |folder, count| {
+            let row = |i| format!("v {i} 0 0\nv {i}.5 0 0\nv {i} 1 0\nf -3 -2 -1\n");
+            fs::write(folder.join("model.obj"), (0..count).map(row).collect::<String>()).unwrap();
+        },
+    },
+    Shown { name: "meshes and textures", chapter: "02_basic", file: "model.obj", write: model },
+    Shown {
+        name: "pieces",
+        chapter: "25_scene_effects",
+        file: "scene.toml",
+        write: |folder, count| scene(folder, count, "[[piece]]\nmesh = \"pawn\"\nat = [0, 0, 0]\n"),
+    },
+    Shown {
+        name: "spheres",
+        chapter: "25_scene_effects",
+        file: "scene.toml",
+        write: |folder, count| {
+            scene(folder, count, "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n")
+        },
+    },
+];
+
+/// A scene file with this table so many times.
+fn scene(folder: &Path, count: usize, table: &str) {
+    let head = "version = 1\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\nfield_of_view = 40\n\
+                [[material]]\nname = \"a\"\n";
+    fs::write(folder.join("scene.toml"), head.to_owned() + &table.repeat(count)).unwrap();
+}
+
+impl Shown {
+    /// The seconds and the bytes that so many take, from the program's start to its end.
+    fn spent(&self, count: usize) -> (f64, f64) {
+        let folder = tempfile::tempdir().unwrap();
+        (self.write)(folder.path(), count);
+        let mut command = run::command(self.chapter);
+        command.current_dir(&folder).args(["--headless", "--size", "8x8", "--scene", self.file]);
+        let spent = run::spend(&mut command);
+        let errors = String::from_utf8_lossy(&spent.output.stderr);
+        assert!(spent.output.status.success() && errors.is_empty(), "{errors}");
+        println!("{} {}: {:?}, {} bytes", count, self.name, spent.time, spent.memory);
+        (spent.time.as_secs_f64(), spent.memory as f64)
+    }
+}
+
+#[test]
+fn ten_times_as_many_of_anything_are_shown_in_ten_times_the_time() {
+    for shown in SHOWN {
+        let [least, few, many] = [1, 1000, 10_000].map(|count| shown.spent(count).0);
+        let [few, many] = [few, many].map(|time| time - least);
+        assert!(many < 20.0 * few.max(0.05), "{}: {few} s, then {many} s", shown.name);
+    }
+}
+
+#[test]
+#[ignore = "takes times"]
+fn showing_grows_with_the_scene() {
+    let mut table = serde_json::Map::new();
+    for shown in SHOWN {
+        let least = shown.spent(1);
+        for count in [1000, 10_000, 100_000] {
+            let (time, bytes) = shown.spent(count);
+            let (name, time) = (shown.name.replace(' ', "-"), 1e3 * (time - least.0).max(0.0));
+            table.insert(format!("{name}.time_{count}"), time.into());
+            table.insert(
+                format!("{name}.memory_{count}"),
+                (1e-6 * (bytes - least.1).max(0.0)).into(),
+            );
+        }
+    }
+    run::figures::give_timed("limits/shown", table.into());
+}

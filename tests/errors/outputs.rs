@@ -63,6 +63,21 @@ fn what_is_read_is_not_written_over() {
 }
 
 #[test]
+fn a_file_of_the_scene_is_no_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    fs::write(path("m.obj"), obj).unwrap();
+    fs::write(path("m.mtl"), "newmtl a\nmap_Kd t.png\n").unwrap();
+    image::RgbImage::new(2, 2).save(path("t.png")).unwrap();
+    let before = fs::read(path("t.png")).unwrap();
+    let [model, texture] = [path("m.obj"), path("t.png")];
+    let arguments = ["--scene", text(&model), "--out", text(&texture)];
+    refused(&arguments, 2, &["--out names '", "t.png', a file of the scene"]);
+    assert_eq!(fs::read(texture).unwrap(), before);
+}
+
+#[test]
 fn a_failed_run_leaves_the_files_that_were_there() {
     let folder = tempfile::tempdir().unwrap();
     let [out, report] = ["a.png", "a.json"].map(|name| folder.path().join(name));

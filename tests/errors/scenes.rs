@@ -245,11 +245,11 @@ fn things_that_are_wrong() {
     table_refused(&solid("[0, 1, 0, 1]"), "s.toml:11: 1 planes; a solid has 4 to 24");
     table_refused(
         &solid(&"[0, 1, 0, 1],".repeat(5)),
-        "s.toml:8: the planes enclose no bounded body",
+        "s.toml:8: the planes enclose no body that ends within 1e6 of its center",
     );
     table_refused(
         &solid("[1, 1, 1, -1], [1, -1, -1, -1], [-1, 1, -1, -1], [-1, -1, 1, -1]"),
-        "s.toml:8: the planes enclose nothing; a normal points out of the solid",
+        "s.toml:8: the planes enclose nothing, or a body thinner than 1e-6; a normal points out of the solid",
     );
     table_refused(
         &solid(&"[0, 1, 0, 1],".repeat(2000)),
@@ -261,8 +261,19 @@ fn things_that_are_wrong() {
         "s.toml:6: a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0",
     );
     table_refused(&solid("[0, 1, 0, 1, 1]"), "s.toml:11: 5 numbers where there are 4");
-    let many = "[[sphere]]\ncenter = [0,0,0]\nradius = 1\nmaterial = \"a\"\n".repeat(100_001);
-    table_refused(&many, "s.toml:400006: more than 100000 spheres");
+}
+
+#[test]
+fn more_of_anything_than_is_accepted_is_refused_where_it_begins() {
+    let ball = "[[sphere]]\ncenter = [0,0,0]\nradius = 1\nmaterial = \"a\"\n";
+    let block = "[[box]]\nlow = [0,0,0]\nhigh = [1,1,1]\nmaterial = \"a\"\n";
+    let piece = "[[piece]]\nmesh = \"pawn\"\nat = [0,0,0]\n";
+    for (table, what) in
+        [(ball, "spheres"), (block, "boxes"), (piece, "pieces"), (PAINT, "materials")]
+    {
+        let line = 6 + 100_000 * table.lines().count();
+        table_refused(&table.repeat(100_001), &format!("s.toml:{line}: more than 100000 {what}"));
+    }
 }
 
 #[test]
@@ -302,6 +313,21 @@ fn pieces_and_models_that_are_wrong() {
     ] {
         let (_folder, command) = command(model("m.obj").as_bytes(), &[("m.obj", text)]);
         refused_by(command, 1, &[words]);
+    }
+}
+
+#[test]
+fn names_of_a_scene_command_no_terminal_where_controls_are_listed() {
+    let paint = "[[material]]\nname = \"\\u001b[2J\\u0007\\u009b31m\\u202e\\t\\n\"\n";
+    let name = paint.split('=').nth(1).unwrap().trim();
+    let ball = format!("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = {name}\n");
+    let (_folder, mut command) = command(format!("{HEAD}{paint}{ball}").as_bytes(), &[]);
+    let output = command.arg("--list-controls").output().unwrap();
+    let listed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && listed.contains("\\u{1b}[2J\\u{7}\\u{9b}31m"), "{listed}");
+    for line in listed.lines() {
+        assert_eq!(line.matches('\t').count(), 3, "{line}");
+        assert!(!line.replace('\t', "").contains(char::is_control), "{line}");
     }
 }
 

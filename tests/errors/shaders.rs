@@ -117,6 +117,60 @@ fn a_compiler_that_crashes_takes_its_own_process_alone() {
     }
 }
 
+/// It stays at work for half a minute otherwise.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_compiler_ends_with_the_program_that_asks_it() {
+    use std::time::{Duration, Instant};
+
+    let doubling: String =
+        (1..30).map(|i| format!("#define A{i} A{j}+A{j}\n", j = i - 1)).collect();
+    let bomb = format!("#define A0 1+1\n{doubling}int x = A29;\n");
+    let folder = folder("02_basic/sky.rmiss", appended(&bomb));
+    let mut command = sample();
+    let mut parent = command.env("SHADERS", folder.path()).spawn().unwrap();
+    let children = format!("/proc/{0}/task/{0}/children", parent.id());
+    let start = Instant::now();
+    let compiler = |text: String| text.split_whitespace().next().map(str::to_owned);
+    let child = loop {
+        assert!(start.elapsed() < Duration::from_secs(60), "no compiler was started");
+        // The compiler of the first shaders is done at once.
+        std::thread::sleep(Duration::from_millis(20));
+        let Some(child) = compiler(fs::read_to_string(&children).unwrap_or_default()) else {
+            continue;
+        };
+        std::thread::sleep(Duration::from_millis(1500));
+        if Path::new("/proc").join(&child).exists() {
+            break child;
+        }
+    };
+    parent.kill().unwrap();
+    parent.wait().unwrap();
+    let stat = Path::new("/proc").join(child).join("stat");
+    let is_alive = || {
+        // An orphan that has ended may not be waited for yet.
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        stat.rsplit(')').next().is_some_and(|rest| !rest.is_empty() && !rest.starts_with(" Z"))
+    };
+    let start = Instant::now();
+    while is_alive() {
+        assert!(start.elapsed() < Duration::from_secs(5), "it is at work still");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn a_descriptor_that_nothing_is_bound_to_is_refused() {
+    let image = "layout(set = 0, binding = 1";
+    let text = fs::read_to_string(run::root().join("shaders/02_basic/camera.rgen")).unwrap();
+    assert!(text.contains(image), "{text}");
+    let folder =
+        folder("02_basic/camera.rgen", |text| text.replace(image, "layout(set = 5, binding = 1"));
+    let words =
+        "02_basic/camera.rgen: set 5, binding 1 is an image, where the program binds nothing";
+    shaders_refused(folder.path(), &[words]);
+}
+
 #[test]
 fn shaders_that_are_missing() {
     let folder = folder("02_basic/sky.rmiss", appended(""));

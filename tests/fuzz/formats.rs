@@ -28,7 +28,7 @@ pub const FUNCTIONS: [(Format, Function, usize); 7] = [
 /// The files of a folder of the corpus, in the order of their names.
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let folder = run::root().join("tests/fuzz/corpus").join(name);
-    let entries = folder.read_dir().into_iter().flatten();
+    let entries = folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.sort();
     files.iter().map(|file| fs::read(file).expect("a file of the corpus can be read")).collect()

@@ -22,11 +22,11 @@ pub struct Args {
     pub headless: bool,
 
     /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size)]
+    #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size, allow_hyphen_values = true)]
     pub size: vk::Extent2D,
 
     /// Frames to render; the last one is the picture. A window closes after so many, if given
-    #[arg(long, value_name = "N", default_value = "1", value_parser = frames)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = frames, allow_hyphen_values = true)]
     pub frames: u32,
 
     /// Whether --frames was given: without it, a window stays open
@@ -42,7 +42,7 @@ pub struct Args {
     pub report: Option<PathBuf>,
 
     /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
-    #[arg(long, value_name = "A..B", value_parser = range, conflicts_with_all = ["frames", "compare"])]
+    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare"])]
     pub samples: Option<Range<u32>>,
 
     /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
@@ -54,7 +54,7 @@ pub struct Args {
     pub resume: Option<PathBuf>,
 
     /// Seconds from one --save to the next; 0 saves after each sample
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, requires = "save")]
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, requires = "save", allow_hyphen_values = true)]
     pub save_every: u64,
 
     /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,

@@ -18,6 +18,7 @@ use super::interrupt::{Interrupt, Stopped};
 use super::samples::Samples;
 use super::sums::{Header, Origin, Spoiled, Sums};
 use super::{Sample, controls, output};
+use crate::files;
 use crate::gpu::{
     Address, Binding, Blueprint, Buffer, ComputePipeline, Descriptor, Gpu, Image, barrier,
 };
@@ -59,7 +60,9 @@ pub struct Gather {
 pub fn resumed(args: &Args) -> Result<Option<Sums>> {
     let (save, resume) = (args.save.as_deref(), args.resume.as_deref());
     let is_there = |path: &Path| path.symlink_metadata().is_ok();
-    if let Some(save) = save.filter(|save| Some(*save) != resume && is_there(save)) {
+    if let Some(save) =
+        save.filter(|save| !resume.is_some_and(|it| files::same(it, save)) && is_there(save))
+    {
         let name = shown(save);
         match Sums::begins(save) {
             true => bail!("'{name}' is there already: --resume '{name}' goes on with it"),
@@ -189,10 +192,11 @@ impl Gather {
         let sums = self.read()?;
         if let Some((file, _)) = &self.save {
             let kept = sums.save_unless_behind(file)?;
-            if kept != sums.header.samples {
-                let line = "of another run, and stays as it is";
-                output::warn(&[format!("'{}' has samples {kept} {line}", shown(file))]);
-            }
+            ensure!(
+                kept == sums.header.samples,
+                "'{}' has samples {kept} of another run, and stays as it is: this run's are not saved",
+                shown(file)
+            );
         }
         let [width, _] = sums.header.origin.size;
         output::warn(&Vec::from_iter(sums.header.spoiled.warning(width)));

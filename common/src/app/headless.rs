@@ -16,6 +16,7 @@ use super::{
 };
 use crate::files;
 use crate::gpu::{Gpu, GpuOptions, Image, Messages, Timer};
+use crate::scene::text;
 use crate::usage::Usage;
 
 /// Renders `args.frames` frames of a sample and writes what `args` asks for.
@@ -42,11 +43,14 @@ pub fn headless<S: Sample>(name: &str, args: &Args) -> Result<()> {
     let setup = Setup::new(args);
     let mut sample = S::new(&gpu, &setup)?;
     setup.check()?;
+    check_scene(args)?;
     controls::set_all(&args.sets, |c| sample.controls(c))?;
     if args.list_controls {
         for control in controls::list(|c| sample.controls(c)) {
             let controls::Listed { name, kind, possible, value } = control;
-            output::print(&format!("{name}\t{kind}\t{possible}\t{value}\n"))?;
+            // What is possible may be the names of a scene's materials.
+            let cells = [&*name, kind, &*possible, &*value].map(output::plain);
+            output::print(&(cells.join("\t") + "\n"))?;
         }
         return Ok(());
     }
@@ -192,10 +196,7 @@ pub fn check_validation(validation: &Messages) -> Result<()> {
 /// With the file, and why.
 pub fn check_files(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
-    let report = args.report.as_deref().filter(|path| *path != Path::new("-"));
-    let files =
-        [("--out", args.out.as_deref()), ("--report", report), ("--save", args.save.as_deref())];
-    let files: Vec<_> = files.into_iter().filter_map(|(name, file)| Some((name, file?))).collect();
+    let files = outputs(args);
     let inputs = [("--scene", args.scene.as_deref()), ("--resume", args.resume.as_deref())];
     for (i, (name, file)) in files.iter().enumerate() {
         files::check_writable(file)?;
@@ -211,11 +212,32 @@ pub fn check_files(args: &Args) -> Result<()> {
         }
     }
     let is_json = |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
-    if let Some(report) = report.filter(|path| !is_json(path)) {
+    let report = files.iter().find(|(name, _)| *name == "--report");
+    if let Some((_, report)) = report.filter(|(_, path)| !is_json(path)) {
         let line = "a report is .json, or - for standard output";
         bail!(Usage(format!("--report {}: {line}", report.display())));
     }
     Ok(())
+}
+
+/// The files that a run writes, each with its option.
+fn outputs(args: &Args) -> Vec<(&'static str, &Path)> {
+    let report = args.report.as_deref().filter(|path| *path != Path::new("-"));
+    let files =
+        [("--out", args.out.as_deref()), ("--report", report), ("--save", args.save.as_deref())];
+    files.into_iter().filter_map(|(name, file)| Some((name, file?))).collect()
+}
+
+/// Fails if an output is one of the scene's files: what they are is known only once they were opened.
+fn check_scene(args: &Args) -> Result<(), Usage> {
+    let opened = text::opened();
+    let mut outputs = outputs(args).into_iter();
+    match outputs.find(|(_, file)| opened.iter().any(|read| files::same(read, file))) {
+        Some((name, file)) => {
+            Err(Usage(format!("{name} names '{}', a file of the scene", file.display())))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Fails if a picture is larger than the device allows.

@@ -136,6 +136,26 @@ impl Reflection {
         }
     }
 
+    /// Holds that the program binds what the module declares: `count` bindings in set 0, and in set 1 the
+    /// texture table, if there is one.
+    ///
+    /// # Errors
+    /// On a descriptor in another place, for which drivers have no answer.
+    pub fn check_bindings(&self, path: &str, count: usize, has_textures: bool) -> Result<()> {
+        for Bound { set, binding, kind } in self.descriptors() {
+            let is_bound = match set {
+                0 => (binding as usize) < count,
+                1 => has_textures && binding == 0,
+                _ => false,
+            };
+            ensure!(
+                is_bound,
+                "{path}: set {set}, binding {binding} is {kind}, where the program binds nothing"
+            );
+        }
+        Ok(())
+    }
+
     /// Every descriptor that the module declares, by set and binding.
     pub fn descriptors(&self) -> Vec<Bound> {
         let globals = &self.module.types_global_values;

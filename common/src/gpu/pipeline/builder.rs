@@ -306,6 +306,11 @@ impl<'a> PipelineBuilder<'a> {
             let reflection = Reflection::of(&shader.spirv)?;
             reflection.check(&shader.path, &known.structs)?;
             reflection.check_addresses(&shader.path, &known.structs)?;
+            reflection.check_bindings(
+                &shader.path,
+                self.bindings.len(),
+                self.textures.is_some(),
+            )?;
         }
         for layout in &known.enums {
             layout.check(self.name, &shaders)?;

@@ -92,6 +92,12 @@ fn bound() {
         libc::setrlimit(libc::RLIMIT_AS, &memory);
         libc::setrlimit(libc::RLIMIT_CORE, &core);
     }
+    // Nobody waits for the answer any more if the parent has ended.
+    #[cfg(target_os = "linux")]
+    // SAFETY: it takes a signal's number.
+    unsafe {
+        libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL);
+    }
 }
 
 /// Whether a child's time was over.
