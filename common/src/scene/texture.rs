@@ -1,6 +1,7 @@
 //! A texture: an image as the device takes it, and the PNG files that textures come from.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 
@@ -112,8 +113,10 @@ impl TextureFile {
         file.by_ref().take(24).read_to_end(&mut head).with_context(unread)?;
         let is_png = head.starts_with(b"\x89PNG\r\n\x1a\n");
         ensure!(is_png, "{shown}: is not a PNG file; convert it to one");
-        check_palette(&mut file)
-            .with_context(|| format!("{shown}: cannot be decoded, it is damaged or cut off"))?;
+        let damaged = |what: &dyn Display| {
+            anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {what}")
+        };
+        check_palette(&mut file).map_err(|error| damaged(&error))?;
         // The decoder would say of a row that is too long for it only that it is too long for it.
         if let [.., a, b, c, d, e, f, g, h] = head[8..]
             && head.len() == 24
@@ -130,7 +133,7 @@ impl TextureFile {
             ImageError::Limits(_) => anyhow!(
                 "{shown}: has texts of more than {BESIDE_BYTES} bytes beside its texels; save it without"
             ),
-            error => anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {error}"),
+            error => damaged(&error),
         };
         let mut beside = image::Limits::default();
         beside.max_alloc = Some(BESIDE_BYTES);
@@ -164,7 +167,7 @@ impl TextureFile {
 
 /// Holds that a PNG file begins as one and that its palette has whole colours, which the decoder takes for
 /// granted. Leaves the file at its start.
-fn check_palette(file: &mut (impl Read + Seek)) -> Result<()> {
+fn check_palette(file: &mut BufReader<impl Read + Seek>) -> Result<()> {
     file.seek(SeekFrom::Start(8))?;
     let mut is_first = true;
     loop {
@@ -182,7 +185,7 @@ fn check_palette(file: &mut (impl Read + Seek)) -> Result<()> {
             b"IDAT" | b"IEND" => break,
             _ => {}
         }
-        file.seek(SeekFrom::Current(i64::from(length) + 4))?;
+        file.seek_relative(i64::from(length) + 4)?;
     }
     file.rewind()?;
     Ok(())

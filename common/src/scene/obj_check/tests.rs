@@ -143,13 +143,13 @@ fn statements_of_other_formats_are_passed_over() {
 
 #[test]
 fn what_takes_too_much_memory_is_refused_with_all_that_it_would_take() {
-    // A corner takes 169 bytes, and is written in two.
-    let limits = Limits { memory: 1_000_000, ..Limits::DEFAULT };
+    // A triangle takes 620 bytes, and a corner is written in two.
+    let limits = Limits { memory: 4_000_000, ..Limits::DEFAULT };
     let polygon = |corners: usize| format!("v 0 0 0\nf{}\n", " 1".repeat(corners));
     let load = |text: &str| load_files(&[("model.obj", text.as_bytes())], &limits);
     load(&polygon(1000).repeat(5)).unwrap();
     let refused = load(&polygon(1000).repeat(10_000)).unwrap_err();
-    let words = "model.obj: would take up to 1.9 GB of memory with its 10000000 corners of 10000 faces, \
+    let words = "model.obj: would take up to 6.3 GB of memory with its 10000000 corners of 10000 faces, \
                  10000 positions and 0 meshes; at most 0.0 GB are taken";
     assert_eq!(refused, words);
     let libraries = Limits { libraries: 3, ..Limits::DEFAULT };

@@ -105,7 +105,7 @@ fn files_that_are_wrong() {
     let no_png = "the texture t.png: is not a PNG file; convert it to one";
     warned("map_Kd t.png", b"\xff\xd8\xff\xe0 a JPEG file", no_png);
     warned("map_Kd t.png", b"", no_png);
-    warned("map_Kd .", b"", "the texture : is not a file that can be read");
+    warned("map_Kd .", b"", "map_Kd names \".\", which is no file");
     for cut in [9, 40, good.len() / 2, good.len() - 20] {
         let start = "the texture t.png: cannot be decoded, it is damaged or cut off: ";
         warned("map_d t.png", &good[..cut], start);
