@@ -235,12 +235,15 @@ fn a_file_takes_no_more_memory_than_its_size_allows() {
         let line = String::from_utf8_lossy(&spent.output.stderr).into_owned();
         (spent.output.status.success(), line, spent.memory)
     };
+    // The first run may compile what later ones find in the driver's cache.
+    memory(&text);
     let (_, _, least) = memory(&text);
     // What nobody reads is not kept. The numbers are written here as text: as values they would
     // make this process larger than the one that it measures.
     let many = format!("{{\"conventions\": [{}0], ", "0,".repeat(4_000_000));
     let (success, line, most) = memory(&text.replacen('{', &many, 1));
-    assert!(success && most - least < 40 << 20, "{} {line}", most - least);
+    let more = most.saturating_sub(least);
+    assert!(success && more < 40 << 20, "{more} {line}");
     let (success, line, most) = memory(&" ".repeat((8 << 20) + 1));
     assert!(!success && line.contains("has 8388609 bytes; at most 8388608 are read"), "{line}");
     assert!(most < least + (4 << 20), "{least} {most}");

@@ -68,7 +68,8 @@ mod tests {
         fn dots(count: usize) -> String {
             "a.".repeat(count) + "a"
         }
-        let cases: [(usize, fn(usize) -> String); 6] = [
+        type Case = (usize, fn(usize) -> String);
+        let cases: [Case; 6] = [
             (17, |n| format!("{} = 1", dots(n))),
             (16, |n| format!("[{}]\n\nb.c = 1", dots(n - 1))),
             (17, |n| format!("[[{}]]", dots(n - 1))),
