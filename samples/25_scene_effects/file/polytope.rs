@@ -98,8 +98,9 @@ mod tests {
     fn what_is_open_or_empty_is_refused() {
         let mut open = octahedron(1.0);
         open.retain(|plane| plane[1] > 0.0);
-        assert!(super::solid(Vec3::ZERO, &open, 0, &mut vec![]).unwrap_err().contains("bounded"));
-        let empty = octahedron(-1.0);
-        assert!(super::solid(Vec3::ZERO, &empty, 0, &mut vec![]).unwrap_err().contains("nothing"));
+        let refused =
+            |planes: &[[f64; 4]]| super::solid(Vec3::ZERO, planes, 0, &mut vec![]).unwrap_err();
+        assert!(refused(&open).contains("no body that ends"));
+        assert!(refused(&octahedron(-1.0)).contains("nothing"));
     }
 }
