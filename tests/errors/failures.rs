@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use run::failures::{all, answers, chapters, ends};
+use run::failures::{all, chapters, each_is_answered, ends};
 use run::layer::Layer;
 
 const TIMEOUT: i32 = 2;
@@ -16,29 +16,23 @@ fn counted(sample: &str, layer: &Layer, calls: &Path) -> Output {
 }
 
 /// Lets calls of a sample fail; whether each is answered.
-fn each_is_answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
-    let answers = answers(sample, |layer, calls| counted(sample, layer, calls), numbers);
-    println!("{sample}: {} failures", answers.failures);
-    for wrong in &answers.wrong {
-        println!("{wrong}");
-    }
-    assert!(answers.failures > 30);
-    answers.wrong.is_empty()
+fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
+    each_is_answered(sample, |layer, calls| counted(sample, layer, calls), numbers)
 }
 
 #[test]
 fn the_first_and_the_last_call_of_each_function_may_fail() {
-    assert!(each_is_answered("01_foundation", ends));
-    assert!(each_is_answered("02_basic", ends));
+    assert!(is_safe("01_foundation", ends));
+    assert!(is_safe("02_basic", ends));
     // It has the most kinds of objects.
-    assert!(each_is_answered("25_scene_effects", ends));
+    assert!(is_safe("25_scene_effects", ends));
 }
 
 #[test]
 #[ignore = "an hour: every call of every chapter, or of those that CHAPTERS names"]
 fn every_call_of_every_chapter_may_fail() {
     let mut chapters = chapters();
-    chapters.retain(|sample| !each_is_answered(sample, all));
+    chapters.retain(|sample| !is_safe(sample, all));
     assert!(chapters.is_empty(), "{chapters:?}");
 }
 

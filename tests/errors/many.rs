@@ -8,6 +8,8 @@ use std::path::Path;
 
 use run::layer::Layer;
 
+use crate::limits::add_row;
+
 /// A model of triangles side by side, each a mesh with a material and a texture of its own.
 fn model(folder: &Path, count: usize) {
     let (mut obj, mut mtl) = (String::from("mtllib model.mtl\nvt 0 0\n"), String::new());
@@ -118,16 +120,7 @@ fn ten_times_as_many_of_anything_are_shown_in_ten_times_the_time() {
 fn showing_grows_with_the_scene() {
     let mut table = serde_json::Map::new();
     for shown in SHOWN {
-        let least = shown.spent(1);
-        for count in [1000, 10_000, 100_000] {
-            let (time, bytes) = shown.spent(count);
-            let (name, time) = (shown.name.replace(' ', "-"), 1e3 * (time - least.0).max(0.0));
-            table.insert(format!("{name}.time_{count}"), time.into());
-            table.insert(
-                format!("{name}.memory_{count}"),
-                (1e-6 * (bytes - least.1).max(0.0)).into(),
-            );
-        }
+        add_row(&mut table, shown.name, |count| shown.spent(count));
     }
     run::figures::give_timed("limits/shown", table.into());
 }

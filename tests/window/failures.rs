@@ -3,31 +3,25 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use run::failures::{all, answers, chapters, ends};
+use run::failures::{all, chapters, each_is_answered, ends};
 use run::layer::Layer;
 
 use crate::{alone, desk};
 
 /// Lets calls of a sample's window fail, which shows three frames; whether each is answered.
-fn each_is_answered(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
+fn is_safe(sample: &str, numbers: impl Fn(usize) -> Vec<usize>) -> bool {
     let run = |layer: &Layer, calls: &Path| {
         let mut environment: Vec<(&str, OsString)> = layer.environment();
         environment.push(("CALLS", calls.into()));
         desk::outcome(sample, &["--size", "160x100", "--frames", "3"], &environment)
     };
-    let answers = answers(sample, run, numbers);
-    println!("{sample}: {} failures", answers.failures);
-    for wrong in &answers.wrong {
-        println!("{wrong}");
-    }
-    assert!(answers.failures > 30);
-    answers.wrong.is_empty()
+    each_is_answered(sample, run, numbers)
 }
 
 #[test]
 fn the_first_and_the_last_call_of_each_function_may_fail_in_a_window() {
     let _alone = alone();
-    assert!(each_is_answered("02_basic", ends));
+    assert!(is_safe("02_basic", ends));
 }
 
 #[test]
@@ -35,6 +29,6 @@ fn the_first_and_the_last_call_of_each_function_may_fail_in_a_window() {
 fn every_call_of_every_window_may_fail() {
     let _alone = alone();
     let mut chapters = chapters();
-    chapters.retain(|sample| !each_is_answered(sample, all));
+    chapters.retain(|sample| !is_safe(sample, all));
     assert!(chapters.is_empty(), "{chapters:?}");
 }

@@ -41,6 +41,12 @@ impl Losing {
         assert!(calls.exists(), "the old instance is there still");
         std::fs::remove_file(calls).expect("it is a file");
     }
+
+    /// Takes the offer.
+    fn go_on(&self) {
+        self.desk.key(KEY_RETURN);
+        wait("the sample", || (!self.desk.named().contains("lost")).then_some(()));
+    }
 }
 
 #[test]
@@ -56,8 +62,7 @@ fn a_window_goes_on_with_another_device_where_it_was() {
         let (before, _) = desk.picture();
         for _ in 0..2 {
             losing.lose();
-            desk.key(KEY_RETURN);
-            wait("the sample", || (!desk.named().contains("lost")).then_some(()));
+            losing.go_on();
             let (after, _) = desk.picture();
             assert!(
                 same(&before, &after),
@@ -93,8 +98,7 @@ fn an_animation_goes_on_where_it_was() {
         (!same(&start, &shown)).then_some(shown)
     });
     losing.lose();
-    desk.key(KEY_RETURN);
-    wait("the sample", || (!desk.named().contains("lost")).then_some(()));
+    losing.go_on();
     assert!(same(&before, &desk.picture().0), "the time is not what it was");
     desk.close();
     let output = losing.desk.end();
@@ -115,8 +119,7 @@ fn a_device_may_be_lost_while_a_pipeline_is_made() {
         let (x, y) = LIGHT_SHADOWS;
         desk.drag((x, y), (x, y), 1);
         losing.lose();
-        desk.key(KEY_RETURN);
-        wait("the sample", || (!desk.named().contains("lost")).then_some(()));
+        losing.go_on();
     }
     desk.picture();
     desk.close();
@@ -160,8 +163,7 @@ fn the_offer_can_be_resized_and_minimised() {
     losing.desk.map(false);
     losing.desk.map(true);
     wait("its words", || tells_error(&losing.desk).then_some(()));
-    losing.desk.key(KEY_RETURN);
-    wait("the sample", || (!losing.desk.named().contains("lost")).then_some(()));
+    losing.go_on();
     losing.desk.picture();
     losing.desk.close();
     let output = losing.desk.end();
