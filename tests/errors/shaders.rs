@@ -102,6 +102,22 @@ fn includes_that_double_level_by_level_come_to_an_end() {
     shaders_refused(folder.path(), &["with its includes it has more than 4194304 bytes"]);
 }
 
+#[test]
+fn what_takes_more_memory_than_a_device_has_is_refused() {
+    let sky = "02_basic/sky.rmiss";
+    let main = "void main() {\n";
+    let buffer = "layout(binding = 1, scalar) readonly buffer Large { float large[1 << 29]; };";
+    for (before, inside, words) in [
+        ("float large[2147483647];", "large[SHOW] = 1.0;", "its variables take 858993"),
+        ("", "vec4 large[1 << 17]; large[SHOW].x = 1.0;", "its variables take 2097"),
+        (buffer, "payload.x = large[SHOW];", "a type takes 2147483648 bytes"),
+    ] {
+        let edited = format!("{before}\n{main}{inside}\n");
+        let folder = folder(sky, |text| text.replacen(main, &edited, 1));
+        shaders_refused(folder.path(), &[&format!("{sky}: {words}")]);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_compiler_that_crashes_takes_its_own_process_alone() {

@@ -1,5 +1,9 @@
 //! What a compiled shader says of its structures and descriptors, and whether Rust says the same.
 
+mod memory;
+
+use std::collections::BTreeSet;
+
 use anyhow::{Context, Result, bail, ensure};
 use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
@@ -94,8 +98,9 @@ impl Reflection {
                 ] if i.class.opcode == Op::TypePointer => Some(pointee),
                 _ => None,
             });
+        let mut seen = BTreeSet::new();
         for pointee in pointees {
-            for name in self.structs_within(pointee) {
+            for name in self.structs_within(pointee, &mut seen) {
                 ensure!(
                     known.iter().any(|layout| layout.name == name),
                     "{path}: the shader reads a {name} through an address, and Rust says nothing of it; \
@@ -107,9 +112,12 @@ impl Reflection {
         Ok(())
     }
 
-    /// The names of the structures that a type is made of. A block that is nothing but a row of elements
-    /// has no counterpart in Rust.
-    fn structs_within(&self, id: u32) -> Vec<String> {
+    /// The names of the structures that a type is made of, without those that were seen before. A block that
+    /// is nothing but a row of elements has no counterpart in Rust.
+    fn structs_within(&self, id: u32, seen: &mut BTreeSet<u32>) -> Vec<String> {
+        if !seen.insert(id) {
+            return Vec::new();
+        }
         let types = &self.module.types_global_values;
         let Some(of) = types.iter().find(|i| i.result_id == Some(id)) else { return Vec::new() };
         let members = of.operands.iter().filter_map(|operand| match operand {
@@ -118,7 +126,7 @@ impl Reflection {
         });
         match of.class.opcode {
             Op::TypeArray | Op::TypeRuntimeArray => {
-                members.take(1).flat_map(|element| self.structs_within(element)).collect()
+                members.take(1).flat_map(|element| self.structs_within(element, seen)).collect()
             }
             Op::TypeStruct => {
                 let is_row = |member: &u32| {
@@ -129,7 +137,7 @@ impl Reflection {
                 let own = (!matches!(&members[..], [only] if is_row(only)))
                     .then(|| self.debug_name(id, None));
                 own.into_iter()
-                    .chain(members.into_iter().flat_map(|member| self.structs_within(member)))
+                    .chain(members.into_iter().flat_map(|member| self.structs_within(member, seen)))
                     .collect()
             }
             _ => Vec::new(),

@@ -304,6 +304,7 @@ impl<'a> PipelineBuilder<'a> {
         gpu.shared_structs().into_iter().for_each(|layout| _ = known.add_struct(layout));
         for shader in &shaders {
             let reflection = Reflection::of(&shader.spirv)?;
+            reflection.check_memory(&shader.path)?;
             reflection.check(&shader.path, &known.structs)?;
             reflection.check_addresses(&shader.path, &known.structs)?;
             reflection.check_bindings(

@@ -1,0 +1,100 @@
+//! How much memory a shader's variables take: for what no device has, drivers have no answer but a crash.
+
+use std::collections::HashMap;
+
+use anyhow::{Result, ensure};
+use rspirv::dr::{Instruction, Operand};
+use rspirv::spirv::{Op, StorageClass};
+
+use super::Reflection;
+
+/// Bytes of all variables of a shader at most: more than any device keeps for one invocation.
+const VARIABLES: u64 = 1 << 20;
+/// Bytes of a type at most, in a buffer too: drivers count them in 32 bits, some with a sign.
+const TYPE: u64 = 1 << 30;
+
+impl Reflection {
+    /// Holds what the variables of the module take, those in buffers aside, against what devices have.
+    ///
+    /// # Errors
+    /// If it is more, with the bytes.
+    pub fn check_memory(&self, path: &str) -> Result<()> {
+        let sizes = self.sizes();
+        let pointees = self.module.types_global_values.iter().filter_map(|i| {
+            match (i.class.opcode, &i.operands[..]) {
+                (Op::TypePointer, [_, Operand::IdRef(pointee)]) => Some((i.result_id?, *pointee)),
+                _ => None,
+            }
+        });
+        let pointees: HashMap<u32, u32> = pointees.collect();
+        let blocks = self.module.functions.iter().flat_map(|function| &function.blocks);
+        let local = blocks.flat_map(|block| &block.instructions);
+        let variables = self.module.types_global_values.iter().chain(local);
+        let bytes = variables
+            .filter(|i| i.class.opcode == Op::Variable && is_own(i))
+            .filter_map(|i| sizes.get(pointees.get(&i.result_type?)?))
+            .fold(0, |sum: u64, size| sum.saturating_add(*size));
+        ensure!(
+            bytes <= VARIABLES,
+            "{path}: its variables take {bytes} bytes; at most {VARIABLES} are accepted"
+        );
+        let largest = sizes.values().copied().max().unwrap_or_default();
+        ensure!(
+            largest <= TYPE,
+            "{path}: a type takes {largest} bytes; at most {TYPE} are accepted"
+        );
+        Ok(())
+    }
+
+    /// The bytes of each type; an array without a length has no elements.
+    fn sizes(&self) -> HashMap<u32, u64> {
+        let mut sizes: HashMap<u32, u64> = HashMap::new();
+        let mut lengths: HashMap<u32, u64> = HashMap::new();
+        // What a type is made of stands before it.
+        for i in &self.module.types_global_values {
+            let Some(id) = i.result_id else { continue };
+            let of = |operand: &Operand| match operand {
+                Operand::IdRef(id) => sizes.get(id).copied().unwrap_or_default(),
+                _ => 0,
+            };
+            let size = match (i.class.opcode, &i.operands[..]) {
+                (Op::Constant | Op::SpecConstant, [Operand::LiteralBit32(value)]) => {
+                    lengths.insert(id, u64::from(*value));
+                    continue;
+                }
+                (Op::TypeBool, _) => 4,
+                (Op::TypeInt | Op::TypeFloat, [Operand::LiteralBit32(bits), ..]) => {
+                    u64::from(bits / 8)
+                }
+                (Op::TypeVector | Op::TypeMatrix, [part, Operand::LiteralBit32(count)]) => {
+                    of(part).saturating_mul(u64::from(*count))
+                }
+                (Op::TypeArray, [element, Operand::IdRef(length)]) => {
+                    let length = lengths.get(length).copied().unwrap_or_default();
+                    of(element).saturating_mul(length)
+                }
+                (Op::TypeStruct, members) => members.iter().map(of).fold(0, u64::saturating_add),
+                (Op::TypePointer, _) => 8,
+                _ => continue,
+            };
+            sizes.insert(id, size);
+        }
+        sizes
+    }
+}
+
+/// Whether a variable is each invocation's own, or its workgroup's, and not in a buffer or a descriptor.
+fn is_own(variable: &Instruction) -> bool {
+    let elsewhere = [
+        StorageClass::Uniform,
+        StorageClass::UniformConstant,
+        StorageClass::StorageBuffer,
+        StorageClass::PhysicalStorageBuffer,
+        StorageClass::ShaderRecordBufferKHR,
+        StorageClass::PushConstant,
+    ];
+    match variable.operands.first() {
+        Some(Operand::StorageClass(class)) => !elsewhere.contains(class),
+        _ => false,
+    }
+}
