@@ -38,6 +38,8 @@ const FILE_BYTES: u64 = 5 << 30;
 const PIXELS: u64 = 1 << 26;
 /// Bits of a sum that stand for its fraction; the same number is in `sum.glsl`.
 const FRACTION: i32 = 64;
+/// Bits of a colour's whole part: what is not below 2^31 is added as black.
+const COLOR: i32 = 31;
 
 /// Samples that had a colour that is no number to add, and were added as black.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -116,7 +118,15 @@ impl Header {
             (1..=PIXELS).contains(&pixels),
             "{name}: {width}x{height} is too large or nothing: at most {PIXELS} pixels are read"
         );
-        ensure!(header.samples.count() > 0, damaged(name, "it has no samples"));
+        let samples = header.samples.count();
+        ensure!(samples > 0, damaged(name, "it has no samples"));
+        let Spoiled { count, first } = header.spoiled;
+        let counts = count <= samples.saturating_mul(pixels) && (count > 0) == first.is_some();
+        let is_inside = first.is_none_or(|first| u64::from(first) < pixels);
+        ensure!(
+            counts && is_inside,
+            damaged(name, "it tells of spoiled samples that it cannot have")
+        );
         Ok(header)
     }
 }
@@ -172,6 +182,10 @@ impl Sums {
         }
         let more = sums.read(&mut some[..1]).unwrap_or(1);
         ensure!(more == 0, damaged(name, "it has too many sums"));
+        // So bounded, no union of files overflows.
+        let most = u128::from(header.samples.count()) << (FRACTION + COLOR);
+        let fits = values.iter().all(|value| value.unsigned_abs() <= most);
+        ensure!(fits, damaged(name, "a sum is larger than its samples can be"));
         Ok(Self { header, values })
     }
 

@@ -93,6 +93,15 @@ fn a_file_that_promises_too_much_is_refused_before_memory_is_taken() {
     assert_eq!(line, "a.sums: is damaged: it has no samples");
     let line = refused(&forged(&header([1, 1], "\"samples\":[[4,2]]"), &[0; 64]));
     assert!(line.contains("4..2 is no range of samples"), "{line}");
+    for spoiled in ["3,\"first\":1", "0,\"first\":0", "9,\"first\":0"] {
+        let header = header([1, 1], some).replace("0,\"first\":null", spoiled);
+        let line = refused(&forged(&header, &[0; 64]));
+        assert!(line.ends_with("it tells of spoiled samples that it cannot have"), "{line}");
+    }
+    for (sum, fits) in [(4i128 << 95, true), ((4 << 95) + 1, false), (i128::MIN, false)] {
+        let bytes = forged(&header([1, 1], some), &[sum.to_le_bytes(); 4].concat());
+        assert_eq!(Sums::parse(&bytes, "a.sums").is_ok(), fits, "{sum}");
+    }
     let mut long = MAGIC.to_vec();
     long.extend([1, 0, 255, 255, 255, 255]);
     assert_eq!(refused(&long), "a.sums: is damaged: its header is too long");
@@ -172,7 +181,9 @@ fn files_merge_in_any_order_and_no_sample_twice() {
     let mut huge = some(4..6);
     huge.values[0] = i128::MAX;
     let line = merge(&[&a, &file("huge", &huge)]).unwrap_err().to_string();
-    assert!(line.ends_with("huge: sums too large to be those of colours"), "{line}");
+    assert!(line.ends_with("huge: is damaged: a sum is larger than its samples can be"), "{line}");
+    let line = huge.add(&some(0..4)).unwrap_err();
+    assert_eq!(line, "sums too large to be those of colours");
 }
 
 #[test]
