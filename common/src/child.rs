@@ -12,11 +12,42 @@ pub struct Crashed(pub ExitStatus);
 
 impl Display for Crashed {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the compiler crashed ({})", self.0)
+        match is_late(self.0) {
+            true => write!(f, "the compiler takes more than {SECONDS} s"),
+            false => write!(f, "the compiler crashed ({})", self.0),
+        }
     }
 }
 
 impl std::error::Error for Crashed {}
+
+/// How long a child may take on the clock: far longer than what is asked of one.
+const SECONDS: u32 = 600;
+
+/// What a child does first: from now on it ends with its parent, and once its time is over.
+pub fn bind() {
+    // SAFETY: the call has no preconditions, and nothing else here sets the clock.
+    #[cfg(unix)]
+    unsafe {
+        libc::alarm(SECONDS);
+    }
+    // SAFETY: it takes a signal's number.
+    #[cfg(target_os = "linux")]
+    unsafe {
+        libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL);
+    }
+}
+
+#[cfg(unix)]
+fn is_late(status: ExitStatus) -> bool {
+    use std::os::unix::process::ExitStatusExt;
+    status.signal() == Some(libc::SIGALRM)
+}
+
+#[cfg(not(unix))]
+fn is_late(_: ExitStatus) -> bool {
+    false
+}
 
 /// This program, to be asked with [`ask`].
 ///
@@ -49,5 +80,17 @@ pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     match said.lines().find_map(|line| line.strip_prefix("error: ")) {
         Some(error) => bail!("{error}"),
         None => bail!(Crashed(output.status)),
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_child_whose_time_is_over_is_told_of() {
+        let mut late = Command::new("sh");
+        let error = ask(late.args(["-c", "kill -ALRM $$"]), b"").unwrap_err();
+        assert_eq!(error.to_string(), format!("the compiler takes more than {SECONDS} s"));
     }
 }

@@ -129,6 +129,7 @@ pub fn programs(family: Family, blueprints: &[&Blueprint]) -> Result<Vec<Vec<Com
 /// # Errors
 /// If there is no null device, or it refuses.
 pub fn answer(requirements: &Requirements) -> Result<()> {
+    child::bind();
     let blueprints: Vec<Blueprint> = serde_json::from_reader(std::io::stdin().lock())
         .context("no pipelines on standard input")?;
     let answer = null::compile(requirements, &blueprints)?;

@@ -68,6 +68,7 @@ pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec
 /// # Errors
 /// If it does not compile.
 pub fn answer() -> Result<()> {
+    child::bind();
     #[cfg(unix)]
     bound();
     let question: Question =
@@ -91,12 +92,6 @@ fn bound() {
         libc::setrlimit(libc::RLIMIT_CPU, &cpu);
         libc::setrlimit(libc::RLIMIT_AS, &memory);
         libc::setrlimit(libc::RLIMIT_CORE, &core);
-    }
-    // Nobody waits for the answer any more if the parent has ended.
-    #[cfg(target_os = "linux")]
-    // SAFETY: it takes a signal's number.
-    unsafe {
-        libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL);
     }
 }
 
