@@ -1,15 +1,19 @@
 //! Files that are written whole or not at all.
 
+pub mod folder;
+
 use std::collections::BTreeSet;
 use std::collections::hash_map::DefaultHasher;
 use std::fs::{self, Metadata};
 use std::hash::{Hash, Hasher};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context, Result, anyhow, ensure};
 use tempfile::NamedTempFile;
+
+pub use self::folder::Folder;
 
 /// Writes `bytes` to `path`: into a temporary file beside it, then renamed.
 ///
@@ -18,19 +22,43 @@ use tempfile::NamedTempFile;
 /// # Errors
 /// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let failed = || format!("cannot write '{}'", path.display());
-    let mut unfinished = Unfinished::begin(path).with_context(failed)?;
-    unfinished.write(bytes).and_then(|()| unfinished.finish()).with_context(failed)
+    write_all(&[(path, bytes)])
 }
 
-/// The temporary files that are being written.
+/// Writes several files, all or none of them, as [`write_whole`] does each.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_all(files: &[(&Path, &[u8])]) -> Result<()> {
+    let failed = |path: &Path| format!("cannot write '{}'", path.display());
+    let mut all = Vec::new();
+    for &(path, bytes) in files {
+        let mut unfinished = Unfinished::begin(path).with_context(|| failed(path))?;
+        unfinished.write(bytes).with_context(|| failed(path))?;
+        all.push(unfinished);
+    }
+    // A signal comes before the first is in its place, or after the last.
+    let _alone = unfinished();
+    for (unfinished, (path, _)) in all.iter_mut().zip(files) {
+        unfinished.finish().with_context(|| failed(path))?;
+    }
+    Ok(())
+}
+
+/// The temporary files that are being written, and the folders that are being made.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Removes what is being written: the process is about to end. Who would write on waits for that.
 pub fn abandon() {
-    let files = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-    files.iter().for_each(|file| drop(fs::remove_file(file)));
-    std::mem::forget(files);
+    let paths = unfinished();
+    for path in &*paths {
+        let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    }
+    std::mem::forget(paths);
 }
 
 /// The most bytes that a cache's file has: a larger one is not ours.
@@ -100,7 +128,7 @@ impl Unfinished {
         let failed = |error: std::io::Error| {
             anyhow!("no file can be made in '{}': {}", folder.display(), error.kind())
         };
-        let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut unfinished = unfinished();
         let file = builder.tempfile_in(folder).map_err(failed)?;
         if let Some(metadata) = existing {
             // Where a file system knows no permissions, there are none to keep.
@@ -117,8 +145,8 @@ impl Unfinished {
         file.write_all(bytes).map_err(|error| anyhow!("{}", error.kind()))
     }
 
-    fn finish(mut self) -> Result<()> {
-        let _alone = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Puts it in its place.
+    fn finish(&mut self) -> Result<()> {
         let file = self.file.take().context("it was written before")?;
         file.persist(&self.target).map_err(|error| anyhow!("{}", error.error.kind()))?;
         Ok(())
@@ -127,7 +155,7 @@ impl Unfinished {
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut unfinished = unfinished();
         // Removes it, unless it has become the file itself.
         drop(self.file.take());
         unfinished.remove(&self.temporary);
@@ -210,6 +238,20 @@ mod tests {
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
+    }
+
+    #[test]
+    fn several_files_are_written_all_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let [old, new, gone] = ["old", "new", "gone/file"].map(|name| folder.path().join(name));
+        fs::write(&old, "as it was").unwrap();
+        let error = write_all(&[(&old, b"1"), (&new, b"2"), (&gone, b"3")]).unwrap_err();
+        assert!(format!("{error:#}").contains("gone/file': there is no folder"), "{error:#}");
+        assert_eq!(fs::read_to_string(&old).unwrap(), "as it was");
+        assert_eq!(folder.path().read_dir().unwrap().count(), 1);
+        write_all(&[(&old, b"1"), (&new, b"2")]).unwrap();
+        assert_eq!([&old, &new].map(|file| fs::read_to_string(file).unwrap()), ["1", "2"]);
+        assert_eq!(folder.path().read_dir().unwrap().count(), 2);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use common::files::folder;
 
 use crate::project::Project;
 
@@ -46,7 +47,7 @@ pub fn copy_code(project: &Project, folder: &Path, changed: &Changed) -> Result<
 /// copy has too many is removed.
 fn copy(
     project: &Project,
-    folder: &Path,
+    above: &Path,
     changed: &Changed,
     (folders, beside): (&[&str], &[&str]),
     without: &str,
@@ -56,9 +57,9 @@ fn copy(
     let found = found.chain(beside.iter().map(|file| (*file).to_owned()));
     files.extend(found.map(|file| (file, None)));
     files.extend(changed.iter().map(|(file, text)| (file.clone(), Some(text))));
-    let place = |file: &str| folder.join(file.trim_start_matches(without));
+    let place = |file: &str| above.join(file.trim_start_matches(without));
     let kept: BTreeSet<PathBuf> = files.keys().map(|file| place(file)).collect();
-    for old in files_below(folder).iter().filter(|old| !kept.contains(*old)) {
+    for old in files_below(above).iter().filter(|old| !kept.contains(*old)) {
         fs::remove_file(old).with_context(|| format!("cannot remove '{}'", old.display()))?;
     }
     for (file, text) in files {
@@ -70,10 +71,7 @@ fn copy(
         if fs::read(&to).is_ok_and(|there| there == bytes) {
             continue;
         }
-        let parent = to.parent().context("a file lies in a folder")?;
-        fs::create_dir_all(parent)
-            .with_context(|| format!("cannot make '{}'", parent.display()))?;
-        fs::write(&to, bytes).with_context(|| format!("cannot write '{}'", to.display()))?;
+        folder::write(&to, &bytes)?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use tempfile::TempDir;
+use common::files::Folder;
 
 use crate::child;
 use crate::patch::Patch;
@@ -39,7 +39,7 @@ pub enum Edition {
 pub struct Patched {
     /// The edition.
     pub edition: Edition,
-    _shaders: Option<TempDir>,
+    _shaders: Option<Folder>,
     _lock: Option<File>,
 }
 
@@ -51,7 +51,7 @@ impl Patched {
     /// If the patch does not fit, or the copy cannot be written.
     pub fn of(project: &Project, patch: &Patch) -> Result<Self> {
         if patch.is_in_shaders() {
-            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+            let folder = Folder::temporary()?;
             patch.copy_to(project, folder.path())?;
             let edition = Edition::Shaders(folder.path().to_owned());
             return Ok(Self { edition, _shaders: Some(folder), _lock: None });

@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use common::files::Folder;
 use serde_json::{Map, Value, json};
 
 use crate::command;
@@ -25,7 +26,7 @@ pub type Given = BTreeMap<String, Stored>;
 /// # Errors
 /// If it is neither, cannot be run, or fails; in one line.
 pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Given> {
-    let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+    let folder = Folder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
     // What stands before is the environment, `NAME=value`.
     let start = words.iter().take_while(|word| word.contains('=')).count();

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Result;
+use common::files::Folder;
 use common::usage::Usage;
 
 use crate::copy::file_on_the_way;
@@ -196,7 +197,10 @@ impl Mistake {
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
             return Err(refused(folder, "is not empty").into());
         }
-        self.patch.copy_to(project, folder)
+        let whole = Folder::at(folder)?;
+        self.patch.copy_to(project, whole.path())?;
+        whole.keep();
+        Ok(())
     }
 
     /// The command that runs a patched copy, for a reader.

@@ -1,13 +1,16 @@
 //! A new chapter: a copy of its parent that compiles, runs and is tested, ready to be changed.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use anyhow::Result;
-use common::files::write_whole;
+use common::files::{Folder, folder, write_all};
 use common::usage::Usage;
 
 use crate::project::{Chapter, Project};
 use crate::shader;
+
+/// Letters of a name at most: it heads columns and names files.
+const NAME_LETTERS: usize = 40;
 
 /// A chapter that is to be made.
 pub struct New<'a> {
@@ -29,6 +32,9 @@ impl<'a> New<'a> {
     ) -> Result<Self, Usage> {
         let refuse = |what: String| Err(Usage(what));
         let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        if name.len() > NAME_LETTERS {
+            return refuse(format!("a chapter's name has at most {NAME_LETTERS} letters"));
+        }
         if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(letter) {
             return refuse(format!("'{name}' is no chapter's name: use a to z, 0 to 9 and _"));
         }
@@ -66,7 +72,7 @@ impl<'a> New<'a> {
         Ok(Self { project, from, chapter })
     }
 
-    /// Writes the chapter's files and entries; returns their paths.
+    /// Writes the chapter's files and entries, all or none; returns their paths.
     ///
     /// # Errors
     /// If a file cannot be read or written.
@@ -79,11 +85,18 @@ impl<'a> New<'a> {
         files.push(("tests/samples/main.rs".to_owned(), self.modules()?));
         files.push((self.chapter.page(), self.page()));
         files.push((format!("docs/exercises/{}.1.diff", self.chapter.number()), self.exercise()));
-        for (path, text) in &files {
-            let place = self.project.root.join(path);
-            std::fs::create_dir_all(place.parent().unwrap_or(Path::new(".")))?;
-            write_whole(&place, text.as_bytes())?;
+        let root = &self.project.root;
+        let own = ["samples", "shaders"].map(|folder| format!("{folder}/{}/", self.chapter.name));
+        let is_new = |own: &&String| files.iter().any(|(path, _)| path.starts_with(own.as_str()));
+        let folders = own.iter().filter(is_new).map(|own| Folder::at(&root.join(own)));
+        let folders = folders.collect::<Result<Vec<_>>>()?;
+        let places: Vec<PathBuf> = files.iter().map(|(path, _)| root.join(path)).collect();
+        for place in &places {
+            folder::make(place.parent().unwrap_or(root))?;
         }
+        let texts = files.iter().map(|(_, text)| text.as_bytes());
+        write_all(&places.iter().map(PathBuf::as_path).zip(texts).collect::<Vec<_>>())?;
+        folders.into_iter().for_each(Folder::keep);
         Ok(files.into_iter().map(|(path, _)| path).collect())
     }
 

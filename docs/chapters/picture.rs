@@ -9,6 +9,7 @@ use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
+use common::files::Folder;
 use image::RgbImage;
 use panels::{Panel, sheet};
 
@@ -104,7 +105,7 @@ impl Picture {
         sources: &mut Sources,
     ) -> Result<String> {
         let failed = || format!("{}:{}: {} is not made", self.page, self.line, self.file());
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+        let folder = Folder::temporary()?;
         let mut files = Vec::new();
         let mut device = String::new();
         for (index, shot) in self.shots.iter().enumerate() {

@@ -4,8 +4,9 @@ use std::fs;
 use std::process::{Command, ExitStatus};
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use common::app::Picture;
+use common::files::Folder;
 use serde_json::Value;
 
 use crate::child;
@@ -31,7 +32,7 @@ impl Seen {
     /// # Errors
     /// If it does not start.
     pub fn of(mut command: Command, arguments: &[String], limit: Duration) -> Result<Self> {
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+        let folder = Folder::temporary()?;
         let (out, report) = (folder.path().join("out.exr"), folder.path().join("report.json"));
         command.args(["--headless", "--validate"]).args(arguments);
         command.arg("--out").arg(&out).arg("--report").arg(&report);

@@ -9,6 +9,7 @@ use std::process::Command;
 use std::time::{Duration, Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
+use common::files::Folder;
 use common::gpu::Limits;
 use common::usage::Usage;
 use serde_json::Value;
@@ -70,7 +71,7 @@ impl Survey<'_> {
         common::files::check_writable(&out.join("card.md"))?;
         self.build()?;
         self.check_device()?;
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+        let folder = Folder::temporary()?;
         let laboratory = laboratory::runs(self.project, folder.path());
         let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
         let limit = self.limit.as_secs();

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use common::app::output::print;
+use common::files::Folder;
 use common::usage::Usage;
 use image::RgbImage;
 use panels::{Panel, sheet};
@@ -78,7 +79,7 @@ impl<'a> Trial<'a> {
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
         let hash = self.mistake.sources(self.project, sources);
-        let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+        let folder = Folder::temporary()?;
         let plain = folder.path().join("sheet.png");
         sheet.save(&plain)?;
         let bytes = picture::stamped(&plain, &self.mistake.command(), &hash, &device)?;

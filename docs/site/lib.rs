@@ -75,7 +75,8 @@ const LOST: &str = include_str!("404.html");
 pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let project = Project::open(root)?;
     let entries = contents::read(&project)?;
-    let work = tempfile::tempdir().context("cannot make a temporary folder")?;
+    let beside = made.parent().context("a folder lies in a folder")?;
+    let work = tempfile::tempdir_in(beside).context("cannot make a temporary folder")?;
     let source = work.path().join("src");
     fs::create_dir(&source)?;
 

@@ -21,6 +21,12 @@ struct Arguments {
 fn main() -> ExitCode {
     let Arguments { out, root } = Arguments::parse();
     let out = out.unwrap_or_else(|| root.join("book"));
+    // Where a signal is ignored, as `nohup` has it, all stays as it is.
+    let _ = ctrlc::try_set_handler(|| {
+        site::output::abandon();
+        eprintln!("error: stopped by a signal");
+        std::process::exit(1)
+    });
     match site::output::replace(&out, |made| site::build(&root, made)) {
         Ok(site::Counts { pages, code, pictures, formulas, sliders }) => {
             println!(

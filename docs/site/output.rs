@@ -2,11 +2,22 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
 
 /// The file by which a site is known.
 const MARK: &str = ".made-by-cargo-chapters-book";
+
+/// The folder in which a site is being made.
+static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// Removes what is half made: the process is about to end. Who would go on with it waits for that.
+pub fn abandon() {
+    let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    let _ = unfinished.as_ref().map(fs::remove_dir_all);
+    std::mem::forget(unfinished);
+}
 
 /// Makes a site by `build`, which writes it into a folder that does not exist yet, and puts it at `out`.
 ///
@@ -21,8 +32,12 @@ pub fn replace<T>(out: &Path, build: impl FnOnce(&Path) -> Result<T>) -> Result<
     // On the same disk, so that what is done can be renamed.
     let work =
         tempfile::Builder::new().prefix(".book-").tempdir_in(&beside).with_context(cannot)?;
+    let unfinished = || UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    *unfinished() = Some(work.path().to_owned());
     let (made, old) = (work.path().join("made"), work.path().join("old"));
     let built = build(&made)?;
+    // A signal comes before the old one makes room, or after the new one is there.
+    let _alone = unfinished();
     fs::write(made.join(MARK), "").with_context(cannot)?;
     if out.exists() {
         fs::rename(&out, &old).with_context(cannot)?;

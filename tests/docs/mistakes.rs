@@ -1,6 +1,12 @@
 //! Classic mistakes: each patch fits, and does to the picture what its file claims.
 
+#[cfg(unix)]
+use std::path::Path;
 use std::process::Command;
+#[cfg(unix)]
+use std::process::Stdio;
+#[cfg(unix)]
+use std::time::Duration;
 
 use crate::fixture::{Fixture, run};
 
@@ -98,6 +104,39 @@ fn a_copy_is_made_once_and_says_how_to_run_it() {
         let line = format!("error: '{path}' {what}; name another folder with --out\n");
         assert_eq!((code, err), (2, line));
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_copy_that_a_signal_stops_is_not_left_half_made() {
+    let name = &in_rust()[0];
+    let work = tempfile::tempdir().expect("a temporary folder");
+    let whole = work.path().join("whole");
+    let (code, _, err) = tool(&[name, "--out", whole.to_str().expect("a path of letters")]);
+    assert_eq!(code, 0, "{err}");
+    let mut stopped = 0;
+    for round in 0..10 {
+        let out = work.path().join(round.to_string());
+        let mut command = ::run::heeding("chapters");
+        command.args(["mistake", name, "--out"]).arg(&out).stdout(Stdio::null());
+        let mut child = command.spawn().expect("it starts");
+        while !out.exists() && child.try_wait().expect("a child").is_none() {}
+        std::thread::sleep(Duration::from_millis(2 * round));
+        let kill = Command::new("kill").arg(child.id().to_string()).status();
+        kill.expect("kill");
+        let status = child.wait().expect("it ends");
+        stopped += u32::from(!status.success());
+        let is_whole = out.exists() && files(&out) == files(&whole);
+        assert!(is_whole || !(out.exists() || status.success()), "{status}: round {round}");
+    }
+    assert!(stopped > 0, "no signal came in time");
+}
+
+/// How many files lie below a folder.
+#[cfg(unix)]
+fn files(folder: &Path) -> usize {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.unwrap().path());
+    entries.map(|path| if path.is_dir() { files(&path) } else { 1 }).sum()
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! A chapter made by the tool: whole but for its pictures and what is to be written.
 
+use std::fs;
+
 use crate::fixture::Fixture;
 
 #[test]
@@ -72,6 +74,7 @@ fn a_chapter_that_cannot_be_is_refused_and_nothing_is_written() {
         (["2", "x", "--from", "01"], "has the number or the name of '02_basic'"),
         (["9", "basic", "--from", "01"], "has the number or the name of '02_basic'"),
         (["9", "../x", "--from", "01"], "use a to z, 0 to 9 and _"),
+        (["9", &"x".repeat(41), "--from", "01"], "a chapter's name has at most 40 letters"),
         (["100", "x", "--from", "01"], "use 1 to 99"),
         (["9", "x", "--from", "08"], "no chapter '08'"),
     ] {
@@ -80,4 +83,20 @@ fn a_chapter_that_cannot_be_is_refused_and_nothing_is_written() {
         assert!(outcome.err.contains(words), "{arguments:?}: {}", outcome.err);
     }
     assert_eq!(fixture.check(), "");
+}
+
+#[test]
+fn a_chapter_of_which_a_file_cannot_be_written_is_not_begun() {
+    let fixture = Fixture::new();
+    let page = fixture.path("docs/07_soft_light.md");
+    fs::create_dir(&page).unwrap();
+    let outcome = fixture.run(&["new", "7", "soft_light", "--from", "02"]);
+    assert_eq!(outcome.code, 1, "{}", outcome.out);
+    assert!(outcome.err.contains("07_soft_light.md': it is a folder"), "{}", outcome.err);
+    fs::remove_dir(&page).unwrap();
+    assert_eq!(fixture.check(), "");
+    for folder in ["samples", "shaders"] {
+        assert!(!fixture.path(folder).join("07_soft_light").exists(), "{folder}");
+    }
+    assert_eq!(fixture.run(&["new", "7", "soft_light", "--from", "02"]).code, 0);
 }

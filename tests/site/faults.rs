@@ -2,6 +2,10 @@
 
 use std::fs;
 use std::path::Path;
+#[cfg(unix)]
+use std::process::{Command, Stdio};
+#[cfg(unix)]
+use std::time::Duration;
 
 use tempfile::TempDir;
 
@@ -30,6 +34,12 @@ fn book(page: &str) -> TempDir {
     folder
 }
 
+/// The names of what lies in a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name());
+    files.map(|name| name.to_string_lossy().into_owned()).collect()
+}
+
 fn built(folder: &Path) -> Result<String, String> {
     let out = folder.join("book");
     let result = site::output::replace(&out, |made| site::build(folder, made));
@@ -37,8 +47,7 @@ fn built(folder: &Path) -> Result<String, String> {
         Ok(_) => Ok(fs::read_to_string(out.join("one.html")).unwrap()),
         Err(error) => {
             assert!(!out.exists(), "half a site is left");
-            let left = fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name());
-            assert_eq!(left.filter(|name| name.to_string_lossy().starts_with(".book")).count(), 0);
+            assert!(!names(folder).iter().any(|name| name.starts_with(".book")));
             Err(format!("{error:#}"))
         }
     }
@@ -100,4 +109,33 @@ fn every_fault_is_named_with_its_line() {
 fn all_faults_are_named_at_once() {
     let error = built(book("# One\n\n$\\a$ [a](b.md)\n\n![A](c.png)\n").path()).unwrap_err();
     assert_eq!(error.lines().count(), 3, "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_a_site_or_none() {
+    let text = "A sentence of which there are many.\n\n".repeat(2000);
+    let folder = book(&format!("# One\n\n{text}"));
+    let (mut stopped, mut made) = (0, 0);
+    for round in 0..8 {
+        let out = folder.path().join(format!("site{round}"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_site"));
+        command.arg("--root").arg(folder.path()).arg("--out").arg(&out);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        let begun = || names(folder.path()).iter().any(|name| name.starts_with(".book"));
+        while !begun() && child.try_wait().unwrap().is_none() {}
+        std::thread::sleep(Duration::from_millis(30 * round));
+        Command::new("kill").arg(child.id().to_string()).status().unwrap();
+        let status = child.wait().unwrap();
+        match status.success() {
+            true => made += 1,
+            false => stopped += 1,
+        }
+        // Its mark is the last file of a site.
+        let is_whole = out.join(".made-by-cargo-chapters-book").exists();
+        assert!(is_whole || !(out.exists() || status.success()), "{status}");
+        assert!(!begun(), "{status}: {:?}", names(folder.path()));
+    }
+    assert!(stopped > 0, "{made} were made before a signal came");
 }

@@ -1,0 +1,105 @@
+//! Folders that are made whole or not at all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use super::unfinished;
+
+/// Makes a folder, and those above it, unless the process is about to end.
+///
+/// # Errors
+/// If it cannot be made.
+pub fn make(path: &Path) -> Result<()> {
+    let _alone = unfinished();
+    fs::create_dir_all(path).with_context(|| format!("cannot make '{}'", path.display()))
+}
+
+/// Writes a file of a [`Folder`], and makes the folders above it, unless the process is about to end.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    let _alone = unfinished();
+    let failed = || format!("cannot write '{}'", path.display());
+    let above = path.parent().context("it has no folder").with_context(failed)?;
+    fs::create_dir_all(above).with_context(failed)?;
+    fs::write(path, bytes).with_context(failed)
+}
+
+/// A folder that is being made. It is removed at the end of its owner, and where a signal ends the process,
+/// unless it is kept.
+pub struct Folder {
+    path: PathBuf,
+    is_kept: bool,
+}
+
+impl Folder {
+    /// A folder with this path, which is made if it is not there.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn at(path: &Path) -> Result<Self> {
+        let failed = || format!("cannot make '{}'", path.display());
+        let mut unfinished = unfinished();
+        fs::create_dir_all(path).with_context(failed)?;
+        let path = path.canonicalize().with_context(failed)?;
+        unfinished.insert(path.clone());
+        Ok(Self { path, is_kept: false })
+    }
+
+    /// A new folder in that of all temporary files.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn temporary() -> Result<Self> {
+        let mut unfinished = unfinished();
+        let path = tempfile::tempdir().context("cannot make a temporary folder")?.keep();
+        unfinished.insert(path.clone());
+        Ok(Self { path, is_kept: false })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Leaves it where it is.
+    pub fn keep(mut self) {
+        self.is_kept = true;
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let mut unfinished = unfinished();
+        if !self.is_kept {
+            // Whoever can remove it another time finds nothing in it that matters.
+            let _ = fs::remove_dir_all(&self.path);
+        }
+        unfinished.remove(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_stays_if_it_is_kept() {
+        let work = tempfile::tempdir().unwrap();
+        let path = work.path().join("a/b");
+        let folder = Folder::at(&path).unwrap();
+        fs::write(folder.path().join("file"), "text").unwrap();
+        drop(folder);
+        assert!(!path.exists() && work.path().join("a").is_dir());
+        Folder::at(&path).unwrap().keep();
+        assert!(path.is_dir());
+        let folder = Folder::temporary().unwrap();
+        let path = folder.path().to_owned();
+        assert!(path.is_dir());
+        drop(folder);
+        assert!(!path.exists());
+    }
+}
