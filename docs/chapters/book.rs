@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::Result;
+use common::usage::Usage;
 
 use crate::anchor::anchors;
 use crate::body::body;
@@ -227,7 +228,7 @@ impl<'a> Book<'a> {
         if let Some(name) = names.iter().find(|name| !measurements.iter().any(|m| is_of(m, name))) {
             let there: Vec<&str> = measurements.iter().map(|m| &*m.name).collect();
             let what = format!("nothing measures '{name}'; there is {}", there.join(", "));
-            return Err(common::usage::Usage(what).into());
+            return Err(Usage(what).into());
         }
         let mut wanted = |measurement: &&Measurement| match names[..] {
             [] => {
@@ -309,22 +310,33 @@ impl<'a> Book<'a> {
         files.filter_map(|file| anchors(&file, &text(&file)?).err()).collect()
     }
 
+    /// Fails if no page and no mistake makes one of these pictures.
+    ///
+    /// # Errors
+    /// With its name.
+    pub fn check_pictures(&self, names: &[String]) -> Result<(), Usage> {
+        let pictures = self.pictures().0.into_iter().map(|picture| picture.name);
+        let mistakes = Mistake::all(self.project).0.into_iter().map(|mistake| mistake.name);
+        let there: Vec<String> = pictures.chain(mistakes).collect();
+        match names.iter().find(|name| !there.contains(name)) {
+            Some(name) => {
+                let there = there.join(", ");
+                Err(Usage(format!("no page makes a picture '{name}'; there is {there}")))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Renders the pictures of these names, or with none those that are out of date.
     ///
     /// # Errors
     /// If a name is unknown, or a command fails.
     pub fn render(&self, names: &[String], mut done: impl FnMut(&str, &str)) -> Result<Vec<Fault>> {
+        self.check_pictures(names)?;
         let (pictures, mut faults) = self.pictures();
         let (mistakes, wrong) = Mistake::all(self.project);
         faults.extend(wrong);
         let mut sources = Sources::default();
-        let mut there: Vec<&str> = pictures.iter().map(|picture| &*picture.name).collect();
-        there.extend(mistakes.iter().map(|mistake| &*mistake.name));
-        if let Some(unknown) = names.iter().find(|name| !there.contains(&name.as_str())) {
-            let what =
-                format!("no page makes a picture '{unknown}'; there is {}", there.join(", "));
-            return Err(common::usage::Usage(what).into());
-        }
         for picture in &pictures {
             let wanted = match names {
                 [] => picture.stale(self.project, &mut sources).is_some(),

@@ -332,6 +332,7 @@ fn list(project: &Project, json: bool) -> Result<String> {
 fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
     let programs = Programs::beside_this(&project.root)?;
     let book = Book::open(project, &programs)?;
+    book.check_pictures(pictures.unwrap_or_default())?;
     let (changed, mut faults) = book.sync()?;
     for file in changed {
         print(&format!("{file}: renewed\n"))?;
@@ -373,6 +374,6 @@ fn print(text: &str) -> Result<()> {
     match anstream::stdout().write_all(text.as_bytes()) {
         // A reader that has seen enough, as `head` has.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        result => Ok(result?),
+        result => result.context("cannot write to standard output"),
     }
 }
