@@ -2,7 +2,7 @@
 
 pub mod folder;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
 use std::fs::{self, Metadata};
 use std::hash::{Hash, Hasher};
@@ -22,14 +22,15 @@ pub use self::folder::Folder;
 /// # Errors
 /// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_all(&[(path, bytes)])
+    write_all(&[(path, bytes)], Vec::new())
 }
 
-/// Writes several files, all or none of them, as [`write_whole`] does each.
+/// Writes several files, all or none of them, as [`write_whole`] does each, and keeps the folders that were
+/// made for them.
 ///
 /// # Errors
 /// As [`write_whole`].
-pub fn write_all(files: &[(&Path, &[u8])]) -> Result<()> {
+pub fn write_all(files: &[(&Path, &[u8])], mut folders: Vec<Folder>) -> Result<()> {
     let failed = |path: &Path| format!("cannot write '{}'", path.display());
     let mut all = Vec::new();
     for &(path, bytes) in files {
@@ -38,26 +39,62 @@ pub fn write_all(files: &[(&Path, &[u8])]) -> Result<()> {
         all.push(unfinished);
     }
     // A signal comes before the first is in its place, or after the last.
-    let _alone = unfinished();
-    for (unfinished, (path, _)) in all.iter_mut().zip(files) {
-        unfinished.finish().with_context(|| failed(path))?;
+    let mut unfinished = unfinished();
+    let mut done = Vec::new();
+    for (file, (path, _)) in all.iter_mut().zip(files) {
+        let old = if files.len() > 1 { fs::read(&file.target).ok() } else { None };
+        if let Err(error) = file.finish() {
+            for (target, old) in done {
+                let _ = match old {
+                    Some(bytes) => fs::write(target, bytes),
+                    None => fs::remove_file(target),
+                };
+            }
+            return Err(error).with_context(|| failed(path));
+        }
+        done.push((file.target.clone(), old));
     }
+    folders.iter_mut().for_each(|folder| folder.keep_in(&mut unfinished));
     Ok(())
 }
 
-/// The temporary files that are being written, and the folders that are being made.
-static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// What is unfinished at a path.
+#[derive(Clone, Copy)]
+enum Made {
+    File,
+    Folder,
+    FilesOfFolder,
+}
 
-fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+impl Made {
+    /// Removes it. What cannot be removed stays: nobody is there to be told.
+    fn remove(self, path: &Path) {
+        let _ = match self {
+            Self::File => fs::remove_file(path),
+            Self::Folder => fs::remove_dir_all(path),
+            Self::FilesOfFolder => {
+                let entries = fs::read_dir(path).into_iter().flatten().flatten();
+                entries.map(|entry| entry.path()).for_each(|path| match path.is_dir() {
+                    true => Self::Folder.remove(&path),
+                    false => Self::File.remove(&path),
+                });
+                Ok(())
+            }
+        };
+    }
+}
+
+/// The temporary files that are being written, and the folders that are being made.
+static UNFINISHED: Mutex<BTreeMap<PathBuf, Made>> = Mutex::new(BTreeMap::new());
+
+fn unfinished() -> MutexGuard<'static, BTreeMap<PathBuf, Made>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Removes what is being written: the process is about to end. Who would write on waits for that.
 pub fn abandon() {
     let paths = unfinished();
-    for path in &*paths {
-        let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
-    }
+    paths.iter().for_each(|(path, made)| made.remove(path));
     std::mem::forget(paths);
 }
 
@@ -135,7 +172,7 @@ impl Unfinished {
             let _ = file.as_file().set_permissions(metadata.permissions());
         }
         let temporary = file.path().to_owned();
-        unfinished.insert(temporary.clone());
+        unfinished.insert(temporary.clone(), Made::File);
         Ok(Self { target, file: Some(file), temporary })
     }
 
@@ -245,11 +282,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let [old, new, gone] = ["old", "new", "gone/file"].map(|name| folder.path().join(name));
         fs::write(&old, "as it was").unwrap();
-        let error = write_all(&[(&old, b"1"), (&new, b"2"), (&gone, b"3")]).unwrap_err();
+        let write = |files: &[(&Path, &[u8])]| write_all(files, Vec::new());
+        let error = write(&[(&old, b"1"), (&new, b"2"), (&gone, b"3")]).unwrap_err();
         assert!(format!("{error:#}").contains("gone/file': there is no folder"), "{error:#}");
         assert_eq!(fs::read_to_string(&old).unwrap(), "as it was");
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
-        write_all(&[(&old, b"1"), (&new, b"2")]).unwrap();
+        write(&[(&old, b"1"), (&new, b"2")]).unwrap();
         assert_eq!([&old, &new].map(|file| fs::read_to_string(file).unwrap()), ["1", "2"]);
         assert_eq!(folder.path().read_dir().unwrap().count(), 2);
     }

@@ -95,8 +95,8 @@ impl<'a> New<'a> {
             folder::make(place.parent().unwrap_or(root))?;
         }
         let texts = files.iter().map(|(_, text)| text.as_bytes());
-        write_all(&places.iter().map(PathBuf::as_path).zip(texts).collect::<Vec<_>>())?;
-        folders.into_iter().for_each(Folder::keep);
+        let all: Vec<_> = places.iter().map(PathBuf::as_path).zip(texts).collect();
+        write_all(&all, folders)?;
         Ok(files.into_iter().map(|(path, _)| path).collect())
     }
 

@@ -12,10 +12,12 @@ const MARK: &str = ".made-by-cargo-chapters-book";
 /// The folder in which a site is being made.
 static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
 
-/// Removes what is half made: the process is about to end. Who would go on with it waits for that.
+/// Removes what is half made: the process is about to end.
 pub fn abandon() {
     let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-    let _ = unfinished.as_ref().map(fs::remove_dir_all);
+    // While it is removed, the build may go on and put something new in it.
+    let tries = unfinished.iter().flat_map(|folder| [folder; 100]);
+    let _ = tries.map(fs::remove_dir_all).find(Result::is_ok);
     std::mem::forget(unfinished);
 }
 
@@ -30,10 +32,14 @@ pub fn replace<T>(out: &Path, build: impl FnOnce(&Path) -> Result<T>) -> Result<
     let cannot = || format!("cannot write '{}'", out.display());
     fs::create_dir_all(&beside).with_context(cannot)?;
     // On the same disk, so that what is done can be renamed.
-    let work =
-        tempfile::Builder::new().prefix(".book-").tempdir_in(&beside).with_context(cannot)?;
     let unfinished = || UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-    *unfinished() = Some(work.path().to_owned());
+    let work = {
+        let mut unfinished = unfinished();
+        let mut builder = tempfile::Builder::new();
+        let work = builder.prefix(".book-").tempdir_in(&beside).with_context(cannot)?;
+        *unfinished = Some(work.path().to_owned());
+        work
+    };
     let (made, old) = (work.path().join("made"), work.path().join("old"));
     let built = build(&made)?;
     // A signal comes before the old one makes room, or after the new one is there.

@@ -1,6 +1,14 @@
 //! A chapter made by the tool: whole but for its pictures and what is to be written.
 
+#[cfg(unix)]
+use std::collections::BTreeMap;
 use std::fs;
+#[cfg(unix)]
+use std::path::PathBuf;
+#[cfg(unix)]
+use std::process::{Command, Stdio};
+#[cfg(unix)]
+use std::time::Duration;
 
 use crate::fixture::Fixture;
 
@@ -99,4 +107,45 @@ fn a_chapter_of_which_a_file_cannot_be_written_is_not_begun() {
         assert!(!fixture.path(folder).join("07_soft_light").exists(), "{folder}");
     }
     assert_eq!(fixture.run(&["new", "7", "soft_light", "--from", "02"]).code, 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_chapter_that_a_signal_stops_is_whole_or_not_begun() {
+    let whole = Fixture::new();
+    assert_eq!(whole.run(&["new", "7", "soft_light", "--from", "02"]).code, 0);
+    let none = Fixture::new();
+    let mut counts = [0, 0];
+    for round in 0..30 {
+        let fixture = Fixture::new();
+        let mut command = ::run::heeding("chapters");
+        command.args(["new", "7", "soft_light", "--from", "02", "--root"]).arg(fixture.path(""));
+        let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_micros(500 * round));
+        Command::new("kill").arg(child.id().to_string()).status().unwrap();
+        child.wait().unwrap();
+        let found = files(&fixture);
+        assert!(found == files(&whole) || found == files(&none), "round {round}: {found:?}");
+        counts[usize::from(found == files(&whole))] += 1;
+    }
+    println!("{counts:?}: not begun, whole");
+}
+
+/// The files of a project, and what each holds.
+#[cfg(unix)]
+fn files(fixture: &Fixture) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut open = vec![PathBuf::new()];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(fixture.path("").join(&folder)).unwrap() {
+            let name = folder.join(entry.unwrap().file_name());
+            let path = fixture.path("").join(&name);
+            if path.is_dir() {
+                open.push(name);
+            } else {
+                found.insert(name, fs::read(path).unwrap());
+            }
+        }
+    }
+    found
 }

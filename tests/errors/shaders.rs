@@ -107,10 +107,12 @@ fn what_takes_more_memory_than_a_device_has_is_refused() {
     let sky = "02_basic/sky.rmiss";
     let main = "void main() {\n";
     let buffer = "layout(binding = 1, scalar) readonly buffer Large { float large[1 << 29]; };";
+    let computed = "layout(constant_id = 77) const int L = 1 << 15;\nfloat large[L * L];";
     for (before, inside, words) in [
         ("float large[2147483647];", "large[SHOW] = 1.0;", "its variables take 858993"),
         ("", "vec4 large[1 << 17]; large[SHOW].x = 1.0;", "its variables take 2097"),
         (buffer, "payload.x = large[SHOW];", "a type takes 2147483648 bytes"),
+        (computed, "large[SHOW] = 1.0;", "an array's length is computed from specialization"),
     ] {
         let edited = format!("{before}\n{main}{inside}\n");
         let folder = folder(sky, |text| text.replacen(main, &edited, 1));

@@ -119,7 +119,9 @@ fn a_signal_leaves_a_site_or_none() {
     let (mut stopped, mut made) = (0, 0);
     for round in 0..8 {
         let out = folder.path().join(format!("site{round}"));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_site"));
+        // `nohup`, under which tests may run, has a signal ignored.
+        let mut command = Command::new("env");
+        command.arg("--default-signal=INT,TERM,HUP").arg(env!("CARGO_BIN_EXE_site"));
         command.arg("--root").arg(folder.path()).arg("--out").arg(&out);
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut child = command.spawn().unwrap();

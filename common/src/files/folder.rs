@@ -1,11 +1,12 @@
 //! Folders that are made whole or not at all.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use super::unfinished;
+use super::{Made, unfinished};
 
 /// Makes a folder, and those above it, unless the process is about to end.
 ///
@@ -28,24 +29,26 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     fs::write(path, bytes).with_context(failed)
 }
 
-/// A folder that is being made. It is removed at the end of its owner, and where a signal ends the process,
-/// unless it is kept.
+/// A folder that is being made. Its files are removed at the end of its owner, and where a signal ends the
+/// process, unless it is kept; so is the folder, unless it was there before.
 pub struct Folder {
     path: PathBuf,
     is_kept: bool,
 }
 
 impl Folder {
-    /// A folder with this path, which is made if it is not there.
+    /// An empty folder with this path, which is made if it is not there.
     ///
     /// # Errors
     /// If it cannot be made.
     pub fn at(path: &Path) -> Result<Self> {
         let failed = || format!("cannot make '{}'", path.display());
         let mut unfinished = unfinished();
+        let was_there = path.is_dir();
         fs::create_dir_all(path).with_context(failed)?;
         let path = path.canonicalize().with_context(failed)?;
-        unfinished.insert(path.clone());
+        let made = if was_there { Made::FilesOfFolder } else { Made::Folder };
+        unfinished.insert(path.clone(), made);
         Ok(Self { path, is_kept: false })
     }
 
@@ -56,7 +59,7 @@ impl Folder {
     pub fn temporary() -> Result<Self> {
         let mut unfinished = unfinished();
         let path = tempfile::tempdir().context("cannot make a temporary folder")?.keep();
-        unfinished.insert(path.clone());
+        unfinished.insert(path.clone(), Made::Folder);
         Ok(Self { path, is_kept: false })
     }
 
@@ -69,16 +72,20 @@ impl Folder {
     pub fn keep(mut self) {
         self.is_kept = true;
     }
+
+    /// As [`Folder::keep`], for who holds what is unfinished.
+    pub(super) fn keep_in(&mut self, unfinished: &mut BTreeMap<PathBuf, Made>) {
+        unfinished.remove(&self.path);
+        self.is_kept = true;
+    }
 }
 
 impl Drop for Folder {
     fn drop(&mut self) {
         let mut unfinished = unfinished();
-        if !self.is_kept {
-            // Whoever can remove it another time finds nothing in it that matters.
-            let _ = fs::remove_dir_all(&self.path);
+        if let Some(made) = unfinished.remove(&self.path).filter(|_| !self.is_kept) {
+            made.remove(&self.path);
         }
-        unfinished.remove(&self.path);
     }
 }
 
@@ -96,6 +103,11 @@ mod tests {
         assert!(!path.exists() && work.path().join("a").is_dir());
         Folder::at(&path).unwrap().keep();
         assert!(path.is_dir());
+        // One that was there stays, empty as it was.
+        let folder = Folder::at(&path).unwrap();
+        write(&folder.path().join("c/file"), b"text").unwrap();
+        drop(folder);
+        assert!(path.is_dir() && path.read_dir().unwrap().next().is_none());
         let folder = Folder::temporary().unwrap();
         let path = folder.path().to_owned();
         assert!(path.is_dir());

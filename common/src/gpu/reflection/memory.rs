@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Op, StorageClass};
 
@@ -19,7 +19,11 @@ impl Reflection {
     /// # Errors
     /// If it is more, with the bytes.
     pub fn check_memory(&self, path: &str) -> Result<()> {
-        let sizes = self.sizes();
+        let Some(sizes) = self.sizes() else {
+            bail!(
+                "{path}: an array's length is computed from specialization constants; name one alone"
+            );
+        };
         let pointees = self.module.types_global_values.iter().filter_map(|i| {
             match (i.class.opcode, &i.operands[..]) {
                 (Op::TypePointer, [_, Operand::IdRef(pointee)]) => Some((i.result_id?, *pointee)),
@@ -46,8 +50,9 @@ impl Reflection {
         Ok(())
     }
 
-    /// The bytes of each type; an array without a length has no elements.
-    fn sizes(&self) -> HashMap<u32, u64> {
+    /// The bytes of each type; `None` if they hang on what only the driver computes. An array at the end of a
+    /// buffer, without a length, has no elements.
+    fn sizes(&self) -> Option<HashMap<u32, u64>> {
         let mut sizes: HashMap<u32, u64> = HashMap::new();
         let mut lengths: HashMap<u32, u64> = HashMap::new();
         // What a type is made of stands before it.
@@ -70,8 +75,7 @@ impl Reflection {
                     of(part).saturating_mul(u64::from(*count))
                 }
                 (Op::TypeArray, [element, Operand::IdRef(length)]) => {
-                    let length = lengths.get(length).copied().unwrap_or_default();
-                    of(element).saturating_mul(length)
+                    of(element).saturating_mul(*lengths.get(length)?)
                 }
                 (Op::TypeStruct, members) => members.iter().map(of).fold(0, u64::saturating_add),
                 (Op::TypePointer, _) => 8,
@@ -79,7 +83,7 @@ impl Reflection {
             };
             sizes.insert(id, size);
         }
-        sizes
+        Some(sizes)
     }
 }
 
