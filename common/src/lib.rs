@@ -12,6 +12,9 @@
 
 // The macro `shader_struct!` names this crate by its outside name, here as in the samples.
 extern crate self as common;
+// The tests below run on the software driver.
+#[cfg(test)]
+use device as _;
 
 pub mod app;
 mod child;

@@ -217,7 +217,7 @@ fn every_module_is_valid_in_the_worst_arithmetic() {
     let stages = files().into_iter().filter(|file| !file.ends_with("glsl"));
     for path in stages.filter(|file| !apart(file)) {
         let shader = compile_with(&path, &[], worst).expect("it compiles");
-        validate(&path, &worst.applied(&path, shader.spirv).expect("it can be rewritten"));
+        validate(&path, &worst.applied(&path, 0, shader.spirv).expect("it can be rewritten"));
     }
 }
 

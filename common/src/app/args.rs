@@ -10,7 +10,7 @@ use clap::builder::NonEmptyStringValueParser;
 use super::compile_for::Family;
 use super::output;
 use super::samples::range;
-use crate::gpu::Arithmetic;
+use crate::gpu::{Arithmetic, named_device};
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
@@ -178,6 +178,7 @@ impl Args {
         let command = More::augment_args(command).about(about);
         let matches = command.try_get_matches().and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
+            args.device = args.device.or_else(|| named_device().map(str::to_owned));
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });

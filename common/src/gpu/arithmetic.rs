@@ -24,11 +24,27 @@ pub enum Arithmetic {
     Driver,
     /// As inexactly as Vulkan allows: the same operation on the same operands gives the same result.
     Worst,
-    /// The same, but the result also depends on the place of the operation in the code.
+    /// The same, but the result also depends on the place of the operation in the code, and on the pipeline
+    /// if there is a [`seed`].
     WorstByPlace,
 }
 
+/// The number that `ARITHMETIC_SEED` gives tests: every pipeline is then another compiler's work, and every
+/// build in another order. Vulkan promises equal results of *identical* pipelines alone (appendix Invariance,
+/// rules 4 and 7).
+pub fn seed() -> Option<u64> {
+    std::env::var("ARITHMETIC_SEED").ok()?.parse().ok()
+}
+
 impl Arithmetic {
+    /// This, or `worst-by-place` where nothing else is asked for and there is a [`seed`].
+    pub(super) fn or_seeded(self) -> Self {
+        match self {
+            Self::Driver if seed().is_some() => Self::WorstByPlace,
+            asked => asked,
+        }
+    }
+
     /// Whether shaders are rewritten.
     pub fn is_worst(self) -> bool {
         self != Self::Driver
@@ -53,17 +69,21 @@ impl Arithmetic {
         ))
     }
 
-    /// The module as the driver gets it; `path` tells one module's places from another's.
+    /// The module as the driver gets it; `path` tells one module's places from another's, and where there is a
+    /// [`seed`], so does the `pipeline` that it is for.
     ///
     /// # Errors
     /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
-    pub fn applied(self, path: &str, words: Vec<u32>) -> Result<Vec<u32>> {
+    pub fn applied(self, path: &str, pipeline: u64, words: Vec<u32>) -> Result<Vec<u32>> {
         let seed = match self {
             Self::Driver => return Ok(words),
             Self::Worst => None,
             Self::WorstByPlace => {
                 let mut hasher = DefaultHasher::new();
                 path.hash(&mut hasher);
+                if let Some(seed) = seed() {
+                    (seed, pipeline).hash(&mut hasher);
+                }
                 Some(hasher.finish() as u32)
             }
         };

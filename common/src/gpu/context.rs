@@ -30,7 +30,7 @@ use super::validation::Messages;
 pub struct GpuOptions<'a> {
     /// Features and extensions, no more than the sample needs.
     pub requirements: Requirements,
-    /// A device's number or a part of its name; `None` takes the best.
+    /// A device's number or a part of its name; `None` takes the one that `GPU` names, else the best.
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
@@ -117,6 +117,7 @@ impl Gpu {
     /// If there is no loader, no suitable device, or no validation layer where one is asked for.
     pub fn new(options: &GpuOptions) -> Result<Self> {
         let mut wanted = options.requirements.clone();
+        let options = &GpuOptions { arithmetic: options.arithmetic.or_seeded(), ..options.clone() };
         if options.arithmetic.is_worst() {
             wanted = wanted.float64();
         }
@@ -128,7 +129,7 @@ impl Gpu {
             if let Some(window) = &options.window {
                 device::require_presentation(&entry, &instance, window, &mut found)?;
             }
-            device::choose(found, options.device)
+            device::choose(found, options.device.or(device::named()))
         });
         let chosen = match chosen {
             Ok(chosen) => chosen,

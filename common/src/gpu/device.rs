@@ -1,6 +1,7 @@
 //! The choice of a physical device: real GPUs first, and for each one refused, what it lacks.
 
 use std::ffi::CStr;
+use std::sync::LazyLock;
 
 use anyhow::{Context, Result, bail, ensure};
 use ash::{Device, Entry, Instance, khr, vk};
@@ -197,6 +198,14 @@ pub fn require_presentation(
         surfaces.destroy_surface(surface, None);
     }
     Ok(())
+}
+
+/// A part of a device's name that `GPU` in the environment asks for, as `--device` does; `GPU=1`, with which
+/// tests ask for the best device, names none.
+pub fn named() -> Option<&'static str> {
+    static NAMED: LazyLock<Option<String>> =
+        LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0", "1"].contains(&&**gpu)));
+    NAMED.as_deref()
 }
 
 /// Picks the device that `asked` names by number or part of its name, else the best suitable one.

@@ -42,7 +42,7 @@ pub use blueprint::{Attachments, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions};
-pub use device::device_lines;
+pub use device::{device_lines, named as named_device};
 pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
 pub use executable::Executable;
 pub use features::Features;

@@ -1,5 +1,6 @@
 //! A pipeline put together line by line.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -279,8 +280,19 @@ impl<'a> PipelineBuilder<'a> {
             defines: &self.defines,
             as_written: self.as_written,
             arithmetic: gpu.arithmetic,
+            pipeline: self.number(),
             shaders: Vec::new(),
         }
+    }
+
+    /// A number that pipelines share only if they are identical: made of the same stages and state.
+    fn number(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (self.name, &self.raygen, &self.miss, &self.hit, &self.callable).hash(&mut hasher);
+        (self.compute, self.workgroup, &self.raster).hash(&mut hasher);
+        (&self.constants, &self.defines, self.recursion).hash(&mut hasher);
+        (self.flags.as_raw(), self.as_written).hash(&mut hasher);
+        hasher.finish()
     }
 
     /// The pipeline of these shaders; without groups and attachments it is a compute pipeline.

@@ -8,7 +8,7 @@ use crate::gpu::shader::{self, Shader};
 use crate::gpu::{Arithmetic, contraction};
 
 /// A hit group: what happens where a ray meets one kind of geometry.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, Hash)]
 pub struct HitGroup<'a> {
     intersection: Option<&'a str>,
     any_hit: Option<&'a str>,
@@ -43,6 +43,8 @@ pub(super) struct Stages<'a> {
     pub defines: &'a [(&'a str, String)],
     pub as_written: bool,
     pub arithmetic: Arithmetic,
+    /// The pipeline's own number.
+    pub pipeline: u64,
     pub shaders: Vec<Shader>,
 }
 
@@ -58,7 +60,7 @@ impl Stages<'_> {
                 if self.as_written {
                     shader.spirv = contraction::without(&shader.spirv)?;
                 }
-                shader.spirv = self.arithmetic.applied(&path, shader.spirv)?;
+                shader.spirv = self.arithmetic.applied(&path, self.pipeline, shader.spirv)?;
                 self.shaders.push(shader);
                 self.shaders.len() - 1
             }

@@ -1,0 +1,120 @@
+//! Which device tests run on: the software driver alone, unless `GPU` in the environment says otherwise.
+//!
+//! `GPU=1` is the best device there is, `GPU=NAME` one by a part of its name. Without it the Vulkan loader is
+//! shown Mesa's software driver and no other, from before `main`, so that all that a test program starts, and
+//! all that it opens itself, have that driver. A reader's `cargo run` is not touched.
+//!
+//! A test program that links this crate is so set up; one that needs nothing else of it writes
+//! `use device as _;`.
+
+use std::path::{Path, PathBuf};
+#[cfg(target_os = "linux")]
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// What names the drivers to the loader. `VK_DRIVER_FILES`, which names them too, goes before it: so a test
+/// that brings a driver, and `--compile-for`, need not know of this one.
+pub const VARIABLE: &str = "VK_ICD_FILENAMES";
+
+/// A manifest that no driver has, for a machine without software driver: nothing else shall take its place.
+const NONE: &str = "no-software-driver-for-tests";
+
+/// Called by the system before `main`.
+#[used]
+#[cfg_attr(any(target_os = "linux", target_os = "android"), unsafe(link_section = ".init_array"))]
+#[cfg_attr(target_vendor = "apple", unsafe(link_section = "__DATA,__mod_init_func"))]
+#[cfg_attr(windows, unsafe(link_section = ".CRT$XCU"))]
+static BEFORE_MAIN: extern "C" fn() = choose;
+
+extern "C" fn choose() {
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    // Whoever names drivers has chosen; a test that starts itself again has, too.
+    if asked().is_some() || is_set(VARIABLE) || is_set("VK_DRIVER_FILES") {
+        return;
+    }
+    let manifest = manifest().unwrap_or_else(|| NONE.into());
+    // SAFETY: before `main` there is one thread, and nobody else reads or writes the environment.
+    unsafe { std::env::set_var(VARIABLE, manifest) };
+}
+
+/// Whether tests run on the software driver and in its own arithmetic: there equality to the bit is asked for
+/// where Vulkan promises less. Pipelines that `ARITHMETIC_SEED` makes differ are as another device's.
+pub fn is_software() -> bool {
+    asked().is_none() && std::env::var_os("ARITHMETIC_SEED").is_none()
+}
+
+/// The value of `GPU`, if it asks for another device than the software driver.
+pub fn asked() -> Option<&'static str> {
+    static ASKED: LazyLock<Option<String>> =
+        LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0"].contains(&&**gpu)));
+    ASKED.as_deref()
+}
+
+/// Has a command, and all that it starts, find a Radeon RX 7900 XTX beside the software driver, as a fresh `cargo
+/// test` would with this `GPU`; false where `mesa-drm-shim` is not installed. The card is not there, but its whole
+/// driver is; it computes nothing.
+#[cfg(target_os = "linux")]
+pub fn radeon(command: &mut Command, gpu: Option<&str>) -> bool {
+    let folders = ["/usr/lib".to_owned(), format!("/usr/lib/{}-linux-gnu", std::env::consts::ARCH)];
+    let files = folders.map(|folder| PathBuf::from(folder).join("libamdgpu_noop_drm_shim.so"));
+    let Some(shim) = files.into_iter().find(|file| file.is_file()) else { return false };
+    command.env("LD_PRELOAD", shim).env("AMDGPU_GPU_ID", "navi31");
+    command.env_remove(VARIABLE).env_remove("VK_DRIVER_FILES").env_remove("GPU");
+    command.envs(gpu.map(|gpu| ("GPU", gpu)));
+    true
+}
+
+/// The manifest of Mesa's software driver, where the loader looks for such.
+pub fn manifest() -> Option<PathBuf> {
+    let or = |name: &str, usual: &str| match std::env::var(name) {
+        Ok(folders) if !folders.is_empty() => folders,
+        _ => usual.to_owned(),
+    };
+    let own = std::env::var("HOME").map_or(String::new(), |home| format!("{home}/.local/share"));
+    let folders = [
+        or("XDG_CONFIG_DIRS", "/etc/xdg"),
+        "/etc".to_owned(),
+        or("XDG_DATA_HOME", &own),
+        or("XDG_DATA_DIRS", "/usr/local/share:/usr/share"),
+    ];
+    let folders: Vec<PathBuf> = folders.iter().flat_map(std::env::split_paths).collect();
+    manifest_in(&folders)
+}
+
+/// The same below given folders. Of several architectures it is this program's own.
+fn manifest_in(folders: &[PathBuf]) -> Option<PathBuf> {
+    let names = [format!("lvp_icd.{}.json", std::env::consts::ARCH), "lvp_icd.json".to_owned()];
+    let mut files = names.iter().flat_map(|name| {
+        folders.iter().map(move |folder| folder.join(Path::new("vulkan/icd.d")).join(name))
+    });
+    files.find(|file| file.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_several_architectures_the_program_s_own_is_taken() {
+        let folder = std::env::temp_dir().join(format!("software-driver-{}", std::process::id()));
+        let place = folder.join("vulkan/icd.d");
+        std::fs::create_dir_all(&place).unwrap();
+        let found = || manifest_in(&["/nonexistent".into(), folder.clone()]);
+        let write = |name: &str| std::fs::write(place.join(name), "{}").unwrap();
+        for other in ["radeon_icd.json", "lvp_icd.none.json"] {
+            write(other);
+            assert_eq!(found(), None);
+        }
+        for name in ["lvp_icd.json", &format!("lvp_icd.{}.json", std::env::consts::ARCH)] {
+            write(name);
+            assert_eq!(found(), Some(place.join(name)));
+        }
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_choice_was_made_before_this() {
+        let chosen = std::env::var_os(VARIABLE).or(std::env::var_os("VK_DRIVER_FILES"));
+        assert!(chosen.is_some() || asked().is_some());
+    }
+}
