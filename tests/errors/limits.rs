@@ -97,7 +97,9 @@ fn a_model_takes_no_more_memory_than_was_counted() {
         run_beyond("02_basic", &folder(&[("model.obj", obj.as_bytes())]), "model.obj");
     assert!(line.is_empty(), "{line}");
     let counted = 5 * obj.len() as u64 + (108 + 512) * triangles;
-    assert!(counted / 2 < peak && peak < counted, "{peak} of {counted}");
+    assert!(peak < counted, "{peak} of {counted}");
+    // Memory of a GPU's own is none of the process.
+    assert!(counted / 2 < peak || !run::device::is_software(), "{peak} of {counted}");
 }
 
 #[test]

@@ -2,4 +2,6 @@
 
 mod budgets;
 #[cfg(target_os = "linux")]
+mod choice;
+#[cfg(target_os = "linux")]
 mod narrowest;

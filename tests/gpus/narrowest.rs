@@ -275,10 +275,24 @@ fn in_child(test: &str, faults: &str) {
     let output = std::process::Command::new(this)
         .args(["--exact", &name, "--ignored", "--nocapture"])
         .envs(narrow.environment())
+        .env("GPU", "narrow")
         .output()
         .expect("it starts");
     let [told, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
     assert!(output.status.success() && told.contains("1 passed"), "{told:.3000}{errors:.3000}");
+}
+
+#[test]
+fn without_64_bit_floats_the_worst_arithmetic_is_left_out() {
+    in_child("have_no_64_bit_floats", "");
+}
+
+#[test]
+#[ignore = "run by without_64_bit_floats_the_worst_arithmetic_is_left_out"]
+fn have_no_64_bit_floats() {
+    assert!(!run::has_worst_arithmetic());
+    let (code, line) = run::refused("02_basic", &["--headless", "--arithmetic", "worst"]);
+    assert!(code == 1 && line.contains("lacks feature shaderFloat64"), "{line}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Runs samples as their users do, one process a run, and compares pictures.
 
+pub mod equality;
 pub mod failures;
 pub mod figures;
 pub mod layer;
@@ -12,9 +13,12 @@ mod spent;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use common::app::Picture;
+use common::gpu::{Gpu, GpuOptions, Requirements};
+pub use device;
+pub use equality::{Near, same_answers, same_colors, same_hits, same_paths};
 use serde_json::Value;
 #[cfg(target_os = "linux")]
 pub use spent::{Spent, spend};
@@ -193,9 +197,13 @@ pub fn refusal(output: Output) -> (i32, String) {
 
 /// Holds a picture against `tests/golden/{name}.png` by FLIP (Andersson et al. 2020).
 ///
-/// `tolerance` is the largest mean FLIP error; say beside it which device set it. `UPDATE=1` writes the
-/// golden; a missing one fails. What differed is kept under `target/golden`.
+/// `tolerance` is the largest mean FLIP error on the device that set it; say beside it which that is. Another
+/// device may be as far off besides as its arithmetic allows, see [`equality`]. `UPDATE=1` writes the golden; a
+/// missing one fails. What differed is kept under `target/golden`.
 pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
+    let Some(tolerance) = equality::golden_tolerance(name, picture, tolerance) else {
+        return println!("not compared: {name} shows the errors of the device itself");
+    };
     let file = root().join(format!("tests/golden/{name}.png"));
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         picture.save(&file).expect("the golden can be written");
@@ -215,6 +223,25 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
         picture.save(&kept).expect("the picture can be kept");
         panic!("{name}: mean FLIP {mean} above {tolerance}; see {}", kept.display());
     }
+}
+
+/// Whether the device that tests run on can be given the worst arithmetic; if not, a line says so.
+pub fn has_worst_arithmetic() -> bool {
+    static HAS: LazyLock<bool> = LazyLock::new(|| {
+        let name = |requirements| {
+            let options = GpuOptions { requirements, ..GpuOptions::default() };
+            Gpu::new(&options).map(|gpu| gpu.name.clone()).ok()
+        };
+        let wanted = Requirements::ray_tracing();
+        // A worse device may have them; it is not the one to be tested.
+        device::is_software() || name(wanted.clone()) == name(wanted.float64())
+    });
+    if !*HAS {
+        println!(
+            "not tried: the device has no 64-bit floats, from which --arithmetic worst makes its errors"
+        );
+    }
+    *HAS
 }
 
 /// How far one picture is from another, by FLIP: the mean, and the share of pixels above 0.1.

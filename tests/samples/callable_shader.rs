@@ -5,7 +5,7 @@ mod patterns;
 use common::app::Picture;
 use common::scene::Scene;
 
-use run::{bits, compiled_for, figures, golden, render};
+use run::{compiled_for, figures, golden, render, same_colors};
 use serde_json::Map;
 
 const NAME: &str = "13_callable_shader";
@@ -33,7 +33,8 @@ fn every_way_to_choose_gives_the_same_bits() {
         ] {
             let sets = [format!("choose by={choose}"), format!("called from={stage}")];
             let other = picture("120x75", &[light, &sets[0], &sets[1]]);
-            assert_eq!(bits(&by_callables), bits(&other), "{light}: {choose} from {stage}");
+            let what = format!("{light}: {choose} from {stage}");
+            same_colors(&what, NAME, &by_callables, &other);
         }
     }
 }

@@ -12,7 +12,7 @@ mod points;
 
 use common::app::Picture;
 
-use run::{bits, compiled_for, golden, render};
+use run::{bits, compiled_for, golden, render, same_answers, same_colors};
 
 const NAME: &str = "28_depth_of_field";
 const SIZE: &str = "240x150";
@@ -53,36 +53,37 @@ fn a_lens_of_size_0_gives_the_picture_of_04() {
         let sets = sets.iter().flat_map(|set| ["--set", *set]);
         let arguments: Vec<_> =
             MODEL.into_iter().chain(frames.iter().copied()).chain(sets).collect();
-        bits(&render("04_jitter_camera", SIZE, &arguments).picture)
+        render("04_jitter_camera", SIZE, &arguments).picture
     };
     let lens = |more: &[&'static str], frames: &[&str]| {
         let sets = [&both[..], &["lens diameter=0"], more].concat();
         let sets = sets.iter().flat_map(|set| ["--set", *set]);
         let arguments: Vec<_> =
             MODEL.into_iter().chain(frames.iter().copied()).chain(sets).collect();
-        bits(&render(NAME, SIZE, &arguments).picture)
+        render(NAME, SIZE, &arguments).picture
     };
     let (few, parts) = (["--frames", "3"], ["--samples", "2..5"]);
     let picture = pinhole(&[], &few);
     for focus in ["focus distance=0.01", "focus distance=7", "focus distance=inf"] {
-        assert!(lens(&[focus, "blades=0"], &few) == picture, "{focus}");
-        assert!(lens(&[focus, "blades=5"], &few) == picture, "{focus}, blades");
+        same_colors(focus, NAME, &lens(&[focus, "blades=0"], &few), &picture);
+        same_colors(focus, NAME, &lens(&[focus, "blades=5"], &few), &picture);
     }
-    assert!(lens(&["rung=eye"], &few) == picture, "the rung of the eye");
+    same_colors("the rung of the eye", NAME, &lens(&["rung=eye"], &few), &picture);
     for sets in [
         ["sequence=Halton", "scrambling=rotation", "filter=Blackman-Harris"],
         ["sequence=R2", "scrambling=none", "filter=box"],
         ["sequence=random", "scrambling=Owen", "filter=tent"],
         ["sequence=centre", "scrambling=none", "filter=box"],
     ] {
-        assert!(lens(&sets, &few) == pinhole(&sets, &few), "{sets:?}");
+        same_colors(&format!("{sets:?}"), NAME, &lens(&sets, &few), &pinhole(&sets, &few));
     }
-    assert!(lens(&[], &parts) == pinhole(&[], &parts), "samples");
+    same_colors("samples", NAME, &lens(&[], &parts), &pinhole(&[], &parts));
     for show in ["show=hit", "show=ray direction"] {
-        assert!(lens(&[show], &few) == pinhole(&[show], &few), "{show}");
+        same_answers(show, NAME, &lens(&[show], &few), &pinhole(&[show], &few));
     }
     // A lens that has a size gives another, or nothing was compared.
-    assert!(lens(&["lens diameter=0.2"], &few) != picture, "the lens does nothing");
+    let wide = lens(&["lens diameter=0.2"], &few);
+    assert_ne!(bits(&wide), bits(&picture), "the lens does nothing");
 }
 
 #[test]

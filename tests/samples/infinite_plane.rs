@@ -13,7 +13,7 @@ use reference::{Ray, Surface};
 use serde_json::{Map, json};
 
 use run::primary_hits::{rays, reference};
-use run::{bits, figures, golden, render};
+use run::{bits, figures, golden, render, same_colors};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -276,7 +276,7 @@ fn testing_before_and_after_give_the_same_bits() {
     ] {
         let [before, after] = ["plane test=before", "plane test=after"]
             .map(|test| model.picture(&[sets, &[test]].concat()));
-        assert_eq!(bits(&before), bits(&after), "{sets:?}");
+        same_colors(&format!("{sets:?}"), NAME, &before, &after);
     }
 }
 
@@ -291,7 +291,7 @@ fn without_the_plane_the_picture_is_that_of_06() {
     let before = render("06_reflection", SIZE, &arguments).picture;
     let after = render(NAME, SIZE, &[&arguments[..], &["--set", "plane=off"]].concat()).picture;
     let with = render(NAME, SIZE, &arguments).picture;
-    assert_eq!(bits(&before), bits(&after));
+    same_colors("12 and 06", NAME, &before, &after);
     let changed = bits(&after).iter().zip(bits(&with)).filter(|(a, b)| **a != *b).count();
     assert!(changed > 2000, "{changed}");
 }

@@ -14,7 +14,7 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Run, bits, figures, golden, render};
+use run::{Near, Run, figures, golden, render, same_hits};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
@@ -167,14 +167,15 @@ fn the_custom_index_does_not_depend_on_the_order() {
     };
     let [[hits, ids], [unordered_hits, unordered_ids]] = [&[][..], &["--unordered"]]
         .map(|ordering| ["show=hit", "show=instance id"].map(|view| show(view, ordering)));
-    assert!(bits(&hits) == bits(&unordered_hits));
-    let mut moved = 0;
+    same_hits("ordered and not", NAME, &hits, &unordered_hits);
+    let (mut moved, mut others) = (0, 0);
     for ((hit, a), b) in hits.pixels.iter().zip(&ids.pixels).zip(&unordered_ids.pixels) {
-        // As the pieces come, gl_InstanceID is their index.
-        assert_eq!(hit[0], b[3]);
+        // As the pieces come, gl_InstanceID is their index. At an edge, each view may see either piece.
+        others += u32::from(hit[0] != b[3]);
         moved += usize::from(a[3] != b[3]);
     }
-    assert!(moved > 3000, "{moved}");
+    let flips = if run::device::is_software() { 0 } else { Near::of(NAME).both().flips(&hits) };
+    assert!(moved > 3000 && others <= flips, "{moved}, {others} others");
 }
 
 /// In how many pixels of a hundred two pictures of hits show another triangle.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use reference::Ray;
 
 use run::primary_hits::{answer, rays};
-use run::{bits, golden, render};
+use run::{golden, render, same_hits};
 
 #[allow(dead_code)]
 #[path = "../../samples/08_intersection/shapes.rs"]
@@ -120,7 +120,7 @@ fn ordering_changes_no_pixel() {
         println!("{scene}: {ties} ties");
         assert!(others == 0 && ties < 20, "{scene}: {ties} ties, {others} others");
         if !scene.ends_with("chess") {
-            assert!(bits(&on) == bits(&off), "{scene}");
+            same_hits(&scene, NAME, &on, &off);
         }
     }
 }

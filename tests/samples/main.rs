@@ -7,6 +7,7 @@ mod basic;
 mod callable_shader;
 mod depth_of_field;
 mod emitters;
+mod equalities;
 mod foundation;
 mod glass;
 mod heightfield;

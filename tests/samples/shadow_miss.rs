@@ -10,7 +10,7 @@ use reference::scene::Scene as Exact;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, figures, golden, render};
+use run::{bits, figures, golden, render, same_answers, same_colors};
 
 const NAME: &str = "05_shadow_miss";
 const SIZE: &str = "240x150";
@@ -215,7 +215,7 @@ fn lifting_the_origin_changes_only_what_turns_away_from_the_light() {
 fn a_light_without_size_costs_one_ray_and_no_noise() {
     let hard = picture(&[]);
     for sets in [["light size=0", "light samples=1"], ["light size=0", "light samples=64"]] {
-        assert_eq!(bits(&picture(&sets)), bits(&hard), "{sets:?}");
+        same_colors(&format!("{sets:?}"), NAME, &picture(&sets), &hard);
     }
 }
 
@@ -257,7 +257,7 @@ fn ending_at_the_first_hit_changes_nothing() {
         let [first, nearest] = ["first", "nearest"].map(|rays| {
             picture(&[&sets[..], &[format!("shadow rays={rays} hit").as_str()]].concat())
         });
-        assert_eq!(bits(&first), bits(&nearest), "{sets:?}");
+        same_colors(&format!("{sets:?}"), NAME, &first, &nearest);
     }
 }
 
@@ -265,7 +265,7 @@ fn ending_at_the_first_hit_changes_nothing() {
 fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
     let [off, traced] =
         ["off", "first hit"].map(|rays| picture(&["show=hit", &format!("shadow rays={rays}")]));
-    assert_eq!(bits(&off), bits(&traced));
+    same_answers("with and without shadow rays", NAME, &off, &traced);
 }
 
 /// Whether a shadow ray started on the board's squares: flat, level, of two materials without textures.

@@ -247,7 +247,9 @@ fn no_shadow_ray_meets_what_it_asks_for() {
         let shown = render(NAME, "96x96", &arguments).picture;
         shown.pixels.iter().filter(|pixel| pixel[..3] == [0.0; 3]).count()
     };
-    for arithmetic in ["driver", "worst", "worst-by-place"] {
+    let arithmetics = ["driver", "worst", "worst-by-place"];
+    let tried = if run::has_worst_arithmetic() { 3 } else { 1 };
+    for arithmetic in &arithmetics[..tried] {
         for (scene, points) in [
             ("scene=ball", "triangles=area"),
             ("scene=many balls", "triangles=area"),
