@@ -20,7 +20,7 @@ use crate::project::Project;
 pub const FOLDER: &str = "docs/mistakes";
 
 /// The fields that only the page shows, as the title.
-const SENTENCES: [&str; 3] = ["Cause:", "Find:", "Cure:"];
+const SENTENCES: [&str; 4] = ["Undefined:", "Cause:", "Find:", "Cure:"];
 
 /// What a file of a mistake looks like.
 const FORM: &str =
@@ -70,6 +70,9 @@ pub struct Mistake {
     pub outcome: Outcome,
     /// What every validation message holds; `None` if there is none.
     pub validation: Option<String>,
+    /// What Vulkan leaves undefined here, if anything: a GPU may stop, or its system, so the mistake is tried on a
+    /// software driver alone.
+    pub undefined: Option<String>,
     /// Why the picture is wrong.
     pub cause: String,
     /// What shows it.
@@ -135,6 +138,11 @@ impl Mistake {
             wrong(line, what, &format!("write {there}"))
         })?;
         let validation = Some(patch.field("Validation")?.value).filter(|text| text != "nothing");
+        let undefined = patch.field_if_any("Undefined")?.map(|field| field.value);
+        if outcome == Outcome::Crashes && undefined.is_none() {
+            let what = "a crash is of what Vulkan leaves undefined".to_owned();
+            return Err(wrong(line, what, "write `Undefined: WHAT`"));
+        }
         let mut text_of = |key| patch.field(key).map(|field| field.value);
         let (cause, find, cure) = (text_of("Cause")?, text_of("Find")?, text_of("Cure")?);
         patch.no_other_field("a mistake")?;
@@ -148,6 +156,7 @@ impl Mistake {
             arguments,
             outcome,
             validation,
+            undefined,
             cause,
             find,
             cure,
@@ -203,10 +212,11 @@ impl Mistake {
         Ok(())
     }
 
-    /// The command that runs a patched copy, for a reader.
+    /// The command that runs a patched copy, for a reader: what is undefined, on the software driver.
     pub fn run(&self, folder: &Path) -> String {
         let (bin, folder) = (&self.chapter, folder.display());
-        let arguments = match &*self.arguments {
+        let device = self.undefined.as_ref().map_or("", |_| "--device llvmpipe");
+        let arguments = match [&*self.arguments, device].join(" ").trim() {
             "" => String::new(),
             arguments => format!(" -- {arguments}"),
         };

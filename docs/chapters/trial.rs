@@ -12,6 +12,7 @@ use common::usage::Usage;
 use image::RgbImage;
 use panels::{Panel, sheet};
 
+use crate::child;
 use crate::crew;
 use crate::edition::{Edition, Patched};
 use crate::mistake::{Mistake, Outcome};
@@ -48,7 +49,11 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// If that is not what its file says.
     pub fn check(&self) -> Result<String> {
-        let (right, wrong) = self.runs(COMPARED)?;
+        let right = self.right(COMPARED)?;
+        if let Some(why) = self.not_tried(right.device())? {
+            return Ok(why);
+        }
+        let wrong = self.wrong(COMPARED)?;
         self.compare(&right, &wrong)
     }
 
@@ -57,7 +62,11 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// If it does not do what its file says, or the picture cannot be written.
     pub fn render(&self, sources: &mut Sources) -> Result<String> {
-        let (right, wrong) = self.runs(SHOWN)?;
+        let right = self.right(SHOWN)?;
+        if let Some(why) = self.not_tried(right.device())? {
+            bail!("{why}");
+        }
+        let wrong = self.wrong(SHOWN)?;
         self.compare(&right, &wrong)?;
         let label = |word: &str, seen: &Seen| match (&self.mistake.outcome, &seen.messages()[..]) {
             (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds()),
@@ -89,7 +98,7 @@ impl<'a> Trial<'a> {
         Ok(device)
     }
 
-    fn runs(&self, size: (u32, u32)) -> Result<(Seen, Seen)> {
+    fn right(&self, size: (u32, u32)) -> Result<Seen> {
         let right = self.run(&Edition::Book, size)?;
         ensure!(
             right.status.is_some_and(|status| status.success()),
@@ -97,8 +106,24 @@ impl<'a> Trial<'a> {
             self.mistake.chapter,
             right.said
         );
+        Ok(right)
+    }
+
+    fn wrong(&self, size: (u32, u32)) -> Result<Seen> {
         let wrong = Patched::of(self.project, &self.mistake.patch)?;
-        Ok((right, self.run(&wrong.edition, size)?))
+        self.run(&wrong.edition, size)
+    }
+
+    /// Why the mistake is not made on this device, if it is undefined and no software driver is asked.
+    fn not_tried(&self, device: &str) -> Result<Option<String>> {
+        let Mistake { name, chapter, undefined, .. } = self.mistake;
+        let Some(what) = undefined else { return Ok(None) };
+        let mut list = Edition::Book.command(self.project, self.programs, chapter)?;
+        let listed = child::run(list.arg("--list-devices"), LIMIT)?.told;
+        let is_software =
+            listed.lines().any(|line| line.contains(&format!(": {device} (software;")));
+        let why = format!("{name}: not tried on {device}: undefined in Vulkan: {what}");
+        Ok((!is_software).then_some(why))
     }
 
     fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<Seen> {

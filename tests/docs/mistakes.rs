@@ -38,6 +38,27 @@ fn every_mistake_in_shaders_does_what_its_file_claims() {
     assert!(out.lines().count() >= 24, "{out}");
 }
 
+/// A Radeon that is not there, by its own driver: only the right program is run on it.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_undefined_is_not_tried_on_a_gpu() {
+    let undefined = ["recursion_too_deep", "record_offset"];
+    for program in ["06_reflection", "07_multi_closest_hit"] {
+        ::run::program(program);
+    }
+    for name in undefined {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_chapters"));
+        if !::run::device::radeon(&mut command, Some("1")) {
+            return println!("not tried: mesa-drm-shim is not installed");
+        }
+        let outcome = run(command.args(["mistake", name, "--check"]));
+        let start = format!("{name}: not tried on ");
+        let is_told = outcome.out.starts_with(&start) && outcome.out.contains("NAVI31");
+        assert!(outcome.code == 0 && is_told, "{}{}", outcome.out, outcome.err);
+        assert_eq!(outcome.out.lines().count(), 1, "{}", outcome.out);
+    }
+}
+
 /// Builds the chapter anew for each patch.
 #[test]
 #[ignore = "builds patched copies, which takes minutes"]
@@ -71,7 +92,9 @@ fn a_copy_of_the_rust_code_is_a_project_that_cargo_takes() {
     let out = out.to_str().expect("a path of letters");
     let (code, said, err) = tool(&["table_stride", "--out", out]);
     assert_eq!(code, 0, "{err}");
-    let command = format!("--manifest-path {out}/Cargo.toml --bin 07_multi_closest_hit\n");
+    // What is undefined is shown to no GPU.
+    let device = "-- --device llvmpipe";
+    let command = format!("--manifest-path {out}/Cargo.toml --bin 07_multi_closest_hit {device}\n");
     assert!(said.ends_with(&command), "{said}");
     let patched = std::fs::read_to_string(format!("{out}/common/src/gpu/sbt.rs")).expect("a copy");
     assert!(patched.contains(".min().unwrap_or(0);"), "{patched}");
