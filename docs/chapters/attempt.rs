@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use anyhow::{Context, Error, Result, bail};
+use patience::Limit;
 use common::app::Picture;
 
 use crate::edition::{Edition, Patched};
@@ -20,7 +20,7 @@ use crate::seen::Seen;
 use crate::step::{Run, Step, sized};
 
 /// How long a program may take.
-const LIMIT: Duration = Duration::from_secs(60);
+const LIMIT: Limit = Limit::worked(120);
 
 /// The book's own pictures, each rendered once.
 pub struct Originals<'a> {

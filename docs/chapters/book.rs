@@ -21,7 +21,7 @@ use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
 use crate::stored::{self, Stored};
 use crate::trial::Trial;
-use crate::{agree, card, exercise, gallery, stray, taught, text, try_it};
+use crate::{agree, card, exercise, gallery, nightly, stray, taught, text, try_it};
 
 /// The book of a project.
 pub struct Book<'a> {
@@ -91,6 +91,7 @@ impl<'a> Book<'a> {
         }
         faults.extend(self.wrong_anchors());
         faults.extend(stray::check(self.project, &linked));
+        faults.extend(nightly::check(self.project));
         faults.extend(card::all(self.project).1);
         faults.extend(taught::check(self.project));
         faults.sort();

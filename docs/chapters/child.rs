@@ -5,14 +5,12 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result};
+use patience::{GLANCE, Limit, Work};
 
 use crate::stop;
-
-/// How often a child is looked after.
-const GLANCE: Duration = Duration::from_millis(10);
 
 /// How a program ended.
 pub struct Ended {
@@ -22,7 +20,7 @@ pub struct Ended {
     pub said: String,
     /// What it said on standard output.
     pub told: String,
-    limit: Duration,
+    limit: Limit,
 }
 
 impl Ended {
@@ -35,7 +33,7 @@ impl Ended {
     /// In one line why it failed; `None` if it did not.
     pub fn failed(&self) -> Option<String> {
         let Some(status) = self.status else {
-            return Some(format!("stopped after {} s without an end", self.limit.as_secs()));
+            return Some(format!("stopped after {} without an end", self.limit));
         };
         if status.success() {
             return None;
@@ -49,11 +47,11 @@ impl Ended {
     }
 }
 
-/// Runs a command, and kills it if it takes longer than `limit`.
+/// Runs a command, and kills it if it takes more than it may.
 ///
 /// # Errors
 /// If it does not start, or a signal asks for our end.
-pub fn run(command: &mut Command, limit: Duration) -> Result<Ended> {
+pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
     // Files and no pipes: nobody has to read them while the program runs.
     let file = || tempfile::tempfile().context("cannot make a temporary file");
     let (mut output, mut errors) = (file()?, file()?);
@@ -67,18 +65,18 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<Ended> {
     Ok(Ended { status, said, told, limit })
 }
 
-/// Waits for its end; there is no status if it has taken longer than `limit` and is killed.
+/// Waits for its end; there is no status if it has taken more than it may and is killed.
 ///
 /// # Errors
 /// If a signal asks for our end, for which the child is killed, or the system does not tell of the child's.
-pub fn wait(child: &mut Child, limit: Duration) -> Result<Option<ExitStatus>> {
-    let start = Instant::now();
+pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
+    let (start, work) = (Instant::now(), Work::from(&*child));
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
         }
         let asked = stop::asked();
-        if start.elapsed() > limit || asked.is_err() {
+        if limit.is_over(work, start) || asked.is_err() {
             child.kill()?;
             child.wait()?;
             return asked.map(|()| None);

@@ -3,9 +3,9 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use patience::{ASLEEP, Limit};
 use common::files::Folder;
 
 use crate::child;
@@ -20,7 +20,7 @@ const BUILT: &str = "target/mistakes/build";
 const LOCK: &str = "target/mistakes/lock";
 
 /// How long tests may take once they are built.
-const LIMIT: Duration = Duration::from_secs(600);
+const LIMIT: Limit = Limit::waited(ASLEEP);
 
 /// An edition.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,7 +97,7 @@ impl Edition {
             }
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", project, programs);
-                let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Duration::MAX)?;
+                let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Limit::NONE)?;
                 ensure!(
                     built.status.is_some_and(|status| status.success()),
                     "{chapter} does not build: {}",
@@ -127,7 +127,7 @@ impl Edition {
     ) -> Result<Tested> {
         // A build may take as long as it will, and only once.
         let (mut build, _) = self.cargo("test", project, programs);
-        let built = child::run(build.args(["--no-run", "--test", program]), Duration::MAX)?;
+        let built = child::run(build.args(["--no-run", "--test", program]), Limit::NONE)?;
         ensure!(
             built.status.is_some_and(|status| status.success()),
             "the tests do not build: {}",

@@ -43,6 +43,7 @@ mod missed;
 mod mistake;
 mod named;
 mod new;
+mod nightly;
 mod note;
 mod number;
 mod passage;
@@ -83,6 +84,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
 use manuscript::{anchor, diff, fault, link, page, project, shader};
+use patience::Limit;
 
 use book::Book;
 use diff::Parts;
@@ -207,6 +209,14 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
+    /// Run the tests that plain `cargo test` leaves out, a test program after the other, with their times
+    Nightly {
+        /// Test programs, such as `samples`; all of them if none is named
+        names: Vec<String>,
+        /// Only list the tests, each with why it is left out
+        #[arg(long)]
+        list: bool,
+    },
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -234,7 +244,7 @@ fn parse() -> Result<Arguments> {
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
         let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, check",
+            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, nightly, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })
@@ -268,7 +278,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         }
         Command::Survey { device, out, limit, list } => {
             let programs = Programs::beside_this(&project.root)?;
-            let limit = Duration::from_secs(*limit);
+            let limit = Limit::waited(Duration::from_secs(*limit));
             let survey =
                 Survey { project: &project, programs: &programs, device: device.as_deref(), limit };
             match list {
@@ -284,6 +294,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Sync { pictures } => sync(&project, pictures.as_deref()),
         Command::Book { out } => site(&project, out.as_deref()),
         Command::Merge { out, files, samples } => print(&merge::run(out, files, samples.clone())?),
+        Command::Nightly { names, list } => nightly::run(&project, names, *list),
         Command::Check => {
             let programs = Programs::beside_this(&project.root)?;
             report(&Book::open(&project, &programs)?.check())

@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::process::{Command, ExitStatus};
-use std::time::Duration;
 
 use anyhow::Result;
+use patience::Limit;
 use common::app::Picture;
 use common::files::Folder;
 use serde_json::Value;
@@ -27,11 +27,11 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// Runs a program headless and under validation, at most for `limit`.
+    /// Runs a program headless and under validation, and no longer than it may take.
     ///
     /// # Errors
     /// If it does not start.
-    pub fn of(mut command: Command, arguments: &[String], limit: Duration) -> Result<Self> {
+    pub fn of(mut command: Command, arguments: &[String], limit: Limit) -> Result<Self> {
         let folder = Folder::temporary()?;
         let (out, report) = (folder.path().join("out.exr"), folder.path().join("report.json"));
         command.args(["--headless", "--validate"]).args(arguments);

@@ -6,12 +6,13 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
 use common::files::Folder;
 use common::gpu::Limits;
 use common::usage::Usage;
+use patience::Limit;
 use serde_json::Value;
 
 use crate::card::{self, Card, Device};
@@ -37,7 +38,7 @@ pub struct Survey<'a> {
     /// The device, as `--device` names it.
     pub device: Option<&'a str>,
     /// How long a program may take.
-    pub limit: Duration,
+    pub limit: Limit,
 }
 
 impl Survey<'_> {
@@ -74,9 +75,9 @@ impl Survey<'_> {
         let folder = Folder::temporary()?;
         let laboratory = laboratory::runs(self.project, folder.path());
         let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
-        let limit = self.limit.as_secs();
+        let limit = self.limit;
         crate::print(&format!(
-            "{} lines to come; a program is stopped after {limit} s\n",
+            "{} lines to come; a program is stopped after {limit}\n",
             steps.all
         ))?;
         let mut card = Card {

@@ -1,8 +1,20 @@
-//! Tests that commands on pages run: `cargo test --test TARGET FILTER` must find one.
+//! The tests of the project, and those that commands on pages run: `cargo test --test TARGET FILTER` must find one.
 
 use crate::fault::Fault;
 use crate::markdown::Code;
 use crate::project::Project;
+
+/// A test.
+pub struct Test {
+    /// Its name, as its program lists it.
+    pub name: String,
+    /// Why plain `cargo test` leaves it out, if it does.
+    pub ignored: Option<String>,
+    /// Where it stands.
+    pub file: String,
+    /// The line of its `#[test]`, from 1.
+    pub line: usize,
+}
 
 /// What a `cargo test` asks for.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -46,31 +58,36 @@ fn asked(command: &str) -> Option<Asked> {
 /// Why a command runs no test, if it runs none.
 fn wrong(project: &Project, asked: &Asked) -> Option<String> {
     let target = asked.target.as_ref()?;
-    let known = project.tests.iter().find(|known| known.name == *target);
-    let folder = known.and_then(|known| known.path.rsplit_once('/'));
-    let folder = folder.map_or_else(|| format!("tests/{target}"), |(folder, _)| folder.to_owned());
-    let names = names(project, &folder);
-    if names.is_empty() {
+    let tests = of(project, target);
+    if tests.is_empty() {
         return Some(format!("there is no test program '{target}'"));
     }
     let filter = asked.filter.as_ref()?;
-    let found = names.iter().any(|name| name.contains(&**filter));
+    let found = tests.iter().any(|test| test.name.contains(&**filter));
     (!found).then(|| format!("no test of '{target}' is called '{filter}'"))
 }
 
-/// The tests in a folder, as the program that they are compiled into lists them.
-fn names(project: &Project, folder: &str) -> Vec<String> {
-    let mut names = Vec::new();
-    for file in project.files(folder).iter().filter(|file| file.ends_with(".rs")) {
+/// The tests of a test program.
+pub fn of(project: &Project, program: &str) -> Vec<Test> {
+    let known = project.tests.iter().find(|known| known.name == program);
+    let folder = known.and_then(|known| known.path.rsplit_once('/'));
+    let folder = folder.map_or_else(|| format!("tests/{program}"), |(folder, _)| folder.to_owned());
+    let mut tests = Vec::new();
+    for file in project.files(&folder).into_iter().filter(|file| file.ends_with(".rs")) {
         let module = file[folder.len() + 1..].trim_end_matches(".rs").replace('/', "::");
         let module = module.trim_end_matches("::mod");
         let module = if module == "main" { String::new() } else { format!("{module}::") };
         let text = project.read(file).unwrap_or_default();
-        let bodies = text.split("#[test]").skip(1);
-        let functions = bodies.filter_map(|body| body.split_once("fn ")?.1.split_once('('));
-        names.extend(functions.map(|(name, _)| format!("{module}{name}")));
+        for (head, body) in text.match_indices("#[test]").map(|(at, mark)| text.split_at(at + mark.len())) {
+            let Some((attributes, rest)) = body.split_once("fn ") else { continue };
+            let Some((name, _)) = rest.split_once('(') else { continue };
+            let line = head.lines().count();
+            let ignored = attributes.split_once("#[ignore = \"").and_then(|(_, why)| why.split_once('"'));
+            let ignored = ignored.map(|(why, _)| why.to_owned());
+            tests.push(Test { name: format!("{module}{name}"), ignored, file: file.clone(), line });
+        }
     }
-    names
+    tests
 }
 
 #[cfg(test)]

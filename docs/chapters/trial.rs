@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 use std::process::ExitStatus;
-use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
+use patience::Limit;
 use common::app::output::print;
 use common::files::Folder;
 use common::usage::Usage;
@@ -27,9 +27,9 @@ const SHOWN: (u32, u32) = (320, 200);
 const COMPARED: (u32, u32) = (160, 100);
 
 /// How long a program may take.
-const LIMIT: Duration = Duration::from_secs(20);
+const LIMIT: Limit = Limit::worked(40);
 /// How long it may where the mistake may keep it from ending.
-const UNTIL_CRASHED: Duration = Duration::from_secs(5);
+const UNTIL_CRASHED: Limit = Limit::worked(10);
 
 /// A mistake, and the runs that show it.
 pub struct Trial<'a> {

@@ -1,10 +1,10 @@
 //! A chapter's window beside the tool.
 
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
 
 use anyhow::{Context, Result};
 use common::app::output::print;
+use patience::Limit;
 
 use crate::child;
 
@@ -29,7 +29,7 @@ impl Window {
         if self.0.try_wait()?.is_none() {
             print("Close the window to end.\n")?;
         }
-        child::wait(&mut self.0, Duration::MAX).map(drop)
+        child::wait(&mut self.0, Limit::NONE).map(drop)
     }
 }
 

@@ -289,7 +289,7 @@ fn what_is_no_card_is_refused() {
 }
 
 #[test]
-#[ignore = "takes the time of a whole survey, minutes"]
+#[ignore = "by hand: takes the time of a whole survey, minutes"]
 fn the_whole_survey_in_time() {
     let cards = tempfile::tempdir().expect("a temporary folder");
     let mut command = Command::new(program("chapters"));

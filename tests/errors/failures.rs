@@ -29,7 +29,7 @@ fn the_first_and_the_last_call_of_each_function_may_fail() {
 }
 
 #[test]
-#[ignore = "an hour: every call of every chapter, or of those that CHAPTERS names"]
+#[ignore = "nightly: every call of every chapter, or of those that CHAPTERS names; quick: failures::the_first_and_the_last_call_of_each_function_may_fail"]
 fn every_call_of_every_chapter_may_fail() {
     let mut chapters = chapters();
     chapters.retain(|sample| !is_safe(sample, all));

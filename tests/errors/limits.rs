@@ -224,7 +224,7 @@ fn ten_times_as_many_of_anything_are_read_in_ten_times_the_time() {
 }
 
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn reading_grows_with_the_file() {
     let mut table = serde_json::Map::new();
     for grown in GROWN {

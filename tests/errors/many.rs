@@ -116,7 +116,7 @@ fn ten_times_as_many_of_anything_are_shown_in_ten_times_the_time() {
 }
 
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn showing_grows_with_the_scene() {
     let mut table = serde_json::Map::new();
     for shown in SHOWN {

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use common::app::sums::{Header, Origin, Sums};
+use patience::ASLEEP;
 
 /// A program under a limit of the system's, in the words of `prlimit`.
 fn limited(limit: &str, program: &str) -> Command {
@@ -59,7 +60,7 @@ fn with_any_address_space_there_is_a_picture_or_one_line() {
 }
 
 #[test]
-#[ignore = "minutes: every chapter in steps of 25 MB"]
+#[ignore = "nightly: every chapter in steps of 25 MB; quick: scarce::with_any_address_space_there_is_a_picture_or_one_line"]
 fn so_it_is_in_every_chapter() {
     for sample in run::chapters() {
         let done = (200..=1400).step_by(25).filter(|size| in_megabytes(&sample, *size)).count();
@@ -100,9 +101,10 @@ fn with_any_number_of_threads(sample: &str) {
         let mut command = limited(&format!("--nproc={threads}"), sample);
         command.args(["--headless", "--size", "8x8"]);
         let Some(command) = as_nobody(&command) else { return };
-        // What waits forever is a failure, and not ten minutes of a test.
+        // What waits forever is a failure.
+        let seconds = ASLEEP.as_secs().to_string();
         let mut patient = Command::new("timeout");
-        patient.args(["-s", "KILL", "60"]).arg(command.get_program()).args(command.get_args());
+        patient.args(["-s", "KILL", &seconds]).arg(command.get_program()).args(command.get_args());
         for (name, value) in command.get_envs() {
             value.map(|value| patient.env(name, value));
         }

@@ -142,9 +142,9 @@ fn a_crash_ends_in_one_line_unless_a_backtrace_is_asked_for() {
     let crash = |signal: &str, traced: &str| {
         let mut command = crate::sample();
         command.args(["--frames", "4000000000"]).env("RUST_BACKTRACE", traced);
-        let child = command.stderr(Stdio::piped()).spawn().expect("it starts");
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("it starts");
         // By then it renders.
-        std::thread::sleep(Duration::from_secs(1));
+        patience::wait_until_worked(&mut child, Duration::from_secs(1));
         let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
         assert!(sent.expect("kill").success());
         child.wait_with_output().expect("it ends")

@@ -5,14 +5,16 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use patience::Limit;
+
 /// What no input may bring about.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
     /// A panic, with its message.
     Panic(String),
     /// No answer within so long.
-    Endless(Duration),
-    /// An answer that took so long, the quickest of three times.
+    Endless(Limit),
+    /// An answer that took so long of a processor.
     Slow(Duration),
     /// More than so many bytes of memory.
     Memory(u64),
@@ -43,8 +45,8 @@ impl Display for Fault {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Panic(message) => write!(f, "it panics: {message}"),
-            Self::Endless(time) => write!(f, "there is no answer within {time:?}"),
-            Self::Slow(time) => write!(f, "the answer takes {time:?}"),
+            Self::Endless(time) => write!(f, "there is no answer within {time}"),
+            Self::Slow(time) => write!(f, "the answer takes {time:?} of a processor"),
             Self::Memory(bytes) => write!(f, "it takes more than {bytes} bytes of memory"),
             Self::Line(line) => write!(f, "this is not one line that says where: {line:?}"),
             Self::Exit(how) => write!(f, "it ends with {how}"),

@@ -45,7 +45,7 @@ fn is_wanted(name: &str) -> bool {
 }
 
 #[test]
-#[ignore = "an hour, or FUZZ_SECONDS; the seed is FUZZ_SEED, the readers are those that FUZZ_READER names"]
+#[ignore = "nightly only: an hour, or FUZZ_SECONDS; the seed is FUZZ_SEED, the readers are those that FUZZ_READER names"]
 fn for_long() {
     let seconds = number("FUZZ_SECONDS").unwrap_or(3600);
     let seed = number("FUZZ_SEED").unwrap_or(SEED);
@@ -84,7 +84,7 @@ fn for_long() {
 }
 
 #[test]
-#[ignore = "shows the file FUZZ_INPUT to FUZZ_READER"]
+#[ignore = "by hand: shows the file FUZZ_INPUT to FUZZ_READER"]
 fn one_input() {
     let [reader, file] = ["FUZZ_READER", "FUZZ_INPUT"]
         .map(|name| std::env::var(name).unwrap_or_else(|_| panic!("{name} is not set")));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use common::scene::Model;
@@ -15,11 +15,17 @@ use fuzz::formats::{nothing, texture};
 use fuzz::program::Program;
 use fuzz::session::Session;
 use fuzz::watch::Watch;
+use patience::{Limit, Work};
 
 use crate::SEED;
 
 /// Inputs within which a fault is to be found: fewer than `cargo test` tries of models.
 const BUDGET: usize = 4000;
+
+/// Where nothing sleeps, work decides.
+const AWAKE: Limit = Limit::worked(3);
+/// Where what is planted sleeps, the clock does: whoever is late beside it has the same fault.
+const SLEEPY: Limit = Limit::waited(Duration::from_secs(3));
 
 /// What is found by a reader of inputs of a format.
 #[track_caller]
@@ -33,8 +39,13 @@ fn found(format: Format, reader: impl Reader) -> Found {
 /// What is found with a function in place of that which reads models.
 #[track_caller]
 fn found_in(read: fn(&Path) -> Result<String>) -> Fault {
+    found_within(AWAKE, read)
+}
+
+#[track_caller]
+fn found_within(patience: Limit, read: fn(&Path) -> Result<String>) -> Fault {
     let watch = Watch::new(FORMAT, Function { read, ..FUNCTION });
-    found(FORMAT, watch.within(Duration::from_secs(3))).fault
+    found(FORMAT, watch.within(patience)).fault
 }
 
 /// Whether a model is refused for this.
@@ -69,9 +80,17 @@ fn an_index_that_leads_nowhere_is_found() {
     assert!(matches!(&fault, Fault::Panic(message) if message.contains("no vertex")), "{fault}");
 }
 
+/// Keeps a processor busy.
+fn work_for(time: Duration) {
+    let (start, work) = (Instant::now(), Work::of_this_thread());
+    let done = || work.done().unwrap_or(start.elapsed());
+    let end = done() + time;
+    while done() < end {}
+}
+
 #[test]
 fn a_wait_without_an_end_is_found() {
-    let fault = found_in(|path| match warned_of(path, "normal index") {
+    let fault = found_within(SLEEPY, |path| match warned_of(path, "normal index") {
         true => loop {
             sleep(Duration::from_secs(3600));
         },
@@ -81,10 +100,24 @@ fn a_wait_without_an_end_is_found() {
 }
 
 #[test]
+fn work_without_an_end_is_found() {
+    let fault = found_in(|path| match warned_of(path, "normal index") {
+        true => {
+            work_for(AWAKE.processor * 2);
+            // The test is over by then: nobody else need wait for this thread.
+            sleep(Duration::MAX);
+            bail!("an end")
+        }
+        false => read(path),
+    });
+    assert_eq!(fault, Fault::Endless(AWAKE));
+}
+
+#[test]
 fn a_long_time_is_found() {
     let fault = found_in(|path| {
         if refused_for(path, "at least 3") {
-            sleep(Duration::from_millis(1200));
+            work_for(Duration::from_millis(1200));
         }
         read(path)
     });
@@ -162,17 +195,17 @@ fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
 /// others as it should.
 #[cfg(unix)]
 #[track_caller]
-fn found_in_program(command: fn(&Path, &[u8]) -> Command) -> Fault {
+fn found_in_program(patience: Limit, command: fn(&Path, &[u8]) -> Command) -> Fault {
     let program = Program::new(FORMAT, nothing, command, &["o.png"]);
-    found(FORMAT, program.within(Duration::from_secs(2))).fault
+    found(FORMAT, program.within(patience)).fault
 }
 
 #[cfg(unix)]
 macro_rules! planted {
-    ($($name:ident, $script:literal: $fault:pat,)*) => {$(
+    ($patience:ident: $($name:ident, $script:literal: $fault:pat,)*) => {$(
         #[test]
         fn $name() {
-            let fault = found_in_program(|_, _| {
+            let fault = found_in_program($patience, |_, _| {
                 let mut command = Command::new("sh");
                 command.args(["-c", concat!(
                     "if grep -q '^f.* -' m.obj; then ", $script, "; fi; echo 'error: m.obj: no' >&2; exit 1"
@@ -186,6 +219,7 @@ macro_rules! planted {
 
 #[cfg(unix)]
 planted! {
+    AWAKE:
     a_crash_is_found, "kill -SEGV $$": Fault::Exit(_),
     an_exit_code_of_no_meaning_is_found, "exit 101": Fault::Exit(_),
     a_panic_that_became_a_line_is_found,
@@ -197,7 +231,13 @@ planted! {
     a_file_that_is_left_behind_is_found, ": > .tmpAbCdEf": Fault::Left(_),
     a_file_that_is_left_elsewhere_is_found, ": > $TMPDIR/a": Fault::Left(_),
     a_file_that_is_gone_is_found, "rm m.obj": Fault::Left(_),
-    a_program_that_goes_on_for_ever_is_found, "exec sleep 1000": Fault::Endless(_),
+    a_program_that_works_for_ever_is_found, "while :; do :; done": Fault::Endless(_),
+}
+
+#[cfg(unix)]
+planted! {
+    SLEEPY:
+    a_program_that_sleeps_for_ever_is_found, "exec sleep 1000": Fault::Endless(_),
 }
 
 #[cfg(target_os = "linux")]

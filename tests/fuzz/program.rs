@@ -5,15 +5,16 @@ use std::ffi::OsString;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
+use patience::{GLANCE, Limit, Work};
 use tempfile::TempDir;
 
 use crate::fault::Fault;
 use crate::format::{Answer, Format, Reader};
 
 /// After this time nobody waits any longer.
-const PATIENCE: Duration = Duration::from_secs(180);
+const PATIENCE: Limit = Limit::worked(180);
 /// Bytes that a process may have, a device and its shader compiler among them.
 const MEMORY: u64 = 1 << 30;
 /// Letters of a line: `output` cuts at 2000, and escapes them before.
@@ -28,7 +29,7 @@ pub struct Program {
     command: fn(folder: &Path, input: &[u8]) -> Command,
     /// Files that it may write.
     writes: &'static [&'static str],
-    patience: Duration,
+    patience: Limit,
 }
 
 impl Program {
@@ -46,7 +47,7 @@ impl Program {
 
     /// The same, with less patience.
     #[must_use]
-    pub fn within(self, patience: Duration) -> Self {
+    pub fn within(self, patience: Limit) -> Self {
         Self { patience, ..self }
     }
 
@@ -72,16 +73,16 @@ impl Program {
 }
 
 /// Waits, and looks how much memory it has meanwhile.
-fn end(child: &mut Child, patience: Duration) -> Result<(), Fault> {
-    let start = Instant::now();
+fn end(child: &mut Child, patience: Limit) -> Result<(), Fault> {
+    let (start, work) = (Instant::now(), Work::from(&*child));
     while child.try_wait().expect("a child can be waited for").is_none() {
-        if start.elapsed() > patience {
+        if patience.is_over(work, start) {
             return Err(Fault::Endless(patience));
         }
         if memory(child.id()).is_some_and(|bytes| bytes > MEMORY) {
             return Err(Fault::Memory(MEMORY));
         }
-        std::thread::sleep(Duration::from_millis(5));
+        std::thread::sleep(GLANCE);
     }
     Ok(())
 }

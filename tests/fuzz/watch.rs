@@ -9,16 +9,17 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use patience::{GLANCE, Limit, Work};
 use tempfile::TempDir;
 
 use crate::fault::Fault;
 use crate::format::{Answer, Format, Function, Reader};
 use crate::meter;
 
-/// An answer is to come within this time, the quickest of three times: another program may have the machine.
+/// An answer is to take no more than this of a processor.
 const QUICK: Duration = Duration::from_secs(1);
-/// After this time nobody waits any longer.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// After this nobody waits any longer.
+const PATIENCE: Limit = Limit::worked(20);
 
 /// The threads' name.
 const READER: &str = "reader";
@@ -34,12 +35,13 @@ pub struct Watch {
     format: Format,
     function: Function,
     worker: Option<Worker>,
-    patience: Duration,
+    patience: Limit,
 }
 
 struct Worker {
     inputs: Sender<()>,
     answers: Receiver<(Result<Answer, Fault>, Duration)>,
+    work: Work,
     exceeded: &'static AtomicBool,
 }
 
@@ -53,7 +55,7 @@ impl Watch {
 
     /// The same, with less patience.
     #[must_use]
-    pub fn within(self, patience: Duration) -> Self {
+    pub fn within(self, patience: Limit) -> Self {
         Self { patience, ..self }
     }
 
@@ -65,14 +67,18 @@ impl Watch {
         let (file, function) = (self.file(), self.function);
         let worker = self.worker.get_or_insert_with(|| Worker::start(file, function));
         worker.inputs.send(()).expect("the worker waits for inputs");
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), worker.work.done());
+        let limit = Limit {
+            processor: self.patience.processor.saturating_add(before.unwrap_or_default()),
+            ..self.patience
+        };
         let answer = loop {
-            match worker.answers.recv_timeout(Duration::from_millis(20)) {
+            match worker.answers.recv_timeout(GLANCE) {
                 Ok((answer, took)) => break answer.map(|answer| (answer, took)),
                 Err(RecvTimeoutError::Timeout) if worker.exceeded.load(Ordering::Acquire) => {
                     break Err(Fault::Memory(self.function.memory as u64));
                 }
-                Err(RecvTimeoutError::Timeout) if start.elapsed() < self.patience => {}
+                Err(RecvTimeoutError::Timeout) if !limit.is_over(worker.work, start) => {}
                 Err(RecvTimeoutError::Timeout) => break Err(Fault::Endless(self.patience)),
                 Err(RecvTimeoutError::Disconnected) => {
                     break Err(Fault::Panic("the thread is gone".to_owned()));
@@ -90,14 +96,9 @@ impl Watch {
 impl Reader for Watch {
     fn ask(&mut self, input: &[u8]) -> Result<Answer, Fault> {
         std::fs::write(self.file(), input).expect("an input can be written");
-        let (answer, mut quickest) = self.once()?;
-        for _ in 0..2 {
-            if quickest > QUICK {
-                quickest = quickest.min(self.once()?.1);
-            }
-        }
-        if quickest > QUICK {
-            return Err(Fault::Slow(quickest));
+        let (answer, worked) = self.once()?;
+        if worked > QUICK {
+            return Err(Fault::Slow(worked));
         }
         if let Answer::Refused(line) = &answer {
             // Newlines that a file holds are shown as \n, as is all that a terminal would act on.
@@ -117,10 +118,14 @@ impl Worker {
         QUIET.call_once(quiet);
         let (inputs, wanted) = channel::<()>();
         let (done, answers) = channel();
+        let (tell, told) = channel();
         let exceeded: &'static AtomicBool = Box::leak(Box::new(AtomicBool::new(false)));
         let work = move || {
+            let (work, start) = (Work::of_this_thread(), Instant::now());
+            tell.send(work).expect("it is waited for");
+            let worked = || work.done().unwrap_or(start.elapsed());
             for () in wanted {
-                let start = Instant::now();
+                let before = worked();
                 meter::allow(function.memory, exceeded);
                 let read = catch_unwind(AssertUnwindSafe(|| match (function.read)(&file) {
                     Ok(what) => Answer::Taken(what),
@@ -128,13 +133,14 @@ impl Worker {
                 }));
                 meter::allow_all();
                 let answer = read.map_err(|_| Fault::Panic(PANIC.take()));
-                if done.send((answer, start.elapsed())).is_err() {
+                if done.send((answer, worked() - before)).is_err() {
                     return;
                 }
             }
         };
         thread::Builder::new().name(READER.to_owned()).spawn(work).expect("a thread");
-        Self { inputs, answers, exceeded }
+        let work = told.recv().expect("a thread that begins");
+        Self { inputs, answers, work, exceeded }
     }
 }
 

@@ -11,7 +11,7 @@ const AGREE: f64 = 1.5;
 
 /// One run gives all times, so that they go together; where it is asked for figures, it renews the plots.
 #[test]
-#[ignore = "takes times, for minutes"]
+#[ignore = "by hand: takes times, for minutes"]
 fn every_rung_is_timed() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let place = folder.path().to_str().expect("a temporary folder has a plain name");

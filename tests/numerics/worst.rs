@@ -114,7 +114,7 @@ fn so_it_does_where_copies_of_a_formula_disagree() {
 
 /// The page's table, and what it says of the smallest direction.
 #[test]
-#[ignore = "asks every rung for a table of the page, for minutes"]
+#[ignore = "by hand: asks every rung for a table of the page, for minutes"]
 fn the_hard_cases_of_every_rung_in_each_arithmetic() {
     let reports = ARITHMETICS.map(|arithmetic| cases(arithmetic, &[]));
     let all = reports.each_ref().map(|report| ladders(report));
@@ -147,7 +147,7 @@ fn the_hard_cases_of_every_rung_in_each_arithmetic() {
 
 /// The page's table: of each ladder the largest p99 and the largest error of its families.
 #[test]
-#[ignore = "asks thousands of rays for a table of the page, for minutes"]
+#[ignore = "by hand: asks thousands of rays for a table of the page, for minutes"]
 fn random_rays_in_each_arithmetic() {
     let rows = |report: &Value| -> Vec<(String, Vec<Row>)> {
         let of = |(shape, ladder): (&str, &[Value])| {

@@ -9,6 +9,8 @@ pub mod plot;
 pub mod primary_hits;
 #[cfg(target_os = "linux")]
 mod spent;
+#[cfg(unix)]
+mod tally;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -57,6 +59,8 @@ pub fn heeding(name: &str) -> Command {
 
 /// Where the binary `name` lies, built from today's sources.
 pub fn program(name: &str) -> PathBuf {
+    #[cfg(unix)]
+    tally::keep();
     // Cargo builds a package's binaries for that package's tests, and names them. Others are built here.
     if let Some(own) = std::env::var_os(format!("CARGO_BIN_EXE_{name}")) {
         return own.into();

@@ -45,7 +45,7 @@ fn pieces_are_instances_of_few_meshes() {
 
 /// How long a frame takes with its triangles in order, over how long it takes as they come.
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn the_order_of_the_triangles_in_time() {
     let time = |more: &[&str]| {
         let run = render("02_basic", "800x600", &[&["--frames", "5"], more].concat());

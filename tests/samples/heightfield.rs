@@ -167,7 +167,7 @@ fn the_land_is_as_steep_and_as_exact_as_the_page_says() {
 
 /// Three views, and the errors of each rung in them.
 #[test]
-#[ignore = "draws a picture of the page, with UPDATE=1"]
+#[ignore = "by hand: draws a picture of the page, with UPDATE=1"]
 fn error_maps() {
     const WIDTH: u32 = 240;
     let alone = Alone::new();

@@ -209,7 +209,7 @@ fn the_bounds_hold_in_the_worst_arithmetic_that_conforms() {
 }
 
 #[test]
-#[ignore = "over a million rays: some minutes"]
+#[ignore = "nightly: over a million rays; quick: leaving_a_surface::no_self_hit_and_no_lost_occluder_in_the_set_s_own_size"]
 fn a_million_rays_leave_no_acne_and_no_leak() {
     const LOW: [&str; 3] =
         ["camera eye=-8.2,2.9,5.2", "camera target=-0.2,0.35,0.8", "field of view=32"];
@@ -240,7 +240,7 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
 }
 
 #[test]
-#[ignore = "takes a table of the page"]
+#[ignore = "by hand: takes a table of the page"]
 fn a_smaller_step_ends_in_self_hits() {
     const STEP: &str = "return Start(from.position + step * from.normal, 0.0);";
     let mut settings = [0, 1, 2, 3].map(|number| Setting::new(number, SIZE, HIGH));

@@ -105,7 +105,7 @@ fn a_query_needs_no_groups_and_no_table() {
 
 /// How long a frame of queries takes, over how long the pipeline's takes.
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn the_time_of_a_frame() {
     let time = |name: &str| {
         let run = render(name, "480x300", &["--frames", "5"]);

@@ -81,7 +81,7 @@ fn each_scene_is_one_program_that_fits_its_registers_and_is_no_larger_than_that_
 }
 
 #[test]
-#[ignore = "prints a table of the page"]
+#[ignore = "by hand: prints a table of the page"]
 fn table() {
     let everything = compiled("one sphere", "everything", "all").expect("the compiler is there");
     let compiler = everything[0]["compiler"].as_str().unwrap();

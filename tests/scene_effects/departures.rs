@@ -11,7 +11,7 @@ const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.positi
 const LIFTED: &str = "#ifdef DEPARTURES\n    hit.position += hit.height * hit.face;\n#endif\n";
 
 #[test]
-#[ignore = "takes figures of the page"]
+#[ignore = "by hand: takes figures of the page"]
 fn lighting_the_start_of_a_shadow_ray_changes_bits() {
     let shaders = shaders_with("25_scene_effects/lighting.glsl", LIT, &format!("{LIFTED}{LIT}"));
     let folder = tempfile::tempdir().unwrap();

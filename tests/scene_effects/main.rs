@@ -246,7 +246,7 @@ fn sixteen_scenes_cover_all_pairs_of_effects_and_look_the_same_by_both() {
 }
 
 #[test]
-#[ignore = "minutes: 400 pictures"]
+#[ignore = "nightly: 400 pictures; quick: sixteen_scenes_cover_all_pairs_of_effects_and_look_the_same_by_both"]
 fn two_hundred_random_scenes_look_the_same_by_both() {
     let mut random = Random(200);
     let sets: Vec<Effects> = (0..200)

@@ -59,7 +59,7 @@ fn key(scene: &str, of: &str) -> String {
 }
 
 #[test]
-#[ignore = "takes figures of the page"]
+#[ignore = "by hand: takes figures of the page"]
 fn pipelines() {
     let mut table = Map::new();
     for (name, effects, _) in SCENES {
@@ -71,7 +71,7 @@ fn pipelines() {
 }
 
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn costs() {
     let sets = ["--frames", "7", "--set", "measure costs=on"];
     let report = report("mirror balls", "320x200", &sets);
@@ -87,7 +87,7 @@ fn costs() {
 }
 
 #[test]
-#[ignore = "measures for minutes"]
+#[ignore = "by hand: measures for minutes"]
 fn scenes() {
     let mut table = Map::new();
     let mut twice = 0;
@@ -144,7 +144,7 @@ fn fitting(ticks: &[f64], values: &[f64]) -> Vec<f64> {
 
 /// Drawn from the page's table, so that the two say the same.
 #[test]
-#[ignore = "draws docs/images/25_times.svg from the page's table"]
+#[ignore = "by hand: draws docs/images/25_times.svg from the page's table"]
 fn times() {
     let page = std::fs::read_to_string(run::root().join("docs/25_scene_effects.md")).unwrap();
     let (names, [stages, compiles, milliseconds, ratios]) = columns(&page);

@@ -124,7 +124,7 @@ fn a_drawing_of_the_book_follows_its_switch_whatever_the_system_prefers() {
 }
 
 #[test]
-#[ignore = "writes pictures to look at"]
+#[ignore = "by hand: writes pictures to look at"]
 fn pictures() {
     let folder = PathBuf::from(std::env::var_os("SHOTS").expect("SHOTS names a folder"));
     fs::create_dir_all(&folder).unwrap();

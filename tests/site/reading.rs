@@ -315,7 +315,7 @@ fn the_arrow_keys_turn_the_pages() {
 }
 
 #[test]
-#[ignore = "writes pictures to look at"]
+#[ignore = "by hand: writes pictures to look at"]
 fn pictures() {
     let folder = std::path::PathBuf::from(std::env::var_os("SHOTS").expect("SHOTS names a folder"));
     fs::create_dir_all(&folder).unwrap();

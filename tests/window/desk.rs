@@ -7,6 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
+use patience::ASLEEP;
 use tempfile::TempDir;
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::xproto::{
@@ -14,9 +15,6 @@ use x11rb::protocol::xproto::{
     InputFocus, MapState,
 };
 use x11rb::rust_connection::RustConnection;
-
-/// How long anything may take before a test fails.
-const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A sample in a window of its own server; both end with it.
 pub struct Desk {
@@ -32,14 +30,14 @@ pub struct Desk {
 /// Calls `look` until it finds something.
 ///
 /// # Panics
-/// If it takes too long: with `what`.
+/// If nothing comes of it, with `what`.
 pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {
         if let Some(found) = look() {
             return found;
         }
-        assert!(start.elapsed() < PATIENCE, "waited {PATIENCE:?} for {what}");
+        assert!(start.elapsed() < ASLEEP, "waited {ASLEEP:?} for {what}");
         std::thread::sleep(Duration::from_millis(5));
     }
 }

@@ -97,7 +97,7 @@ impl Hand<'_> {
 }
 
 #[test]
-#[ignore = "ten minutes, or as many as MINUTES says"]
+#[ignore = "nightly only: ten minutes, or as many as MINUTES says"]
 fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
     let _alone = alone();
     let minutes = std::env::var("MINUTES").map_or(10.0, |text| text.parse().expect("a number"));

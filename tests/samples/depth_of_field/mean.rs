@@ -86,7 +86,7 @@ fn samples_buy_less_where_the_lens_blurs() {
 
 /// The time of a picture with a lens, in milliseconds.
 #[test]
-#[ignore = "takes seconds, and gives times"]
+#[ignore = "by hand: takes seconds, and gives times"]
 fn price() {
     let mut table = Map::new();
     for frames in [1, 4, 16, 64, 256u32] {

@@ -6,7 +6,7 @@ use run::plot::{Axis, Chart, Series, draw};
 use super::aperture::{DIMENSION_LENS, in_polygon, numbers, on_disk};
 
 #[test]
-#[ignore = "draws docs/images/28_places.svg"]
+#[ignore = "by hand: draws docs/images/28_places.svg"]
 fn places() {
     let u: Vec<[f64; 2]> =
         (0..256).map(|i| numbers([480, 300], 0, i, DIMENSION_LENS, false)).collect();

@@ -11,7 +11,7 @@ use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 use run::{figures, render};
 
 #[test]
-#[ignore = "draws docs/images/29_estimators.png"]
+#[ignore = "by hand: draws docs/images/29_estimators.png"]
 fn estimators() {
     let names = ["BSDF: 64 samples", "light: 64 samples", "MIS: 64 samples"];
     let show = |i: usize| {
@@ -56,7 +56,7 @@ fn error_alone(sets: &[&str], expected: &[f64]) -> f64 {
 }
 
 #[test]
-#[ignore = "draws docs/images/29_error.svg"]
+#[ignore = "by hand: draws docs/images/29_error.svg"]
 fn errors() {
     let side = 32;
     let scenes = [
@@ -145,7 +145,7 @@ fn a_depth_leaves_out_what_its_paths_do_not_reach() {
 
 /// The set by lamp light: error against rays and against time, beside a picture of many more samples.
 #[test]
-#[ignore = "draws docs/images/29_price.svg; takes minutes"]
+#[ignore = "by hand: draws docs/images/29_price.svg; takes minutes"]
 fn price() {
     let shared = ["depth=4", "clamp=0"];
     let of = |sets: &[&str], frames: u32| {

@@ -15,7 +15,7 @@ use run::plot::{Shown, draw_panels};
 
 /// The page's table and its error maps: `UPDATE=1` writes the picture.
 #[test]
-#[ignore = "a measurement: it prints a table and makes a picture"]
+#[ignore = "by hand: a measurement: it prints a table and makes a picture"]
 fn errors_at_every_distance() {
     const SIDE: u32 = 240;
     let size = format!("{SIDE}x{SIDE}");

@@ -27,7 +27,7 @@ fn picture(size: &str, frames: u32, settings: &[String]) -> Picture {
 }
 
 #[test]
-#[ignore = "draws docs/images/04_points.svg"]
+#[ignore = "by hand: draws docs/images/04_points.svg"]
 fn points() {
     let axis = Axis { label: "", ticks: &[0.0, 0.25, 0.5, 0.75, 1.0], logarithmic: false };
     let chart = |&(title, _, sequence, scrambling): &(&'static str, _, _, _)| {
@@ -40,7 +40,7 @@ fn points() {
 }
 
 #[test]
-#[ignore = "draws docs/images/04_filters.svg"]
+#[ignore = "by hand: draws docs/images/04_filters.svg"]
 fn filters() {
     let x = Axis {
         label: "pixels",
@@ -80,7 +80,7 @@ fn filters() {
 }
 
 #[test]
-#[ignore = "draws docs/images/04_samples.png"]
+#[ignore = "by hand: draws docs/images/04_samples.png"]
 fn samples() {
     const SIZE: &str = "960x600";
     let centre = ("through the centre".to_owned(), run(SIZE, 1, &["sequence=centre"]));
@@ -101,7 +101,7 @@ fn samples() {
 }
 
 #[test]
-#[ignore = "draws docs/images/04_scrambling.png"]
+#[ignore = "by hand: draws docs/images/04_scrambling.png"]
 fn scrambling() {
     const SIZE: &str = "480x300";
     let pictures = ["none", "Owen"]
@@ -125,7 +125,7 @@ fn scrambling() {
 }
 
 #[test]
-#[ignore = "draws docs/images/04_error.svg; takes minutes"]
+#[ignore = "by hand: draws docs/images/04_error.svg; takes minutes"]
 fn errors() {
     const SIZE: &str = "192x120";
     const FRAMES: [u32; 10] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512];

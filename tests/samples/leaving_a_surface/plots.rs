@@ -11,7 +11,7 @@ use run::plot::{Shown, draw_panels};
 const PLACES: [&str; 4] = ["0.001", "1", "1000", "moved"];
 
 #[test]
-#[ignore = "draws docs/images/26_origins.png"]
+#[ignore = "by hand: draws docs/images/26_origins.png"]
 fn origins() {
     let show = |place: [&str; 2], rule: &str| {
         picture("640x400", &[&place[..], &[&format!("origin={rule}")]].concat())
@@ -29,7 +29,7 @@ fn origins() {
 }
 
 #[test]
-#[ignore = "draws docs/images/26_leaks.png"]
+#[ignore = "by hand: draws docs/images/26_leaks.png"]
 fn leaks() {
     let show = |(setting, number): (usize, usize)| {
         let rule = RULES[number];
@@ -42,7 +42,7 @@ fn leaks() {
 }
 
 #[test]
-#[ignore = "prints what becomes of rays that start by each rule"]
+#[ignore = "by hand: prints what becomes of rays that start by each rule"]
 fn table_of_origins() {
     let (mut table, mut height) = (Map::new(), Map::new());
     for (number, (place, _)) in SETTINGS.iter().enumerate() {

@@ -10,7 +10,7 @@ use run::figures;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
 #[test]
-#[ignore = "draws docs/images/11_light.png"]
+#[ignore = "by hand: draws docs/images/11_light.png"]
 fn light() {
     let shows =
         [("direct", "light straight to what the eye sees"), ("bounced", "light by bounces")];
@@ -22,7 +22,7 @@ fn light() {
 }
 
 #[test]
-#[ignore = "draws docs/images/11_furnace.png"]
+#[ignore = "by hand: draws docs/images/11_furnace.png"]
 fn furnace() {
     let show = |depth: u32| {
         let label = if depth == 1 { "1 bounce".to_owned() } else { format!("{depth} bounces") };
@@ -48,7 +48,7 @@ fn curves(scene: &str, expected: &[f64]) -> [[f64; 6]; 3] {
 }
 
 #[test]
-#[ignore = "draws docs/images/11_error.svg"]
+#[ignore = "by hand: draws docs/images/11_error.svg"]
 fn errors() {
     let mut scenes = vec![("closed room", vec![1.0; 32 * 32], ROOM_VARIANCE)];
     for (name, square) in &SQUARES {
@@ -111,7 +111,7 @@ fn relative(picture: &Picture, reference: &Picture) -> f64 {
 const SMALL: &str = "96x60";
 
 #[test]
-#[ignore = "prints what depth, minimum, roulette and clamp cost in error"]
+#[ignore = "by hand: prints what depth, minimum, roulette and clamp cost in error"]
 fn biases() {
     // The random numbers are the same: pictures differ only by what was left out, not by chance.
     let of =
@@ -132,7 +132,7 @@ fn biases() {
 }
 
 #[test]
-#[ignore = "prints the noise of roulette and clamps"]
+#[ignore = "by hand: prints the noise of roulette and clamps"]
 fn noise() {
     let reference = picture(SMALL, 512, &["depth=32", "seed=1"]);
     let of = |sets: &[&str]| picture(SMALL, 16, &[&["depth=32"][..], sets].concat());
@@ -156,7 +156,7 @@ fn noise() {
 }
 
 #[test]
-#[ignore = "prints what a sum of floats loses; takes minutes"]
+#[ignore = "by hand: prints what a sum of floats loses; takes minutes"]
 fn sums() {
     let mut held = Map::new();
     for frames in [100, 1000, 10_000] {

@@ -9,7 +9,7 @@ use run::figures;
 use run::plot::{Shown, draw_panels};
 
 #[test]
-#[ignore = "draws docs/images/06_depths.png"]
+#[ignore = "by hand: draws docs/images/06_depths.png"]
 fn depths() {
     let show = |depth: u32| {
         let close = ["camera target=-2.5,0.75,1.5", "field of view=16", "minimum contribution=0"];
@@ -28,7 +28,7 @@ fn error(a: &Picture, b: &Picture) -> f64 {
 }
 
 #[test]
-#[ignore = "prints the error of each depth and of each minimum contribution"]
+#[ignore = "by hand: prints the error of each depth and of each minimum contribution"]
 fn table_of_depths() {
     let show = |depth: u32, minimum: &str| {
         let minimum = format!("minimum contribution={minimum}");

@@ -64,7 +64,7 @@ fn specks_come_where_the_bound_is_not_kept() {
 
 /// A frame's time with the bound, over that with an offset that is chosen by eye.
 #[test]
-#[ignore = "takes times"]
+#[ignore = "by hand: takes times"]
 fn the_bound_in_time() {
     let by_eye = format!(
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \

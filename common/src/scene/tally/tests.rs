@@ -22,7 +22,7 @@ fn status(name: &str) -> u64 {
 }
 
 #[test]
-#[ignore = "what the others start"]
+#[ignore = "run by the others"]
 fn reads_a_model() {
     let path = std::env::var_os(FILE).unwrap();
     let path = Path::new(&path);

@@ -1,0 +1,130 @@
+//! `chapters nightly`: the tests that plain `cargo test` leaves out, one test program after the other, each with its
+//! time.
+//!
+//! Why a test is left out says how it is run, by its first words:
+//!
+//! - `nightly: WHY; quick: NAME`: here. The test NAME is quick and finds the same fault where it is simple.
+//! - `nightly only: WHY`: here, and nothing quick would find its fault.
+//! - `by hand: WHY`: it measures, draws, or asks to be told what to do.
+//! - `run by NAME`: by another test.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use common::app::output::print;
+use common::usage::Usage;
+use patience::Limit;
+
+use crate::child;
+use crate::fault::Fault;
+use crate::project::Project;
+use crate::stop;
+use crate::test::{self, Test};
+
+/// The tests of a program that are run here.
+struct Group {
+    program: String,
+    tests: Vec<Test>,
+}
+
+/// Runs the groups of these names, or all.
+///
+/// # Errors
+/// If there is no such group, or a test fails.
+pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
+    let mut groups = groups(project);
+    if let Some(name) = names.iter().find(|name| groups.iter().all(|g| g.program != **name)) {
+        let known: Vec<_> = groups.into_iter().map(|group| group.program).collect();
+        return Err(Usage(format!("no group '{name}'; there is {}", known.join(", "))).into());
+    }
+    groups.retain(|group| names.is_empty() || names.contains(&group.program));
+    if list {
+        return print(&groups.iter().map(Group::list).collect::<String>());
+    }
+    stop::on_signal();
+    let mut failed = Vec::new();
+    for group in &groups {
+        if !group.pass(&project.root)? {
+            failed.push(group.program.as_str());
+        }
+    }
+    match failed.is_empty() {
+        true => Ok(()),
+        false => bail!("tests of {} failed", failed.join(", ")),
+    }
+}
+
+fn groups(project: &Project) -> Vec<Group> {
+    let group = |program: &String| {
+        let mut tests = test::of(project, program);
+        tests.retain(|test| test.ignored.as_ref().is_some_and(|why| why.starts_with("nightly")));
+        Group { program: program.clone(), tests }
+    };
+    let programs = project.tests.iter().map(|target| &target.name);
+    programs.map(group).filter(|group| !group.tests.is_empty()).collect()
+}
+
+impl Group {
+    fn list(&self) -> String {
+        let line = |test: &Test| {
+            let why = test.ignored.as_deref().unwrap_or_default();
+            format!("{} {}\n    {why}\n", self.program, test.name)
+        };
+        self.tests.iter().map(line).collect()
+    }
+
+    /// Runs its tests, which print as they go, and tells how long they took; whether all passed.
+    fn pass(&self, root: &Path) -> Result<bool> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut command = Command::new(cargo);
+        command.current_dir(root).args(["test", "--test", &self.program, "--"]);
+        command.args(["--ignored", "--exact"]).args(self.tests.iter().map(|test| &test.name));
+        let start = Instant::now();
+        let status = child::wait(&mut command.spawn()?, Limit::NONE)?;
+        let passed = status.is_some_and(|status| status.success());
+        let (count, seconds) = (self.tests.len(), start.elapsed().as_secs());
+        let word = if passed { "passed" } else { "FAILED" };
+        print(&format!("{}: {count} tests, {seconds} s: {word}\n", self.program))?;
+        Ok(passed)
+    }
+}
+
+/// Tests that are left out without saying how they are run, or for a quick one that is not there.
+pub fn check(project: &Project) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for target in &project.tests {
+        let tests = test::of(project, &target.name);
+        for test in &tests {
+            let Some(why) = &test.ignored else { continue };
+            let fault = |what: String, remedy| Fault::new(&test.file, test.line, what, remedy);
+            let is_known = |name: &str| {
+                let named = |test: &Test| test.ignored.is_none() && test.name == name;
+                match name.split_once(' ') {
+                    Some((program, name)) => {
+                        test::of(project, program).iter().any(|test| test.name == name)
+                    }
+                    None => tests.iter().any(named),
+                }
+            };
+            let quick = why.strip_prefix("nightly: ").map(|why| why.rsplit_once("; quick: "));
+            match quick {
+                Some(Some((_, name))) if is_known(name) => {}
+                Some(Some((_, name))) => {
+                    faults.push(fault(format!("no quick test '{name}'"), "correct its name"));
+                }
+                Some(None) => faults.push(fault(
+                    format!("'{}' names no quick test", test.name),
+                    "add `; quick: NAME`, or say `nightly only: `",
+                )),
+                None if ["nightly only: ", "by hand: ", "run by "].iter().any(|how| why.starts_with(how)) => {}
+                None => faults.push(fault(
+                    format!("'{}' is left out and does not say how it is run", test.name),
+                    "begin with `nightly: `, `nightly only: `, `by hand: ` or `run by `",
+                )),
+            }
+        }
+    }
+    faults
+}

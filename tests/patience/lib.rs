@@ -1,0 +1,171 @@
+//! How long somebody has worked, and how long they may.
+//!
+//! A clock tells nothing of a program on a busy machine: others may have had the processors. So limits are
+//! processor time. A clock only ends what sleeps.
+
+use std::fmt::{Display, Formatter};
+use std::process::Child;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How often somebody is looked after.
+pub const GLANCE: Duration = Duration::from_millis(10);
+
+/// After this time on the clock nobody waits for what sleeps: far longer than anything takes, whatever else the
+/// machine does.
+pub const ASLEEP: Duration = Duration::from_secs(1800);
+
+/// How long somebody may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// What they may have of processors.
+    pub processor: Duration,
+    /// What they may have on the clock.
+    pub clock: Duration,
+}
+
+impl Limit {
+    /// No limit.
+    pub const NONE: Self = Self { processor: Duration::MAX, clock: Duration::MAX };
+
+    /// So many seconds of processors, whatever else the machine does.
+    pub const fn worked(seconds: u64) -> Self {
+        Self { processor: Duration::from_secs(seconds), clock: ASLEEP }
+    }
+
+    /// So long on the clock, for who waits beside it.
+    pub const fn waited(clock: Duration) -> Self {
+        Self { processor: Duration::MAX, clock }
+    }
+
+    /// Whether somebody who began then has had enough. Where the system does not tell their work, the clock
+    /// decides.
+    pub fn is_over(self, work: Work, start: Instant) -> bool {
+        let waited = start.elapsed();
+        waited > self.clock || work.done().unwrap_or(waited) > self.processor
+    }
+}
+
+impl Display for Limit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self.processor {
+            Duration::MAX => write!(f, "{} s", self.clock.as_secs()),
+            time => write!(f, "{} s of processors", time.as_secs()),
+        }
+    }
+}
+
+/// The work of a process or of a thread: the time that processors have spent on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Work(#[cfg(target_os = "linux")] Option<libc::clockid_t>);
+
+#[cfg(target_os = "linux")]
+impl Work {
+    /// That of a process, by its number, and all its threads.
+    pub fn of_process(id: u32) -> Self {
+        let mut clock = 0;
+        // SAFETY: the call writes to the place that it is given, and refuses a process that is not there.
+        let told = unsafe { libc::clock_getcpuclockid(id as i32, &mut clock) } == 0;
+        Self(told.then_some(clock))
+    }
+
+    /// That of the thread that calls this.
+    pub fn of_this_thread() -> Self {
+        let mut clock = 0;
+        // SAFETY: the thread is there, and the call writes to the place that it is given.
+        let told = unsafe { libc::pthread_getcpuclockid(libc::pthread_self(), &mut clock) } == 0;
+        Self(told.then_some(clock))
+    }
+
+    /// How much it is; `None` where nobody tells, as of what has ended.
+    pub fn done(self) -> Option<Duration> {
+        let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+        // SAFETY: the call writes to the place that it is given, and refuses a clock that is not there.
+        let told = unsafe { libc::clock_gettime(self.0?, &mut time) } == 0;
+        told.then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
+    }
+}
+
+impl From<&Child> for Work {
+    fn from(child: &Child) -> Self {
+        Self::of_process(child.id())
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+impl Work {
+    /// That of a process, by its number, and all its threads.
+    pub fn of_process(_: u32) -> Self {
+        Self()
+    }
+
+    /// That of the thread that calls this.
+    pub fn of_this_thread() -> Self {
+        Self()
+    }
+
+    /// Nobody tells.
+    pub fn done(self) -> Option<Duration> {
+        None
+    }
+}
+
+/// Waits until a child has worked so long, by the clock where nobody tells, or has ended.
+///
+/// # Panics
+/// If the system does not tell whether the child runs.
+pub fn wait_until_worked(child: &mut Child, time: Duration) {
+    let start = Instant::now();
+    while child.try_wait().expect("a child can be asked for").is_none()
+        && Work::from(&*child).done().unwrap_or(start.elapsed()) < time
+    {
+        thread::sleep(GLANCE);
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use std::process::Command;
+
+    use super::*;
+
+    /// When a script was found to have had enough, and what it had worked.
+    fn over(limit: Limit, script: &str) -> (Duration, Duration) {
+        let mut child = Command::new("sh").args(["-c", script]).spawn().expect("a shell");
+        let (start, work) = (Instant::now(), Work::from(&child));
+        while !limit.is_over(work, start) {
+            thread::sleep(GLANCE);
+        }
+        let found = (start.elapsed(), work.done().expect("it runs"));
+        child.kill().expect("it runs");
+        child.wait().expect("it ends");
+        found
+    }
+
+    #[test]
+    fn who_works_is_ended_by_work_and_who_sleeps_by_the_clock() {
+        let limit = Limit { processor: Duration::from_millis(200), clock: ASLEEP };
+        let (_, worked) = over(limit, "while :; do :; done");
+        assert!(worked > limit.processor, "{worked:?}");
+        let short = Duration::from_millis(50);
+        let (waited, worked) = over(Limit::waited(short), "exec sleep 600");
+        assert!(waited > short && worked < short, "{waited:?}, {worked:?}");
+        assert_eq!(Limit::worked(5).to_string(), "5 s of processors");
+        assert_eq!(Limit::waited(Duration::from_secs(7)).to_string(), "7 s");
+    }
+
+    #[test]
+    fn a_thread_s_work_is_its_own_and_ends_with_it() {
+        let (before, start) = (Work::of_this_thread().done().unwrap(), Instant::now());
+        let other = thread::spawn(|| {
+            let work = Work::of_this_thread();
+            while work.done().unwrap() < Duration::from_millis(100) {}
+            work
+        });
+        let other = other.join().unwrap();
+        assert_eq!(other.done(), None);
+        assert!(start.elapsed() >= Duration::from_millis(100));
+        let own = Work::of_this_thread().done().unwrap() - before;
+        assert!(own < Duration::from_millis(100), "{own:?}");
+    }
+}
