@@ -25,6 +25,7 @@ pub struct Mention {
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
     let own = project.chapters.iter().any(|chapter| chapter.page() == page.path);
+    let count = try_it::count(project, page);
     let mut sources = false;
     for (line, text) in page.prose() {
         if text.starts_with("## ") {
@@ -50,7 +51,6 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
                 faults.push(fault(format!("there is no chapter '{name}'"), "correct its name"));
             }
         }
-        let count = try_it::count(project, page);
         for number in exercises(text).into_iter().filter(|number| own && *number > count) {
             let what = format!("there is no exercise {number}, only {count}");
             faults.push(fault(what, "correct the number"));
