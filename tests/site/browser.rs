@@ -32,7 +32,10 @@ impl Browser {
             let probe = Command::new(name).arg("--version").stderr(Stdio::null()).output();
             probe.is_ok_and(|probe| probe.status.success())
         };
-        let name = NAMES.iter().find(found).expect("no Chromium on the PATH: run ./setup");
+        let name = NAMES
+            .iter()
+            .find(found)
+            .expect("no Chromium on the PATH: run ./setup, or install Google Chrome");
         let profile = tempfile::tempdir().expect("a temporary folder");
         // It reads from 3 and writes to 4.
         let mut child = Command::new("sh")
