@@ -29,15 +29,6 @@ fn is_quick(takes: &str) -> bool {
     ["look", "shader"].contains(&takes)
 }
 
-/// What git calls changed below the root; nothing where there is no git.
-fn changed() -> Vec<String> {
-    let output =
-        Command::new("git").args(["status", "--porcelain"]).current_dir(::run::root()).output();
-    let text = output.map_or_else(|_| Vec::new(), |output| output.stdout);
-    let text = String::from_utf8_lossy(&text);
-    text.lines().filter_map(|line| line.get(3..)).map(str::to_owned).collect()
-}
-
 fn prove(names: &[&str]) {
     let outcome = tool(&[names, &["--prove"]].concat());
     assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
@@ -49,7 +40,7 @@ fn prove(names: &[&str]) {
 fn exercises_are_unsolved_before_their_solution_and_solved_after() {
     let all = exercises();
     let chapter = |name: &str| name.split_once('.').expect("a point").0.to_owned();
-    let changed = changed();
+    let changed = ::run::changed();
     let edited = |name: &str| {
         let shaders = format!("shaders/{}_", chapter(name));
         let own = format!("docs/exercises/{name}.diff");

@@ -275,6 +275,15 @@ pub fn chapters_on_the_framework() -> Vec<String> {
     names
 }
 
+/// The files, from the root, that differ from the last commit: of sweeps, plain tests hold one member of each
+/// kind, and all that was edited. None where there is no git.
+pub fn changed() -> Vec<String> {
+    let output = Command::new("git").args(["status", "--porcelain"]).current_dir(root()).output();
+    let text = output.map_or_else(|_| Vec::new(), |output| output.stdout);
+    let text = String::from_utf8_lossy(&text);
+    text.lines().filter_map(|line| line.get(3..)).map(str::to_owned).collect()
+}
+
 /// The project's root.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("tests/run lies in it").into()

@@ -193,6 +193,7 @@ fn no_self_hit_and_no_lost_occluder_where_the_set_is_far_away() {
 /// Vulkan promises of a sum one of two floats, not the nearest: twice the error that the bounds count an
 /// operation. What they count for the device's own test is larger, and makes up for it.
 #[test]
+#[ignore = "nightly: all rays of a setting by exact numbers; quick: leaving_a_surface::no_self_hit_and_no_lost_occluder_where_the_set_is_far_away"]
 fn the_bounds_hold_in_the_worst_arithmetic_that_conforms() {
     if !run::has_worst_arithmetic() {
         return;

@@ -56,6 +56,7 @@ fn queries_give_the_bits_of_the_pipeline_in_every_light() {
 
 /// The errors depend on an operation's operands alone: so both may only differ where their code does.
 #[test]
+#[ignore = "nightly: compiles for long; quick: ray_query::queries_give_the_bits_of_the_pipeline_in_every_light"]
 fn queries_give_the_bits_of_the_pipeline_in_the_worst_arithmetic() {
     if !has_worst_arithmetic() {
         return;

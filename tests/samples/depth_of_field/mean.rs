@@ -28,6 +28,7 @@ fn off(mean: &Picture, exact: &Picture) -> [f64; 2] {
 }
 
 #[test]
+#[ignore = "nightly: thousands of frames; quick: jitter_camera::mean::the_mean_on_the_device_is_this_recurrence"]
 fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
     const FRAMES: u32 = 4096;
     let size = "24x15";
@@ -57,6 +58,7 @@ fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
 }
 
 #[test]
+#[ignore = "nightly: thousands of frames; quick: depth_of_field::circle::a_light_is_spread_over_the_circle_of_confusion"]
 fn samples_buy_less_where_the_lens_blurs() {
     const COUNTS: [u32; 5] = [1, 4, 16, 64, 256];
     let mut table = Map::new();
