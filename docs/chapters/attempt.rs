@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Error, Result, bail};
-use patience::Limit;
 use common::app::Picture;
+use patience::Limit;
 
 use crate::edition::{Edition, Patched};
 use crate::exercise::{Exercise, Takes};

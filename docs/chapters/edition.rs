@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use patience::{ASLEEP, Limit};
 use common::files::Folder;
+use patience::{ASLEEP, Limit};
 
 use crate::child;
 use crate::patch::Patch;

@@ -118,7 +118,9 @@ pub fn check(project: &Project) -> Vec<Fault> {
                     format!("'{}' names no quick test", test.name),
                     "add `; quick: NAME`, or say `nightly only: `",
                 )),
-                None if ["nightly only: ", "by hand: ", "run by "].iter().any(|how| why.starts_with(how)) => {}
+                None if ["nightly only: ", "by hand: ", "run by "]
+                    .iter()
+                    .any(|how| why.starts_with(how)) => {}
                 None => faults.push(fault(
                     format!("'{}' is left out and does not say how it is run", test.name),
                     "begin with `nightly: `, `nightly only: `, `by hand: ` or `run by `",

@@ -4,9 +4,9 @@ use std::fs;
 use std::process::{Command, ExitStatus};
 
 use anyhow::Result;
-use patience::Limit;
 use common::app::Picture;
 use common::files::Folder;
+use patience::Limit;
 use serde_json::Value;
 
 use crate::child;

@@ -78,11 +78,14 @@ pub fn of(project: &Project, program: &str) -> Vec<Test> {
         let module = module.trim_end_matches("::mod");
         let module = if module == "main" { String::new() } else { format!("{module}::") };
         let text = project.read(file).unwrap_or_default();
-        for (head, body) in text.match_indices("#[test]").map(|(at, mark)| text.split_at(at + mark.len())) {
+        for (head, body) in
+            text.match_indices("#[test]").map(|(at, mark)| text.split_at(at + mark.len()))
+        {
             let Some((attributes, rest)) = body.split_once("fn ") else { continue };
             let Some((name, _)) = rest.split_once('(') else { continue };
             let line = head.lines().count();
-            let ignored = attributes.split_once("#[ignore = \"").and_then(|(_, why)| why.split_once('"'));
+            let ignored =
+                attributes.split_once("#[ignore = \"").and_then(|(_, why)| why.split_once('"'));
             let ignored = ignored.map(|(why, _)| why.to_owned());
             tests.push(Test { name: format!("{module}{name}"), ignored, file: file.clone(), line });
         }

@@ -5,12 +5,12 @@ use std::path::Path;
 use std::process::ExitStatus;
 
 use anyhow::{Context, Result, bail, ensure};
-use patience::Limit;
 use common::app::output::print;
 use common::files::Folder;
 use common::usage::Usage;
 use image::RgbImage;
 use panels::{Panel, sheet};
+use patience::Limit;
 
 use crate::child;
 use crate::crew;

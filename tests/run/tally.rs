@@ -19,8 +19,10 @@ extern "C" fn tell() {
     let Some((name, seconds)) = name().zip(seconds()) else { return };
     let folder = crate::root().join("target/spent");
     let file = folder.join(format!("{}.json", parent_id()));
-    let mut all: BTreeMap<String, f64> =
-        fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
+    let mut all: BTreeMap<String, f64> = fs::read(&file)
+        .ok()
+        .and_then(|text| serde_json::from_slice(&text).ok())
+        .unwrap_or_default();
     all.insert(name, seconds);
     if let Ok(text) = serde_json::to_vec(&all) {
         // Without the file there is no sum, and no test depends on it.

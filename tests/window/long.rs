@@ -5,6 +5,7 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use patience::{Limit, Work};
 use reference::random::Random;
 use run::layer::Layer;
 
@@ -167,8 +168,9 @@ fn controls_may_change_faster_than_pipelines_are_made() {
     environment.push(("CALLS", &calls));
     let desk = Desk::open(NAME, &arguments, &environment);
     let (mut random, mut clicks) = (Random(4), 0);
-    let start = Instant::now();
-    while start.elapsed() < Duration::from_secs(10) {
+    let (start, work) = (Instant::now(), Work::of_process(desk.id()));
+    let enough = Limit::worked(8);
+    while !enough.is_over(work, start) {
         // A switch of an effect, or beside it.
         let switch = (LIGHT_SHADOWS.0, 390 + random.below(270) as i16);
         desk.drag(switch, switch, 1);
