@@ -9,6 +9,7 @@ mod merge;
 mod mistakes;
 mod named;
 mod new;
+mod nightly;
 mod stale;
 mod survey;
 
