@@ -174,7 +174,7 @@ impl Attempt<'_> {
             heard |= matches!(expectation, Expectation::Validation(_));
         }
         let Some(status) = seen.status else {
-            let what = format!("the program does not end within {} s", LIMIT.as_secs());
+            let what = format!("the program does not end within {LIMIT}");
             return Ok(Some(what.into()));
         };
         if let (false, Some(message)) = (heard, seen.messages().first()) {

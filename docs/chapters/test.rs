@@ -77,7 +77,7 @@ pub fn of(project: &Project, program: &str) -> Vec<Test> {
         let module = file[folder.len() + 1..].trim_end_matches(".rs").replace('/', "::");
         let module = module.trim_end_matches("::mod");
         let module = if module == "main" { String::new() } else { format!("{module}::") };
-        let text = project.read(file).unwrap_or_default();
+        let text = project.read(&file).unwrap_or_default();
         for (head, body) in
             text.match_indices("#[test]").map(|(at, mark)| text.split_at(at + mark.len()))
         {

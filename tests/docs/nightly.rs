@@ -30,10 +30,16 @@ fn a_test_that_is_left_out_says_how_it_is_run() {
         assert_eq!(project(why).check(), "", "{why}");
     }
     for (why, line) in [
-        ("slow", "'basic::second' is left out and does not say how it is run; begin with `nightly: `"),
+        (
+            "slow",
+            "'basic::second' is left out and does not say how it is run; begin with `nightly: `",
+        ),
         ("nightly: minutes", "'basic::second' names no quick test; add `; quick: NAME`"),
         ("nightly: minutes; quick: basic::third", "no quick test 'basic::third'; correct its name"),
-        ("nightly: minutes; quick: basic::second", "no quick test 'basic::second'; correct its name"),
+        (
+            "nightly: minutes; quick: basic::second",
+            "no quick test 'basic::second'; correct its name",
+        ),
     ] {
         let found = project(why).check();
         let start = format!("{FILE}:6: {line}");
@@ -59,11 +65,18 @@ fn what_runs_at_night_is_listed_by_program() {
 fn a_night_runs_each_program_s_tests_and_fails_if_one_does() {
     let fixture = project("nightly only: minutes");
     let cargo = fixture.path("cargo");
-    for (code, end) in [(0, "samples: 1 tests, 0 s: passed\n"), (1, "samples: 1 tests, 0 s: FAILED\n")] {
+    for (code, end) in
+        [(0, "samples: 1 tests, 0 s: passed\n"), (1, "samples: 1 tests, 0 s: FAILED\n")]
+    {
         fs::write(&cargo, format!("#!/bin/sh\necho \"$@\"\nexit {code}\n")).expect("a script");
         fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("it may be run");
         let outcome = run(fixture.command(&["nightly"]).env("CARGO", &cargo));
         let asked = "test --test samples -- --ignored --exact basic::second\n";
-        assert_eq!((outcome.code, &*outcome.out), (code, &*format!("{asked}{end}")), "{}", outcome.err);
+        assert_eq!(
+            (outcome.code, &*outcome.out),
+            (code, &*format!("{asked}{end}")),
+            "{}",
+            outcome.err
+        );
     }
 }
