@@ -122,10 +122,20 @@ fn with_instance<R>(
     }
     .map_err(|error| anyhow!("no Vulkan loader ({error}): run ./setup, or install libvulkan"))?;
 
+    // Synchronization is checked, too, if the layer is told: by a setting of its own, or, where it is too old
+    // to have settings, by a feature.
+    let on = vk::TRUE;
+    let mut setting = vk::LayerSettingEXT::default()
+        .layer_name(VALIDATION)
+        .setting_name(c"validate_sync")
+        .ty(vk::LayerSettingTypeEXT::BOOL32);
+    (setting.value_count, setting.p_values) = (1, std::ptr::from_ref(&on).cast());
+    let settings = [setting];
+    let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
     let checks = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&checks);
     let layers = [VALIDATION.as_ptr()];
-    let extensions = [ext::debug_utils::NAME, ext::validation_features::NAME].map(CStr::as_ptr);
+    let mut extensions = [ext::debug_utils::NAME, ext::validation_features::NAME].map(CStr::as_ptr);
     let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
     let mut info = vk::InstanceCreateInfo::default().application_info(&application);
     if validate {
@@ -133,11 +143,19 @@ fn with_instance<R>(
         let installed = unsafe { entry.enumerate_instance_layer_properties()? };
         ensure!(
             installed.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION)),
-            "--validate needs {}, which is not installed: run ./setup",
+            "--validate needs {}, which is not installed: run ./setup (Windows: the Vulkan SDK)",
             VALIDATION.to_string_lossy()
         );
+        // SAFETY: the layer is installed.
+        let offered = unsafe { entry.enumerate_instance_extension_properties(Some(VALIDATION))? };
+        let name = ext::layer_settings::NAME;
+        if offered.iter().any(|offer| offer.extension_name_as_c_str() == Ok(name)) {
+            extensions[1] = name.as_ptr();
+            info = info.push_next(&mut settings);
+        } else {
+            info = info.push_next(&mut features);
+        }
         info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
-        info = info.push_next(&mut features);
     }
     // SAFETY: the names and structures that `info` points to outlive the call.
     let instance = unsafe { entry.create_instance(&info, None) }

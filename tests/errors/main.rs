@@ -3,6 +3,7 @@
 
 mod arguments;
 mod failures;
+mod hazards;
 #[cfg(target_os = "linux")]
 mod limits;
 mod machine;

@@ -4,7 +4,7 @@
 //! to that folder, and the tool stores it. `cargo chapters exercise` sets `EXERCISE`: what a reader changes
 //! gives other figures than the page's, and none is held.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use serde_json::{Value, json};
@@ -36,6 +36,16 @@ pub fn hold_compiled(name: &str, compiler: &str, generation: &str, values: Value
     settle(name, false, ("RADV".into(), format!("{compiler}, {generation}").into()), values);
 }
 
+/// Whether this device and its driver are those of stored figures.
+///
+/// For claims that hold of one driver, where Vulkan leaves the matter open: a test says why beside it, and
+/// holds of all others only what Vulkan promises.
+pub fn are_of_this_driver(name: &str) -> bool {
+    let stored = stored(name);
+    let (device, driver) = &*DEVICE;
+    stored["device"] == *device && stored["driver"] == *driver
+}
+
 /// Gives figures that differ from run to run, such as times: nothing is compared.
 pub fn give_timed(name: &str, values: Value) {
     if std::env::var_os("FIGURES").is_some() {
@@ -57,16 +67,28 @@ fn settle(name: &str, timed: bool, (device, driver): (Value, Value), values: Val
     if std::env::var_os("EXERCISE").is_some() {
         return;
     }
-    let file = root().join(format!("docs/figures/{name}.json"));
-    let renew = format!("run: cargo chapters measure {name}");
-    let text = std::fs::read_to_string(&file)
-        .unwrap_or_else(|error| panic!("no {}: {error}; {renew}", file.display()));
-    let stored: Value = serde_json::from_str(&text)
-        .unwrap_or_else(|error| panic!("{} is damaged: {error}; {renew}", file.display()));
+    let stored = stored(name);
     let others = [&stored["device"], &stored["driver"]] != [&given["device"], &given["driver"]];
     if others {
         println!("{name}: stored of {}, {}; here {values}", stored["device"], stored["driver"]);
         return;
     }
+    let (file, renew) = (file(name), renew(name));
     assert_eq!(stored["values"], values, "{name} is not what {} has; {renew}", file.display());
+}
+
+fn file(name: &str) -> PathBuf {
+    root().join(format!("docs/figures/{name}.json"))
+}
+
+fn renew(name: &str) -> String {
+    format!("run: cargo chapters measure {name}")
+}
+
+fn stored(name: &str) -> Value {
+    let (file, renew) = (file(name), renew(name));
+    let text = std::fs::read_to_string(&file)
+        .unwrap_or_else(|error| panic!("no {}: {error}; {renew}", file.display()));
+    serde_json::from_str(&text)
+        .unwrap_or_else(|error| panic!("{} is damaged: {error}; {renew}", file.display()))
 }

@@ -13,6 +13,8 @@ use crate::command;
 pub struct Layer {
     folder: TempDir,
     layers: String,
+    /// Whether the loader finds it before all others.
+    first: bool,
     variables: Vec<(&'static str, OsString)>,
 }
 
@@ -22,7 +24,7 @@ impl Layer {
     pub fn narrow(faults: &str) -> Self {
         // Validation holds the program to what it sees, without being asked.
         let layers = format!("VK_LAYER_KHRONOS_validation:{}", narrow::NAME);
-        Self::new("narrow", narrow::NAME, layers, vec![("NARROW", faults.into())])
+        Self::new("narrow", narrow::NAME, layers, false, vec![("NARROW", faults.into())])
     }
 
     /// A call that fails: `fault` names it in the words of `tests/errors/failing`; empty for none.
@@ -30,7 +32,7 @@ impl Layer {
         // Mesa's own layer, which sorts devices, crashes of some failures.
         let alone = ("NODEVICE_SELECT", "1".into());
         let variables = vec![("FAIL", fault.into()), alone];
-        Self::new("failing", failing::NAME, failing::NAME.to_owned(), variables)
+        Self::new("failing", failing::NAME, failing::NAME.to_owned(), true, variables)
     }
 
     /// How often a program under a failing layer called each function, from the file that it was told to leave,
@@ -48,6 +50,7 @@ impl Layer {
         library: &str,
         name: &str,
         layers: String,
+        first: bool,
         variables: Vec<(&'static str, OsString)>,
     ) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -67,7 +70,7 @@ impl Layer {
         let manifest = serde_json::json!({ "file_format_version": "1.2.0", "layer": layer });
         let file = place.join(library).with_extension("json");
         std::fs::write(file, manifest.to_string()).expect("a manifest");
-        Self { folder, layers, variables }
+        Self { folder, layers, first, variables }
     }
 
     /// A sample under that layer.
@@ -79,14 +82,19 @@ impl Layer {
 
     /// What a program's environment has to hold.
     ///
-    /// The order in which the layers are named is that in which they are called, and validation has to
-    /// come first. Loaders from 1.3.234 to 1.3.246 call them in the order in which they find them instead
-    /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so this one is also to be found last.
+    /// The order in which the layers are named is that in which they are called, before those that the
+    /// program asks for: validation sees what a failing layer lets through, and comes before a narrow device.
+    /// Loaders from 1.3.234 to 1.3.246 call them in the order in which they find them instead
+    /// (<https://github.com/KhronosGroup/Vulkan-Loader/pull/1170>), so that is made the same.
     pub fn environment(&self) -> Vec<(&'static str, OsString)> {
         let known = std::env::var_os("XDG_DATA_DIRS").filter(|folders| !folders.is_empty());
         let known = known.unwrap_or_else(|| "/usr/local/share:/usr/share".into());
         let own = std::iter::once(PathBuf::from(self.folder.path()));
-        let folders = std::env::join_paths(std::env::split_paths(&known).chain(own));
+        let known = std::env::split_paths(&known);
+        let folders = match self.first {
+            true => std::env::join_paths(own.chain(known)),
+            false => std::env::join_paths(known.chain(own)),
+        };
         let mut all = self.variables.clone();
         all.push(("XDG_DATA_DIRS", folders.expect("plain names")));
         all.push(("VK_INSTANCE_LAYERS", self.layers.clone().into()));

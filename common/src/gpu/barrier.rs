@@ -38,12 +38,13 @@ pub fn between_builds(gpu: &Gpu, cmd: vk::CommandBuffer) {
 
 /// A built acceleration structure becomes visible to rays.
 pub fn build_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    memory(
-        gpu,
-        cmd,
-        (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR),
-        (TRACE, Access::ACCELERATION_STRUCTURE_READ_KHR),
-    );
+    // Without ray queries no compute shader may be named as a reader (VUID-VkMemoryBarrier2-dstAccessMask-06256).
+    let tracers = match gpu.requirements.has_ray_query() {
+        true => TRACE,
+        false => Stage::RAY_TRACING_SHADER_KHR,
+    };
+    let written = (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR);
+    memory(gpu, cmd, written, (tracers, Access::ACCELERATION_STRUCTURE_READ_KHR));
 }
 
 /// What one trace wrote (an accumulation buffer, a list of hits) becomes visible to the next.

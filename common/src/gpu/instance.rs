@@ -1,12 +1,10 @@
 //! The Vulkan loader, and the instance that is made from it.
 
-use std::ffi::CStr;
-
 use anyhow::{Context, Result, anyhow};
 use ash::{Entry, Instance, ext, vk};
 use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
-use super::validation::{self, Messages};
+use super::validation::{self, Messages, Way};
 
 /// A window as its system knows it. It must outlive whatever is made from it.
 #[derive(Clone, Copy)]
@@ -66,11 +64,13 @@ pub fn create(
         .application_name(c"ray tracing")
         .api_version(vk::API_VERSION_1_3);
     let mut features =
-        vk::ValidationFeaturesEXT::default().enabled_validation_features(&validation::ENABLED);
+        vk::ValidationFeaturesEXT::default().enabled_validation_features(&validation::FEATURES);
+    let settings = validation::settings();
+    let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
     let mut messenger;
-    if messages.is_some() {
+    if let Some(messages) = messages {
         layers.push(validation::LAYER.as_ptr());
-        extensions.extend(validation::EXTENSIONS.map(CStr::as_ptr));
+        extensions.push(messages.way().extension().as_ptr());
     }
     let mut info = vk::InstanceCreateInfo::default()
         .application_info(&application)
@@ -78,7 +78,11 @@ pub fn create(
         .enabled_extension_names(&extensions);
     if let Some(messages) = messages {
         messenger = messages.messenger_info();
-        info = info.push_next(&mut features).push_next(&mut messenger);
+        info = match messages.way() {
+            Way::Settings => info.push_next(&mut settings),
+            Way::Features => info.push_next(&mut features),
+        };
+        info = info.push_next(&mut messenger);
     }
     // SAFETY: every name and structure of the chain lives until the call returns.
     let instance = unsafe { entry.create_instance(&info, None) };

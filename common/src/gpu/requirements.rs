@@ -138,6 +138,11 @@ impl Requirements {
         self
     }
 
+    /// Whether shaders may trace rays without a ray tracing pipeline.
+    pub fn has_ray_query(&self) -> bool {
+        self.list.iter().any(|requirement| requirement.extension == Some(khr::ray_query::NAME))
+    }
+
     /// Triangles that are drawn: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit
     /// floats, which the specification does not promise (it promises that or `X8_D24_UNORM_PACK32`).
     pub fn raster(mut self) -> Self {

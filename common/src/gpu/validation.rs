@@ -46,6 +46,8 @@ fn is_known_false(layer_version: u32, id_name: &str, text: &str) -> bool {
 #[derive(Default)]
 pub struct Messages {
     layer_version: u32,
+    /// How the layer is told what to check.
+    way: Way,
     kept: Mutex<Vec<String>>,
     seen: Mutex<HashSet<i32>>,
 }
@@ -67,11 +69,22 @@ impl Messages {
         else {
             bail!(
                 "--validate needs {}, which is not installed: run ./setup, or install your system's \
-                 Vulkan validation layers (Debian: vulkan-validationlayers)",
+                 Vulkan validation layers (Debian: vulkan-validationlayers; Windows: the Vulkan SDK)",
                 LAYER.to_string_lossy()
             );
         };
-        Ok(Arc::new(Self { layer_version: layer.spec_version, ..Self::default() }))
+        // SAFETY: as above; the layer has just been listed.
+        let offered = unsafe { entry.enumerate_instance_extension_properties(Some(LAYER))? };
+        let settings = offered
+            .iter()
+            .any(|offer| offer.extension_name_as_c_str() == Ok(ext::layer_settings::NAME));
+        let way = if settings { Way::Settings } else { Way::Features };
+        Ok(Arc::new(Self { layer_version: layer.spec_version, way, ..Self::default() }))
+    }
+
+    /// How the layer is told what to check.
+    pub fn way(&self) -> Way {
+        self.way
     }
 
     /// A messenger that reports to `self`, to chain into instance creation or to create alone.
@@ -95,7 +108,11 @@ impl Messages {
         if about_the_machine || is_known_false(self.layer_version, id_name, text) {
             return;
         }
-        let message = format!("{severity}: {text}");
+        // By its id a message is found in the specification and on the pages. Not every layer's text has it.
+        let message = match text.contains(id_name) {
+            true => format!("{severity}: {text}"),
+            false => format!("{severity}: [ {id_name} ] {text}"),
+        };
         let mut seen = self.seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if seen.insert(id) {
             // A panic may not leave a callback, and `eprintln!` panics where nobody listens.
@@ -105,11 +122,40 @@ impl Messages {
     }
 }
 
-/// The instance extensions that validation adds.
-pub const EXTENSIONS: [&CStr; 1] = [ext::validation_features::NAME];
+/// How the layer is told to check synchronization, too, on top of its defaults.
+#[derive(Clone, Copy, Default)]
+pub enum Way {
+    /// `VK_EXT_layer_settings`: a setting of the layer's own.
+    Settings,
+    /// `VK_EXT_validation_features`: all that old layers have, and what new ones may drop.
+    #[default]
+    Features,
+}
 
-/// What the layer shall check: synchronization validation on top of its defaults.
-pub const ENABLED: [vk::ValidationFeatureEnableEXT; 1] =
+impl Way {
+    /// The instance extension that it takes.
+    pub fn extension(self) -> &'static CStr {
+        match self {
+            Self::Settings => ext::layer_settings::NAME,
+            Self::Features => ext::validation_features::NAME,
+        }
+    }
+}
+
+/// What [`Way::Settings`] takes: the layer's setting for synchronization validation, on.
+pub fn settings() -> [vk::LayerSettingEXT<'static>; 1] {
+    const ON: vk::Bool32 = vk::TRUE;
+    let mut setting = vk::LayerSettingEXT::default()
+        .layer_name(LAYER)
+        .setting_name(c"validate_sync")
+        .ty(vk::LayerSettingTypeEXT::BOOL32);
+    // One value: ash would count its bytes.
+    (setting.value_count, setting.p_values) = (1, std::ptr::from_ref(&ON).cast());
+    [setting]
+}
+
+/// What [`Way::Features`] takes.
+pub const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
     [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
 
 unsafe extern "system" fn on_message(

@@ -3,12 +3,14 @@
 //! - `FAIL=vkQueueSubmit2:3:-4`: the third call of that function does nothing and returns that `VkResult`;
 //!   with `3+`, every call from the third on; with a file's path, the next call after the file was made.
 //!   `vkMapMemory:1:0` succeeds, and gives `MAP_FAILED`, as a driver may where address space is short.
+//! - `FAIL=vkCmdCopyImageToBuffer`: each such copy is made twice, with nothing between.
 //! - `CALLS=FILE`: when the instance is destroyed, the file gets a line for each function that may fail and
 //!   was called: its name, and how often.
 //!
 //! It says nothing of functions that cannot fail, and nothing of those that need no instance.
 
 mod calls;
+mod twice;
 
 use std::ffi::{c_char, c_void};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -69,7 +71,11 @@ unsafe extern "system" fn of_device(
             return layer::function(of_device as *const c_void);
         }
         let next = *BELOW_DEVICE.lock().unwrap_or_else(PoisonError::into_inner);
-        next.and_then(|next| calls::over(name, next(device, name)))
+        let below = next.and_then(|next| next(device, name));
+        match layer::text(name) {
+            twice::NAME => twice::over(below),
+            _ => calls::over(name, below),
+        }
     }
 }
 

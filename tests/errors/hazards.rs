@@ -1,0 +1,19 @@
+//! Synchronization validation is on, whatever layer is installed and however it wants to be told.
+
+use run::layer::Layer;
+
+/// 01 makes an instance of its own, and 02 that of all others.
+#[test]
+fn a_copy_made_twice_with_nothing_between_is_a_hazard() {
+    let layer = Layer::failing("vkCmdCopyImageToBuffer");
+    for name in ["01_foundation", super::SAMPLE] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut command = layer.command(name);
+        command.args(["--headless", "--validate", "--size", "8x8", "--out"]);
+        let output =
+            command.arg(folder.path().join("out.png")).output().expect("the sample starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{name}: {errors}");
+        assert!(errors.contains("WRITE_AFTER_WRITE"), "{name}: {errors}");
+    }
+}
