@@ -7,7 +7,7 @@ pub mod equations;
 use common::app::Picture;
 use serde_json::{Map, json};
 
-use run::{bits, compiled_for, figures, golden, render};
+use run::{bits, compiled_for, figures, flip, golden, render};
 
 const NAME: &str = "27_glass";
 /// The relative error of one rounding to f32.
@@ -26,20 +26,29 @@ fn mean(picture: &Picture) -> f64 {
     picture.pixels.iter().map(sum).sum::<f64>() / (3 * picture.pixels.len()) as f64
 }
 
+/// How far a picture of so many frames may be from the golden one.
+fn tolerance(own: &Picture, frames: u32, sets: &[&str]) -> f32 {
+    if figures::are_of_this_driver("27_glass/left_out") {
+        return 0.002; // set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit
+    }
+    // Where another driver rounds otherwise, one path of a hundred goes elsewhere at each of some twenty walls
+    // of glass, and is then as far from its own way as with other random numbers (`worst.rs`).
+    let drawn_anew = picture("160x100", frames, &[sets, &["seed=1"]].concat());
+    0.01 * 20.0 * flip(own, &drawn_anew).0
+}
+
 #[test]
 fn the_picture_is_the_golden_one_and_repeats() {
     let [first, second] = [0, 1].map(|_| picture("160x100", 8, &[]));
     assert_eq!(bits(&first), bits(&second));
-    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
-    golden(NAME, &first, 0.002);
+    golden(NAME, &first, tolerance(&first, 8, &[]));
 }
 
 #[test]
 fn the_pane_is_the_golden_one() {
     // Its upper edge lies before the sky, and below it the sky is mirrored.
     let pane = picture("160x100", 64, &["scene=pane"]);
-    // As above.
-    golden("27_glass_pane", &pane, 0.002);
+    golden("27_glass_pane", &pane, tolerance(&pane, 64, &["scene=pane"]));
 }
 
 #[test]
@@ -90,7 +99,10 @@ fn what_depth_and_minimum_contribution_leave_out() {
         last = missing;
         table.insert(format!("depth_{depth}"), json!(missing));
     }
-    assert!(last < 1e-3, "depth 32 leaves out {last}");
+    // A path that is as long, and as bright as the clamp lets it be, is rare: none here with Mesa 25.0.7, two
+    // with 26.2.6, whose paths are others. If two are usual, one run in 4,000 has more than eight.
+    let bright_path = 20.0 / f64::from(96 * 60 * 16) / all;
+    assert!(last < 1e-3 + 8.0 * bright_path, "depth 32 leaves out {last}");
     last = 0.0;
     for part in ["0.001", "0.01", "0.1"] {
         let missing = 1.0

