@@ -117,33 +117,33 @@ bool holds(SolidRecord solid, uint members) {
 // ANCHOR_END: holds
 
 // ANCHOR: contains
-// Whether a solid holds a point: the same program, asked about a point.
-bool contains(SolidRecord solid, vec3 point) {
-    uint members = 0;
-    bool kept = true;
-    for (uint i = 0; i <= solid.part_count; i++) {
-        bool is_clip = i == solid.part_count;
-        if (is_clip && solid.clip == NO_CLIP) {
-            break;
-        }
-        Part part = push.solids.parts.at[is_clip ? solid.clip : solid.first_part + i];
-        bool within = true;
-        for (uint j = part.first_face; j < part.first_face + part.face_count && within; j++) {
-            Face face = push.solids.faces.at[j];
-            if (face.kind == FACE_BALL) {
-                Ball ball = push.solids.balls.at[face.index];
-                within = distance(point, ball.center) < ball.radius;
-            } else {
-                within = is_inner(push.solids.planes.at[face.index], face.side, point);
-            }
-        }
-        if (is_clip) {
-            kept = within;
-        } else if (within) {
-            members |= 1u << i;
+// Whether a convex part holds a point: every one of its faces does.
+bool part_holds(Part part, vec3 point) {
+    bool within = true;
+    for (uint i = part.first_face; i < part.first_face + part.face_count && within; i++) {
+        Face face = push.solids.faces.at[i];
+        if (face.kind == FACE_BALL) {
+            Ball ball = push.solids.balls.at[face.index];
+            within = distance(point, ball.center) < ball.radius;
+        } else {
+            within = is_inner(push.solids.planes.at[face.index], face.side, point);
         }
     }
-    return kept && holds(solid, members);
+    return within;
+}
+
+// Whether a solid holds a point: the same program, asked about a point.
+bool contains(SolidRecord solid, vec3 point) {
+    // Apart from the loop below: where one loop took the clip or a part, Mesa 26.2.6 crashed.
+    if (solid.clip != NO_CLIP && !part_holds(push.solids.parts.at[solid.clip], point)) {
+        return false;
+    }
+    uint members = 0;
+    for (uint i = 0; i < solid.part_count; i++) {
+        bool within = part_holds(push.solids.parts.at[solid.first_part + i], point);
+        members |= within ? 1u << i : 0u;
+    }
+    return holds(solid, members);
 }
 // ANCHOR_END: contains
 
