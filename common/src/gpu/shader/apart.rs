@@ -54,7 +54,7 @@ pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec
     let words = child::ask(child::command()?.arg(ASKED), &question).map_err(|error| match error
         .downcast_ref()
     {
-        Some(Crashed(status)) if is_late(*status) => {
+        Some(Crashed { status, .. }) if is_late(*status) => {
             anyhow!("shader '{path}' does not compile: the compiler takes more than {SECONDS} s")
         }
         Some(crashed) => anyhow!("shader '{path}' does not compile: {crashed}"),

@@ -1,7 +1,9 @@
-//! A GPU's compiler without the GPU: Mesa's RADV on a device that is not there.
+//! A GPU's own compiler without the GPU: Mesa's RADV on a card that is not there.
 //!
-//! With `RADV_FORCE_FAMILY` in the environment RADV shows a "Null hardware" device of that family. Nothing
-//! runs on it, and it has neither memory nor images; but it compiles pipelines, and tells what it made.
+//! Mesa's `drm-shim` takes the place of the kernel's driver: preloaded, it shows RADV a card of whatever family
+//! `AMDGPU_GPU_ID` names, with all that such a card has. What is submitted to it is never executed. Mesa before
+//! 26 has another way for compilers alone: with `RADV_FORCE_FAMILY` RADV shows "Null hardware" of that family,
+//! without memory or images.
 
 use anyhow::{Context, Result, ensure};
 use ash::{Device, khr, vk};
@@ -12,7 +14,7 @@ use super::instance;
 use super::requirements::Requirements;
 use super::{Executable, TextureTable, device, load};
 
-/// What a null device's driver has to say.
+/// What an absent card's driver has to say.
 #[derive(Serialize, Deserialize)]
 pub struct Answer {
     /// The driver's name and version.
@@ -21,23 +23,30 @@ pub struct Answer {
     pub pipelines: Vec<Vec<Executable>>,
 }
 
-/// What the null device makes of each pipeline.
+/// What RADV makes of each pipeline for a family, by RADV's name for it; `None` if there is no such card.
 ///
-/// To be called in a process of its own, whose environment has `RADV_FORCE_FAMILY`: the variable hides
-/// every AMD GPU that is there.
+/// To be called in a process of its own, whose environment brings the card: it may crash, and may hide the
+/// cards that are there. Mesa keeps what it has compiled, with its figures, for the next time.
 ///
 /// # Errors
-/// If there is no such device, if it lacks what the sample needs, or if its compiler refuses.
-pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<Answer> {
+/// If the card lacks what the sample needs, or if its compiler refuses.
+pub fn compile(
+    requirements: &Requirements,
+    family: &str,
+    blueprints: &[Blueprint],
+) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let entry = load()?;
     let (instance, _) = instance::create(&entry, None, None)?;
     let result = (|| {
-        let found = device::candidates(&instance, &requirements)?;
-        let null = found.into_iter().find(|candidate| candidate.name.starts_with("Null hardware"));
-        let null = null.context("Mesa's RADV shows no null device")?;
-        ensure!(null.missing.is_empty(), "it lacks {}", null.missing.join(", "));
-        let device = device::create(&instance, &null, &requirements)?;
+        // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".
+        let name = format!("(RADV {})", family.to_uppercase());
+        let mut found = device::candidates(&instance, &requirements)?.into_iter();
+        let Some(card) = found.find(|candidate| candidate.name.ends_with(&name)) else {
+            return Ok(None);
+        };
+        ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
+        let device = device::create(&instance, &card, &requirements)?;
         let ray_tracing_pipeline = khr::ray_tracing_pipeline::Device::new(&instance, &device);
         let properties = khr::pipeline_executable_properties::Device::new(&instance, &device);
         let pipelines: Result<_> = blueprints
@@ -46,7 +55,7 @@ pub fn compile(requirements: &Requirements, blueprints: &[Blueprint]) -> Result<
             .collect();
         // SAFETY: nothing made from the device is left.
         unsafe { device.destroy_device(None) };
-        Ok(Answer { compiler: null.driver, pipelines: pipelines? })
+        Ok(Some(Answer { compiler: card.driver, pipelines: pipelines? }))
     })();
     // SAFETY: nothing made from the instance is left.
     unsafe { instance.destroy_instance(None) };
