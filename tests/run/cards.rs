@@ -1,0 +1,97 @@
+//! Radeon cards that are not there, and their whole driver: Mesa's RADV over Mesa's drm-shim.
+//!
+//! Limits, memory, images, builds and traces are the card's. What is submitted is never executed: what such a
+//! card has drawn is nothing, and is compared with nothing.
+
+use std::ffi::OsString;
+use std::process::{Command, Output};
+
+use common::app::compile_for::{manifest, ways};
+use serde_json::Value;
+
+use crate::command;
+
+/// What RADV and the shim say on standard error of their own accord.
+const NOISE: [&str; 3] =
+    ["DRM_IOCTL_GET_CAP: unhandled", "radv/amdgpu:", "WARNING: radv is not a conformant"];
+
+/// A card, by the shim's name for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Card(pub &'static str);
+
+impl Card {
+    /// What a program's environment has to hold to find this card alone; `None`, and a line, where there is
+    /// no shim.
+    pub fn environment(self) -> Option<Vec<(&'static str, OsString)>> {
+        let [mut variables, _] = ways(self.0);
+        // The linker itself says whether it finds the library.
+        let linker = Command::new("true").envs(variables.clone()).output().expect("`true` starts");
+        let manifest = match manifest() {
+            Ok(manifest) if linker.stderr.is_empty() => manifest,
+            _ => {
+                println!("not tried: no card can be had without mesa-drm-shim and RADV");
+                return None;
+            }
+        };
+        variables.push(("VK_DRIVER_FILES", manifest.into()));
+        Some(variables)
+    }
+
+    /// The same with the software driver beside it, as on a machine that has both.
+    pub fn beside_software(self) -> Option<Vec<(&'static str, OsString)>> {
+        let mut variables = self.environment()?;
+        let radv = &mut variables.last_mut().expect("the driver's manifest").1;
+        let folder = std::path::Path::new(radv).parent().expect("it lies in a folder").to_owned();
+        let name = |file: &OsString| file.to_string_lossy().starts_with("lvp_icd.");
+        let mut files = folder.read_dir().expect("a folder of manifests").map(|file| file.unwrap());
+        let software = files.find(|file| name(&file.file_name())).expect("run ./setup").path();
+        let both = [std::path::PathBuf::from(&*radv), software];
+        *radv = std::env::join_paths(both).expect("plain names");
+        Some(variables)
+    }
+
+    /// Whether the shim that is here knows the card; if not, a line.
+    pub fn is_known(self) -> bool {
+        let Some(mut command) = self.command("02_basic") else { return false };
+        let output = command.arg("--list-devices").output().expect("it starts");
+        let known = !String::from_utf8_lossy(&output.stderr).contains("Failed to find amdgpu GPU");
+        if !known {
+            println!("not tried: the shim that is here has no {}", self.0);
+        }
+        known
+    }
+
+    /// A sample's command with this card alone.
+    pub fn command(self, name: &str) -> Option<Command> {
+        let mut command = command(name);
+        command.envs(self.environment()?);
+        Some(command)
+    }
+}
+
+/// What a program has said on standard error, without what the driver and the shim say.
+pub fn said(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr);
+    let own = text.lines().filter(|line| NOISE.iter().all(|noise| !line.starts_with(noise)));
+    own.collect::<Vec<_>>().join("\n")
+}
+
+/// The report of a run that must have succeeded without a word, with `--report -`.
+#[track_caller]
+pub fn report(what: &str, output: &Output) -> Value {
+    assert!(output.status.success(), "{what}: {}", said(output));
+    assert_eq!(said(output), "", "{what} is not silent");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    assert_eq!(report["validation_messages"], serde_json::json!([]), "{what}");
+    report
+}
+
+/// The exit code and the one line of a run that must have failed.
+#[track_caller]
+pub fn refusal(output: &Output) -> (i32, String) {
+    let line = said(output);
+    assert!(!output.status.success(), "accepted");
+    assert_eq!(line.lines().count(), 1, "more than one line: {line}");
+    assert!(line.starts_with("error: "), "{line}");
+    (output.status.code().unwrap_or_else(|| panic!("killed: {line}")), line)
+}
