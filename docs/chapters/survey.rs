@@ -3,6 +3,8 @@
 //! A chapter that fails, crashes, loses the device or does not end is a line of the card; the others still
 //! run. Nothing is written before all have.
 
+use std::error::Error;
+use std::fmt::{Display, Formatter};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -28,6 +30,25 @@ pub const TIMED: &str = "480x300";
 
 /// How a program says that there is no device at all.
 const NO_DRIVER: &str = "no Vulkan driver";
+
+/// A device that executes nothing, as a stand-in for a card does: whatever its card would say were false.
+#[derive(Debug)]
+struct Idle {
+    device: String,
+    chapter: String,
+}
+
+impl Display for Idle {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { device, chapter } = self;
+        write!(
+            f,
+            "{device} executes nothing: {chapter} took no time and every pixel is zero; there is nothing to judge"
+        )
+    }
+}
+
+impl Error for Idle {}
 
 /// A survey of one device.
 pub struct Survey<'a> {
@@ -63,8 +84,8 @@ impl Survey<'_> {
     /// Runs everything, says so a line a chapter, and writes the card to a folder.
     ///
     /// # Errors
-    /// If there is no device, the card cannot be written, a signal asks for the end, or a chapter fails: then the
-    /// line says where the card is.
+    /// If there is no device, it executes nothing, the card cannot be written, a signal asks for the end, or a
+    /// chapter fails: then the line says where the card is.
     pub fn run(&self, out: &Path) -> Result<()> {
         stop::on_signal();
         let cannot = || format!("cannot write to '{}'", out.display());
@@ -89,7 +110,7 @@ impl Survey<'_> {
             ..Card::default()
         };
         for chapter in &self.project.chapters {
-            let line = self.chapter(chapter, folder.path(), &mut card);
+            let line = self.chapter(chapter, folder.path(), &mut card)?;
             stop::asked()?;
             let told = match (&line.failed, line.milliseconds) {
                 (Some(why), _) => why.clone(),
@@ -188,11 +209,18 @@ impl Survey<'_> {
     }
 
     /// One chapter: its golden picture under validation, its time, and what compilers say.
-    fn chapter(&self, chapter: &Chapter, folder: &Path, card: &mut Card) -> card::Chapter {
+    ///
+    /// # Errors
+    /// If the device executes nothing.
+    fn chapter(&self, chapter: &Chapter, folder: &Path, card: &mut Card) -> Result<card::Chapter> {
         let mut line = card::Chapter { name: chapter.name.clone(), ..card::Chapter::default() };
-        line.failed =
-            self.try_chapter(chapter, folder, card, &mut line).err().map(|error| told(&error));
-        line
+        if let Err(error) = self.try_chapter(chapter, folder, card, &mut line) {
+            if error.is::<Idle>() {
+                return Err(error);
+            }
+            line.failed = Some(told(&error));
+        }
+        Ok(line)
     }
 
     fn try_chapter(
@@ -237,6 +265,10 @@ impl Survey<'_> {
         line.validation_messages = said["validation_messages"].as_array().map_or(0, Vec::len);
         result?;
         let shown = image::open(&picture).context("it has written no picture")?.to_rgb8();
+        if shown.iter().all(|channel| *channel == 0) && said["gpu_milliseconds"]["max"] == 0.0 {
+            let device = said["device"].as_str().unwrap_or("this device").to_owned();
+            bail!(Idle { device, chapter: chapter.name.clone() });
+        }
         let mean = flip::mean((width, height), &golden, &shown);
         line.mean_flip = Some(mean);
         run(false, &["--frames", "9", "--compiler-figures"], TIMED)

@@ -156,6 +156,24 @@ fn a_missing_driver_is_told_once_before_anything_runs() {
     assert!(cards.path().read_dir().expect("a folder").next().is_none());
 }
 
+/// A Radeon that is not there has a whole driver, which passes everything but the look at its pictures.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_that_executes_nothing_is_told_once_and_gets_no_card() {
+    let Some(card) = run::cards::Card("navi31").environment() else { return };
+    let (project, programs) = (project(), programs(&[]));
+    let tool = programs.path().join("chapters");
+    let cards = tempfile::tempdir().expect("a temporary folder");
+    let mut command = Command::new(tool);
+    command.arg("survey").arg("--out").arg(cards.path()).arg("--root").arg(project.path(""));
+    let outcome = run(command.envs(card));
+    assert_eq!(outcome.code, 1, "{}{}", outcome.out, outcome.err);
+    let line = "error: AMD Radeon RX 7900 XTX (RADV NAVI31) executes nothing: 01_one took no time";
+    assert!(outcome.err.starts_with(line), "{}", outcome.err);
+    assert_eq!(outcome.err.lines().count(), 1, "{}", outcome.err);
+    assert!(cards.path().read_dir().expect("a folder").next().is_none());
+}
+
 #[test]
 fn without_the_validation_layer_pictures_are_still_held_to_golden_ones() {
     let (project, programs) = (project(), programs(&[]));

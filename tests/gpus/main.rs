@@ -1,6 +1,9 @@
-//! GPUs that are not here: what their compilers make of the chapters, and the narrowest that Vulkan allows.
+//! GPUs that are not here: cards whose drivers are, what their compilers make of the chapters, and the narrowest
+//! device that Vulkan allows.
 
 mod budgets;
+#[cfg(target_os = "linux")]
+mod cards;
 #[cfg(target_os = "linux")]
 mod choice;
 #[cfg(target_os = "linux")]
