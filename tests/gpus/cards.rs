@@ -65,7 +65,7 @@ fn every_chapter_runs_on_a_radeon_that_is_not_there() {
 }
 
 #[test]
-#[ignore = "a quarter of a minute for each card; every_chapter_runs_on_a_radeon_that_is_not_there takes one"]
+#[ignore = "nightly: each card; quick: cards::every_chapter_runs_on_a_radeon_that_is_not_there"]
 fn every_chapter_runs_on_every_card_that_the_shim_has() {
     OTHERS.into_iter().filter(|card| card.is_known()).for_each(runs_all);
 }
@@ -77,7 +77,7 @@ fn each_view_of_a_chapter_runs_there_too() {
 }
 
 #[test]
-#[ignore = "140 runs; each_view_of_a_chapter_runs_there_too takes one chapter"]
+#[ignore = "nightly: 140 runs; quick: cards::each_view_of_a_chapter_runs_there_too"]
 fn each_view_and_preset_of_every_chapter_runs_there_too() {
     chapters().iter().for_each(|sample| shows_all(sample));
 }

@@ -178,7 +178,7 @@ fn what_vulkan_does_not_promise_is_not_counted_on() {
 }
 
 #[test]
-#[ignore = "takes many minutes; of its seeds and equalities what_vulkan_does_not_promise_is_not_counted_on tries some"]
+#[ignore = "nightly: eight seeds; quick: equalities::what_vulkan_does_not_promise_is_not_counted_on"]
 fn nor_is_it_with_eight_seeds() {
     let only = std::env::var("CHAPTERS").unwrap_or_default();
     let is_wanted = |chapter: &str| only.is_empty() || only.contains(&chapter[..2]);

@@ -102,7 +102,8 @@ fn what_depth_and_minimum_contribution_leave_out() {
     // A path that is as long, and as bright as the clamp lets it be, is rare: none here with Mesa 25.0.7, two
     // with 26.2.6, whose paths are others. If two are usual, one run in 4,000 has more than eight.
     let bright_path = 20.0 / f64::from(96 * 60 * 16) / all;
-    assert!(last < 1e-3 + 8.0 * bright_path, "depth 32 leaves out {last}");
+    let paths = if figures::are_of_this_driver("27_glass/left_out") { 0.0 } else { 8.0 };
+    assert!(last < 1e-3 + paths * bright_path, "depth 32 leaves out {last}");
     last = 0.0;
     for part in ["0.001", "0.01", "0.1"] {
         let missing = 1.0

@@ -297,7 +297,8 @@ fn failed(output: Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), errors.lines().count()), (Some(1), 1), "{errors}");
     println!("{errors}");
-    let is_told = ["error: the window system", "X connection to"];
+    let is_told =
+        ["error: the window system", "error: cannot draw to the window", "X connection to"];
     assert!(is_told.iter().any(|words| errors.starts_with(words)), "{errors}");
     assert!(!run::MISTAKES.iter().any(|mistake| errors.contains(mistake)), "{errors}");
 }

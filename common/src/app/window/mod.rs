@@ -86,8 +86,9 @@ fn no_display() -> Error {
 /// `RUST_LOG=common=debug` tells of every frame, `info` of the longest wait; without it all is silent.
 fn log_if_asked() {
     use tracing_subscriber::{filter::Targets, fmt, prelude::*};
-    let asked = std::env::var("RUST_LOG").unwrap_or_default();
-    let Ok(targets) = asked.parse::<Targets>() else { return };
+    // An empty text would ask for the errors of all, and winit tells one in seven lines.
+    let asked = std::env::var("RUST_LOG").ok().filter(|asked| !asked.is_empty());
+    let Some(Ok(targets)) = asked.map(|asked| asked.parse::<Targets>()) else { return };
     let layer = fmt::layer().with_ansi(false).with_writer(std::io::stderr);
     // A program that has set up its own keeps it.
     let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();

@@ -20,7 +20,7 @@ fn status(name: &str) -> u64 {
 }
 
 #[test]
-#[ignore = "what the others start"]
+#[ignore = "run by the others"]
 fn reads_a_scene() {
     let path = std::env::var_os(FILE).unwrap();
     let before = status("VmRSS");
