@@ -72,7 +72,10 @@ pub fn program(name: &str) -> PathBuf {
     // This test lies in target/debug/deps.
     let test = std::env::current_exe().expect("a test has a file");
     let folder = test.parent().and_then(Path::parent).expect("it lies in a folder of Cargo's");
-    if !built.contains(name) {
+    let file = folder.join(name).with_extension(std::env::consts::EXE_EXTENSION);
+    // `cargo test` builds all programs before it runs a test. To ask Cargo for one of them alone would compile
+    // dependencies anew, without what tests ask of them.
+    if !built.contains(name) && !is_current(&file) {
         let profile = match folder.file_name() {
             Some(debug) if debug == "debug" => "dev",
             other => other.and_then(|name| name.to_str()).expect("a profile's name"),
@@ -82,9 +85,21 @@ pub fn program(name: &str) -> PathBuf {
             .current_dir(root())
             .status();
         assert!(cargo.expect("cargo starts").success(), "{name} does not build");
-        built.insert(name.to_owned());
     }
-    folder.join(name).with_extension(std::env::consts::EXE_EXTENSION)
+    built.insert(name.to_owned());
+    file
+}
+
+/// Whether a program is there, and no older than any of its sources, which Cargo lists beside it.
+fn is_current(program: &Path) -> bool {
+    let modified = |path: &Path| std::fs::metadata(path).and_then(|file| file.modified()).ok();
+    let list = std::fs::read_to_string(program.with_extension("d")).unwrap_or_default();
+    let (Some(built), Some((_, sources))) = (modified(program), list.split_once(": ")) else {
+        return false;
+    };
+    let names = sources.replace("\\ ", "\0");
+    let mut names = names.split_whitespace().map(|name| PathBuf::from(name.replace('\0', " ")));
+    names.all(|source| modified(&source).is_some_and(|changed| changed <= built))
 }
 
 /// Renders headless under validation; a failure or a message is a failed test.
