@@ -119,8 +119,8 @@ fn the_naive_way_does_depend_on_the_order() {
     let unordered = hits(&["--set", "mode=naive random", "--unordered"]);
     let (_, others) = differences(&ordered, &unordered);
     println!("{others} pixels differ");
-    // The order of the candidates is the driver's choice. Mesa 25.0.7 keeps that of the build; 26.2.6 sorts
-    // the triangles itself, and builds the same of both.
+    // The order of the candidates is the driver's choice. Mesa 25.0.7 keeps that of the build; with 26.2.6
+    // both builds answer the same.
     if figures::are_of_this_driver("03_any_hit/ties") {
         assert!(others > ordered.pixels.len() / 100, "only {others} pixels differ");
     }
