@@ -75,7 +75,7 @@ pub fn program(name: &str) -> PathBuf {
     let file = folder.join(name).with_extension(std::env::consts::EXE_EXTENSION);
     // `cargo test` builds all programs before it runs a test. To ask Cargo for one of them alone would compile
     // dependencies anew, without what tests ask of them.
-    if !built.contains(name) && !is_current(&file) {
+    if !built.contains(name) && !is_current(&file, name) {
         let profile = match folder.file_name() {
             Some(debug) if debug == "debug" => "dev",
             other => other.and_then(|name| name.to_str()).expect("a profile's name"),
@@ -90,16 +90,28 @@ pub fn program(name: &str) -> PathBuf {
     file
 }
 
-/// Whether a program is there, and no older than any of its sources, which Cargo lists beside it.
-fn is_current(program: &Path) -> bool {
+/// Whether a program is there, and no older than what it may be made of.
+///
+/// Cargo's own list of that is written beside a program by `cargo build` alone.
+fn is_current(program: &Path, name: &str) -> bool {
     let modified = |path: &Path| std::fs::metadata(path).and_then(|file| file.modified()).ok();
-    let list = std::fs::read_to_string(program.with_extension("d")).unwrap_or_default();
-    let (Some(built), Some((_, sources))) = (modified(program), list.split_once(": ")) else {
-        return false;
-    };
-    let names = sources.replace("\\ ", "\0");
-    let mut names = names.split_whitespace().map(|name| PathBuf::from(name.replace('\0', " ")));
-    names.all(|source| modified(&source).is_some_and(|changed| changed <= built))
+    let own = root().join("samples").join(name);
+    let own = if own.is_dir() { own } else { root().join("docs") };
+    let mut sources = vec![root().join("Cargo.lock")];
+    let mut folders = vec![root().join("common"), own];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            match path.extension().and_then(|extension| extension.to_str()) {
+                _ if path.is_dir() => folders.push(path),
+                Some("rs" | "toml") => sources.push(path),
+                _ => {}
+            }
+        }
+    }
+    modified(program).is_some_and(|built| {
+        sources.iter().all(|source| modified(source).is_some_and(|changed| changed <= built))
+    })
 }
 
 /// Renders headless under validation; a failure or a message is a failed test.
