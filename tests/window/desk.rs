@@ -1,7 +1,9 @@
 //! An X server without a screen, a sample's window on it, and a hand that types and drags.
 
 use std::ffi::OsString;
+use std::fs::File;
 use std::io::{BufRead, BufReader, IoSlice, Read};
+use std::os::fd::AsFd;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -90,6 +92,15 @@ impl Desk {
         cookie.reply().map_or_else(|_| String::new(), |p| String::from_utf8_lossy(&p.value).into())
     }
 
+    /// What a sample that ends by itself says of it.
+    fn last_words(&self) -> String {
+        let stderr = self.sample.as_ref().and_then(|sample| sample.stderr.as_ref());
+        let stderr = stderr.expect("piped").as_fd().try_clone_to_owned().expect("a descriptor");
+        let mut text = String::new();
+        File::from(stderr).read_to_string(&mut text).expect("it is text");
+        text
+    }
+
     fn errors(&mut self) -> String {
         let mut text = String::new();
         let stderr = self.sample.as_mut().and_then(|sample| sample.stderr.as_mut());
@@ -105,7 +116,9 @@ impl Desk {
 
     /// What the window shows.
     pub fn shown(&self) -> RgbImage {
-        let size = self.x.get_geometry(self.window).unwrap().reply().unwrap();
+        let Ok(size) = self.x.get_geometry(self.window).unwrap().reply() else {
+            panic!("the window is gone: {}", self.last_words())
+        };
         let (width, height) = (size.width, size.height);
         let format = ImageFormat::Z_PIXMAP;
         let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).unwrap();

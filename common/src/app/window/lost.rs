@@ -121,7 +121,7 @@ fn sheet(context: &Context, device: &str, error: &str) -> Choice {
 }
 
 fn said(ui: &mut Ui, device: &str, error: &str) -> Choice {
-    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 60.0));
+    ui.set_width((ui.ctx().content_rect().width() - 60.0).clamp(0.0, WIDTH));
     ui.label(RichText::new("The device was lost").heading());
     ui.label(RichText::new(device).small().color(style::DIM));
     ui.add_space(6.0);
@@ -174,6 +174,12 @@ mod tests {
         assert_eq!(chosen(|harness| harness.key_press(Key::Escape)), Choice::Leave);
         assert_eq!(chosen(|it| it.get_by_label("Go on  (Enter)").click()), Choice::GoOn);
         assert_eq!(chosen(|it| it.get_by_label("Quit  (Esc)").click()), Choice::Leave);
+    }
+
+    #[test]
+    fn a_window_may_be_smaller_than_the_sheet_s_margins() {
+        let harness = Harness::builder().with_size(vec2(1.0, 1.0));
+        harness.build_ui(|ui| _ = sheet(ui.ctx(), "a device", "an error")).run();
     }
 
     #[test]
