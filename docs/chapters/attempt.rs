@@ -13,10 +13,10 @@ use crate::edition::{Edition, Patched};
 use crate::exercise::{Exercise, Takes};
 use crate::expectation::{Expectation, Other};
 use crate::missed::Missed;
-use crate::picture::hash;
 use crate::program::Programs;
 use crate::project::Project;
 use crate::seen::Seen;
+use crate::sources::hash;
 use crate::step::{Run, Step, sized};
 
 /// How long a program may take.

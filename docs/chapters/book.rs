@@ -15,10 +15,11 @@ use crate::markdown::Markdown;
 use crate::measurement::{self, Measurement};
 use crate::mistake::Mistake;
 use crate::page::{Kind, Page};
-use crate::picture::{Picture, Sources};
+use crate::picture::Picture;
 use crate::program::Programs;
 use crate::project::{Project, README, SUMMARY};
 use crate::reference::Files;
+use crate::sources::Sources;
 use crate::stored::{self, Stored};
 use crate::trial::Trial;
 use crate::{agree, card, exercise, gallery, nightly, stray, taught, text, try_it};
@@ -72,7 +73,7 @@ impl<'a> Book<'a> {
         faults.extend(wrong);
         for mistake in &mistakes {
             faults.extend(mistake.patched(self.project).err());
-            faults.extend(mistake.stale(self.project, &mut sources));
+            faults.extend(mistake.stale(self.project));
             linked.insert(mistake.picture());
         }
         faults.extend(exercise::check(self.project));
@@ -357,11 +358,11 @@ impl<'a> Book<'a> {
         }
         for mistake in &mistakes {
             let wanted = match names {
-                [] => mistake.stale(self.project, &mut sources).is_some(),
+                [] => mistake.stale(self.project).is_some(),
                 _ => names.contains(&mistake.name),
             };
             if wanted {
-                match Trial::new(self.project, self.programs, mistake).render(&mut sources) {
+                match Trial::new(self.project, self.programs, mistake).render() {
                     Ok(device) => done(&mistake.picture(), &device),
                     Err(error) => faults.push(Fault::new(
                         mistake.file(),

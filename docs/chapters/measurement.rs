@@ -14,9 +14,9 @@ use crate::fault::Fault;
 use crate::given::{self, Given};
 use crate::laboratory;
 use crate::page::Page;
-use crate::picture::{self, Sources};
 use crate::program::Programs;
 use crate::project::{Chapter, Project};
+use crate::sources::{self, Sources};
 use crate::stored::{self, Stored};
 
 /// What makes the worst arithmetic that conforms; commands that use it have `worst` in them.
@@ -143,8 +143,8 @@ impl Measurement {
             files.extend(project.files(ARITHMETIC));
         }
         let chapter = chapter.map_or(String::new(), |chapter| sources.of(project, &chapter.name));
-        let test = picture::of_files(project, &files);
-        picture::hash([chapter.as_bytes(), test.as_bytes()])
+        let test = sources::of_files(project, &files);
+        sources::hash([chapter.as_bytes(), test.as_bytes()])
     }
 
     /// Why it is to be renewed, if it is.

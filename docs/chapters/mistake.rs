@@ -13,14 +13,12 @@ use common::usage::Usage;
 use crate::copy::file_on_the_way;
 use crate::fault::Fault;
 use crate::patch::{Field, Patch};
-use crate::picture::{self, Sources};
+use crate::picture;
 use crate::project::Project;
+use crate::sources;
 
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";
-
-/// The fields that only the page shows, as the title.
-const SENTENCES: [&str; 4] = ["Undefined:", "Cause:", "Find:", "Cure:"];
 
 /// What a file of a mistake looks like.
 const FORM: &str =
@@ -229,19 +227,16 @@ impl Mistake {
         }
     }
 
-    /// What its picture is made from, as a hash: the chapter and the patch, but for the sentences that no
-    /// picture shows.
-    pub fn sources(&self, project: &Project, sources: &mut Sources) -> String {
-        let chapter = sources.of(project, &self.chapter);
-        let is_sentence = |line: &&str| SENTENCES.iter().any(|key| line.starts_with(key));
-        let lines = self.patch.text.lines().skip(1).filter(|line| !is_sentence(line));
-        let shown: String = lines.map(|line| format!("{line}\n")).collect();
-        picture::hash([chapter.as_bytes(), shown.as_bytes()])
+    /// What its picture is made from, as a hash: the patched chapter.
+    pub fn sources(&self, project: &Project) -> String {
+        // A patch that does not fit is a fault of its own.
+        let changed = self.patch.patched_in(project).unwrap_or_default();
+        sources::of_chapter(project, &self.chapter, &changed)
     }
 
     /// What is out of date about its picture, if anything is.
-    pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<Fault> {
-        let hash = self.sources(project, sources);
+    pub fn stale(&self, project: &Project) -> Option<Fault> {
+        let hash = self.sources(project);
         let what = picture::stale(project, &self.picture(), &self.command(), &hash, "its patch")?;
         let remedy = format!("run: cargo chapters sync --pictures {}", self.name);
         Some(Fault::new(self.file(), 1, what, remedy))

@@ -17,8 +17,8 @@ use crate::fault::Fault;
 use crate::page::{Page, PictureMark};
 use crate::program::Programs;
 use crate::project::Project;
-use crate::shader;
 use crate::shot::Shot;
+use crate::sources::Sources;
 
 const COMMAND: &str = "Command";
 const SOURCES: &str = "Sources";
@@ -169,78 +169,6 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
     restamp(file, &[(COMMAND, command), (SOURCES, hash), (DEVICE, device)])
 }
 
-/// A hash of several parts, as text.
-pub fn hash(parts: [&[u8]; 2]) -> String {
-    format!("{:016x}", parts.into_iter().fold(FNV_OFFSET, fnv))
-}
-
-/// Hashes of what chapters' pictures are made from.
-#[derive(Default)]
-pub struct Sources(BTreeMap<String, String>);
-
-impl Sources {
-    /// The hash of a chapter's code, its shaders with all they include, and the world that it shows.
-    ///
-    /// Comments and blanks do not count, so that a better comment makes no picture stale.
-    pub fn of(&mut self, project: &Project, chapter: &str) -> String {
-        if let Some(known) = self.0.get(chapter) {
-            return known.clone();
-        }
-        let mut files = project.files(&format!("samples/{chapter}"));
-        let says = |word: &str| {
-            files.iter().any(|file| project.read(file).is_ok_and(|text| text.contains(word)))
-        };
-        // A chapter that opens scene files shows what they hold; to the others they are nothing.
-        let (scene, scene_files) = (says("common::scene"), says("Composition"));
-        if let Some(chapter) = project.chapters.iter().find(|known| known.name == chapter) {
-            files.extend(shader::own(project, chapter));
-            files.extend(shader::shared(project, chapter).into_keys());
-        }
-        if scene {
-            // Where the pieces stand and how the light falls is framework code.
-            files.extend(project.files("common/src/scene"));
-            let asset = |path: &String| {
-                path.matches('/').count() == 2
-                    || scene_files && path.starts_with("samples/assets/scenes/")
-            };
-            files.extend(project.files("samples/assets").into_iter().filter(asset));
-        }
-        // No picture shows what a unit test holds.
-        files.retain(|file| !file.ends_with("/tests.rs"));
-        let hash = of_files(project, &files);
-        self.0.insert(chapter.to_owned(), hash.clone());
-        hash
-    }
-}
-
-/// A hash of files, comments and blanks left out.
-pub fn of_files(project: &Project, files: &[String]) -> String {
-    let mut hash = FNV_OFFSET;
-    for file in files {
-        hash = fnv(hash, file.as_bytes());
-        match project.read(file) {
-            Ok(text) => hash = essential(&text).fold(hash, |hash, line| fnv(hash, line.as_bytes())),
-            Err(_) => hash = fnv(hash, &fs::read(project.root.join(file)).unwrap_or_default()),
-        }
-    }
-    format!("{hash:016x}")
-}
-
-/// The lines that have an effect: no comments, no unit tests.
-fn essential(text: &str) -> impl Iterator<Item = &str> {
-    let lines = text.lines().take_while(|line| *line != "#[cfg(test)]").map(str::trim);
-    lines.filter(|line| !line.is_empty() && !line.starts_with("//"))
-}
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo): the same on every system and with every version of Rust.
-const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-
-fn fnv(hash: u64, bytes: &[u8]) -> u64 {
-    // A byte that no text holds ends each part.
-    let bytes = bytes.iter().chain(&[0xff]);
-    bytes.fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
 /// What a PNG says about itself.
 fn stamp(file: &Path) -> Result<BTreeMap<String, String>> {
     let reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
@@ -272,21 +200,6 @@ fn restamp(file: &Path, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn comments_and_blanks_have_no_effect() {
-        let lines = |text| essential(text).map(str::to_owned).collect::<Vec<_>>();
-        let short = "a\nb // c\n";
-        let long = "//! A.\na\n\n    // x\n    b // c\n#[cfg(test)]\nmod tests {}\n";
-        assert_eq!(lines(short), lines(long));
-    }
-
-    #[test]
-    fn the_hash_is_the_known_one() {
-        // FNV-1a of "a" followed by the byte that ends a part.
-        let a = 0xaf63_dc4c_8601_ec8c_u64;
-        assert_eq!(fnv(FNV_OFFSET, b"a"), (a ^ 0xff).wrapping_mul(0x0100_0000_01b3));
-    }
 
     #[test]
     fn a_stamp_survives() {

@@ -16,7 +16,7 @@ use crate::child;
 use crate::crew;
 use crate::edition::{Edition, Patched};
 use crate::mistake::{Mistake, Outcome};
-use crate::picture::{self, Sources};
+use crate::picture;
 use crate::program::Programs;
 use crate::project::Project;
 use crate::seen::{Seen, mean_difference};
@@ -61,7 +61,7 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// If it does not do what its file says, or the picture cannot be written.
-    pub fn render(&self, sources: &mut Sources) -> Result<String> {
+    pub fn render(&self) -> Result<String> {
         let right = self.right(SHOWN)?;
         if let Some(why) = self.not_tried(right.device())? {
             bail!("{why}");
@@ -87,7 +87,7 @@ impl<'a> Trial<'a> {
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
-        let hash = self.mistake.sources(self.project, sources);
+        let hash = self.mistake.sources(self.project);
         let folder = Folder::temporary()?;
         let plain = folder.path().join("sheet.png");
         sheet.save(&plain)?;

@@ -1,6 +1,6 @@
 //! Shader sources: which files a shader includes, and which a chapter is made of.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::project::{Chapter, Project};
 
@@ -14,14 +14,42 @@ pub const EXTENSIONS: [&str; 10] =
 /// out; compiling names them better.
 pub fn includes(project: &Project, file: &str) -> Vec<String> {
     let text = project.read(file).unwrap_or_default();
-    let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix("#include"));
-    let found = lines.filter_map(|rest| {
-        let name = rest.trim().trim_matches(['"', '<', '>']);
-        let places = [format!("{folder}/{name}"), format!("shaders/{name}")];
-        places.into_iter().find(|path| project.has(path))
-    });
+    let found = text.lines().filter_map(|line| included(line, file, |path| project.has(path)));
     found.collect()
+}
+
+/// A shader's text as it is compiled: what it includes stands in the place of the line that includes it,
+/// once. `read` tells what a file holds, from the project's root.
+pub fn spliced(read: &dyn Fn(&str) -> Option<String>, file: &str) -> String {
+    fn splice(
+        read: &dyn Fn(&str) -> Option<String>,
+        file: &str,
+        known: &mut BTreeSet<String>,
+        text: &mut String,
+    ) {
+        if !known.insert(file.to_owned()) {
+            return;
+        }
+        for line in read(file).unwrap_or_default().lines() {
+            match included(line, file, |path| read(path).is_some()) {
+                Some(path) => splice(read, &path, known, text),
+                None => {
+                    text.push_str(line);
+                    text.push('\n');
+                }
+            }
+        }
+    }
+    let (mut known, mut text) = (BTreeSet::new(), String::new());
+    splice(read, file, &mut known, &mut text);
+    text
+}
+
+/// The file that a line of `file` includes, if it does.
+fn included(line: &str, file: &str, is_there: impl Fn(&str) -> bool) -> Option<String> {
+    let name = line.trim_start().strip_prefix("#include")?.trim().trim_matches(['"', '<', '>']);
+    let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+    [format!("{folder}/{name}"), format!("shaders/{name}")].into_iter().find(|path| is_there(path))
 }
 
 /// A chapter's own shaders, in the order of the stages.
