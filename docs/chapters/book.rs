@@ -94,7 +94,7 @@ impl<'a> Book<'a> {
         faults.extend(stray::check(self.project, &linked));
         faults.extend(nightly::check(self.project));
         faults.extend(card::all(self.project).1);
-        faults.extend(taught::check(self.project));
+        faults.extend(taught::check(self.project, &self.pages));
         faults.sort();
         faults.dedup();
         faults

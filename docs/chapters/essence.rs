@@ -134,7 +134,8 @@ mod tests {
     #[test]
     fn comments_and_blanks_have_no_effect_in_a_shader() {
         let short = "#version 460\nfloat a = 1.0 / 2.0;\nint b;\n";
-        let long = "// A.\n#version 460\n\n  float  a = 1.0 / 2.0; // a /* half\n/* two\nlines */int b;\n";
+        let long =
+            "// A.\n#version 460\n\n  float  a = 1.0 / 2.0; // a /* half\n/* two\nlines */int b;\n";
         assert_eq!(shader(short), shader(long));
         assert_ne!(shader(short), shader(&short.replace("1.0 /", "1.0 *")));
     }

@@ -118,6 +118,9 @@ enum Command {
         json: bool,
     },
     /// Show what a chapter changes in another, such as `diff 02 03`; coloured unless piped or NO_COLOR
+    ///
+    /// Its code and its shaders, unless a part is named. Of a chapter and one that builds on it, the other
+    /// is the newer, whichever is named first.
     Diff {
         /// The older chapter: its number or name
         old: String,
@@ -261,12 +264,17 @@ fn run(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
         Command::List { json } => print(&list(&project, *json)?),
         Command::Diff { old, new, stat, code, shaders, page, context } => {
-            let (old, new) = (project.chapter(old)?, project.chapter(new)?);
+            let (mut old, mut new) = (project.chapter(old)?, project.chapter(new)?);
+            // What a chapter adds is read from its parent on, whichever is named first.
+            if project.descends(old, new) {
+                (old, new) = (new, old);
+            }
             let all = !(*code || *shaders || *page);
-            let parts = Parts { code: *code || all, shaders: *shaders || all, page: *page || all };
+            let parts = Parts { code: *code || all, shaders: *shaders || all, page: *page };
             let diffs = diff::chapters(&project, old, new, parts)?;
             let mut text = show::heading(old, new);
             if !stat {
+                text.push_str(&show::read_first(&diffs));
                 text.push_str(&show::changes(old, new, &diffs, usize::from(*context)));
             }
             text.push_str(&show::statistics(&diffs));

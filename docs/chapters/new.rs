@@ -133,26 +133,10 @@ impl<'a> New<'a> {
         )
     }
 
-    /// The parent's shaders. What the parent teaches comes from `shaders/common`, if a copy is there.
+    /// The parent's own shaders; what it shares with others, the new chapter shares too.
     fn shaders(&self) -> Result<Vec<(String, String)>> {
-        let own = shader::own(self.project, self.from);
-        let shared = |path: &String| {
-            let common = path.replacen(&self.from.name, "common", 1);
-            self.project.has(&common).then(|| common.replacen("shaders/", "", 1))
-        };
-        let taught: Vec<(String, String)> = own
-            .iter()
-            .filter_map(|path| Some((path.rsplit('/').next()?.to_owned(), shared(path)?)))
-            .collect();
-        let copy = |path: &String| {
-            let mut text = self.project.read(path)?;
-            for (name, common) in &taught {
-                let include = |of: &str| format!("#include \"{of}\"");
-                text = text.replace(&include(name), &include(common));
-            }
-            Ok((self.own(path), text))
-        };
-        own.iter().filter(|path| shared(path).is_none()).map(copy).collect()
+        let own = shader::own(self.project, self.from).into_iter();
+        own.map(|path| Ok((self.own(&path), self.project.read(&path)?))).collect()
     }
 
     fn manifest(&self) -> String {

@@ -37,6 +37,21 @@ pub fn heading(old: &Chapter, new: &Chapter) -> String {
     format!("{}\n{}: {}\n", paint(TITLE, &title), new.title, new.teaches)
 }
 
+/// How many files a reader is sent to first.
+const FIRST: usize = 3;
+
+/// Where to begin, if there are many files: the program, then those with the most new lines.
+pub fn read_first(diffs: &[FileDiff]) -> String {
+    let is_main = |diff: &FileDiff| diff.role == "main.rs";
+    let mut first: Vec<&FileDiff> = diffs.iter().filter(|diff| diff.added() > 0).collect();
+    if first.len() <= FIRST {
+        return String::new();
+    }
+    first.sort_by_key(|diff| (!is_main(diff), std::cmp::Reverse(diff.added())));
+    let names: Vec<&str> = first[..FIRST].iter().map(|diff| &*diff.role).collect();
+    format!("Read these first: {}\n", names.join(", "))
+}
+
 /// Every file with its changed lines, and `context` lines around them.
 pub fn changes(old: &Chapter, new: &Chapter, diffs: &[FileDiff], context: usize) -> String {
     let names = [&*old.name, &*new.name];

@@ -1,58 +1,81 @@
-//! What a chapter teaches stands raw in its own folder; `shaders/common` holds copies for later chapters.
-//!
-//! So whoever edits a chapter's file changes that chapter alone. The first line of each shared file says
-//! whose it is.
+//! What several chapters use stands once, in `shaders/common`; the first line of each file says which
+//! chapter teaches it. That chapter includes it, and its page shows it.
+
+use std::collections::BTreeMap;
 
 use crate::fault::Fault;
+use crate::page::{Block, Kind, Page};
 use crate::project::{Chapter, Project};
 use crate::shader;
 
-/// The forms of a shared file's first line. Only the first promises the same text.
-const COPY: &str = ", whose own file this is a copy of.";
-const FORMS: &str = "begin it with `// Taught by NN_name, whose own file this is a copy of.`, \
-                     `// Taught by NN_name; …` or `// Of no chapter: …`";
+/// The forms of a shared file's first line.
+const FORMS: &str = "begin it with `// Taught by NN_name.`, `// Like NAME in NN_name, but …` or `// Of no chapter: …`";
 
-/// What is wrong with the files that chapters share.
-pub fn check(project: &Project) -> Vec<Fault> {
+/// What is wrong with the files that chapters share, and with those that should be shared.
+pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let files = project.files("shaders/common");
-    files.iter().flat_map(|file| shared(project, file)).collect()
+    let mut faults: Vec<Fault> =
+        files.iter().filter_map(|file| wrong(project, pages, file)).collect();
+    faults.extend(twins(project));
+    faults
 }
 
-fn shared(project: &Project, file: &str) -> Vec<Fault> {
+/// What is wrong with a shared file.
+fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
     let text = project.read(file).unwrap_or_default();
     // A stage begins with its version: nothing may stand before it.
     let first = text.lines().find(|line| !line.starts_with("#version")).unwrap_or_default();
     if first.starts_with("// Of no chapter: ") {
-        return Vec::new();
+        return None;
     }
-    let fault = |what: String, remedy: String| vec![Fault::new(file, 1, what, remedy)];
-    let Some(rest) = first.strip_prefix("// Taught by ") else {
-        return fault("it does not say which chapter teaches it".to_owned(), FORMS.to_owned());
-    };
-    let name = rest.split([',', ';', ' ', '.']).next().unwrap_or_default();
-    let Some(chapter) = project.chapters.iter().find(|chapter| chapter.name == name) else {
-        return fault(format!("there is no chapter '{name}'"), FORMS.to_owned());
-    };
-    let own = file.replacen("common", name, 1);
-    if first.ends_with(COPY) && project.read(&own).ok() != Some(without_head(&text)) {
-        let what = format!("it is no copy of {own}");
-        return fault(what, "copy that below the first two lines, or say what differs".to_owned());
+    let fault = |what: String, remedy: &str| Some(Fault::new(file, 1, what, remedy));
+    let chapter = |name: &str| project.chapters.iter().find(|chapter| chapter.name == name);
+    let no_chapter = |name: &str| fault(format!("there is no chapter '{name}'"), FORMS);
+    if let Some(rest) = first.strip_prefix("// Like ") {
+        let like = rest.split_once(" in ").map(|(_, rest)| rest);
+        let name = like.and_then(|rest| rest.split_once(", but ")).map_or("", |(name, _)| name);
+        return if chapter(name).is_none() { no_chapter(name) } else { None };
     }
-    includers(project, chapter, file)
+    let Some(name) = first.strip_prefix("// Taught by ") else {
+        return fault("it does not say which chapter teaches it".to_owned(), FORMS);
+    };
+    let name = name.trim_end_matches('.');
+    let Some(chapter) = chapter(name) else { return no_chapter(name) };
+    if !shader::shared(project, chapter).contains_key(file) {
+        return fault(format!("{name} teaches it and does not include it"), "include it there");
+    }
+    if !is_shown(pages, chapter, file) {
+        let what = format!("{} neither shows nor names it", chapter.page());
+        return fault(what, "show a part of it there, with `<!-- snippet FILE#ANCHOR -->`");
+    }
+    None
 }
 
-/// The teaching chapter itself must not depend on the copy.
-fn includers(project: &Project, chapter: &Chapter, file: &str) -> Vec<Fault> {
-    let includer = shader::shared(project, chapter).remove(file);
-    let own = file.replacen("common", &chapter.name, 1);
-    let fault = |includer| {
-        let what = format!("it includes {file}, which {} teaches", chapter.name);
-        Fault::new(includer, 1, what, format!("include {own}"))
+/// Whether a chapter's page shows a part of a file, or its author names it there.
+fn is_shown(pages: &[Page], chapter: &Chapter, file: &str) -> bool {
+    let mut of = pages.iter().filter(|page| page.path == chapter.page());
+    let name = file.rsplit('/').next().unwrap_or_default();
+    let snippet = |block: &Block| {
+        let shown = block.words.first().map_or("", String::as_str);
+        block.kind == Kind::Snippet && shown.split('#').next() == Some(file)
     };
-    includer.into_iter().map(fault).collect()
+    of.any(|page| page.written().contains(name) || page.blocks.iter().any(snippet))
 }
 
-/// A shared file without its first line and the empty comment that follows.
-fn without_head(text: &str) -> String {
-    text.split_inclusive('\n').skip(2).collect()
+/// Files with the same text. Stages and push constants belong to their pipeline: chapters may have the same.
+fn twins(project: &Project) -> Vec<Fault> {
+    let mut first: BTreeMap<String, String> = BTreeMap::new();
+    let mut faults = Vec::new();
+    let is_text = |file: &String| file.ends_with(".glsl") && !file.ends_with("/push.glsl");
+    for file in project.files("shaders").into_iter().filter(is_text) {
+        let text = project.read(&file).unwrap_or_default();
+        match first.get(&text) {
+            Some(twin) => {
+                let remedy = "move one to shaders/common and delete the other";
+                faults.push(Fault::new(&*file, 1, format!("it is the same as {twin}"), remedy));
+            }
+            None => drop(first.insert(text, file)),
+        }
+    }
+    faults
 }

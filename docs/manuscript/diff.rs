@@ -168,8 +168,32 @@ pub fn chapters(
         diffs.push(FileDiff::new("page", page(old)?, page(new)?));
     }
     diffs.retain(|diff| diff.changes().next().is_some());
+    renamed(&mut diffs);
     moved::mark(&mut diffs);
     Ok(diffs)
+}
+
+/// How much of two files must be equal for one to be the other under another name.
+const RENAMED: f64 = 0.8;
+
+/// Makes one comparison of a file that is gone and a file that is new, where they are nearly the same.
+fn renamed(diffs: &mut Vec<FileDiff>) {
+    let is_gone = |diff: &FileDiff| diff.new.path.is_none();
+    while let Some((gone, new, ops)) = diffs.iter().enumerate().find_map(|(at, gone)| {
+        let alike = |(with, new): (usize, &FileDiff)| {
+            let is_new = new.old.path.is_none() && new.new.path.is_some();
+            let ops = is_new.then(|| compare(&gone.old.lines, &new.new.lines))?;
+            let equal = ops.iter().filter(|op| matches!(op, DiffOp::Equal { .. }));
+            let equal: usize = equal.map(|op| op.new_range().len()).sum();
+            let lines = gone.old.lines.len() + new.new.lines.len();
+            (2.0 * equal as f64 >= RENAMED * lines as f64).then_some((at, with, ops))
+        };
+        is_gone(gone).then(|| diffs.iter().enumerate().find_map(alike)).flatten()
+    }) {
+        diffs[new].old = std::mem::take(&mut diffs[gone].old);
+        diffs[new].ops = ops;
+        diffs.remove(gone);
+    }
 }
 
 /// A page without the code that it shows, which is compared as code.

@@ -158,6 +158,21 @@ impl Project {
         })
     }
 
+    /// Whether a chapter builds on another, directly or not.
+    pub fn descends(&self, chapter: &Chapter, other: &Chapter) -> bool {
+        let named = |name: &str| self.chapters.iter().find(|known| known.name == name);
+        let mut parent = chapter.from.as_deref();
+        // No line of parents is longer than the list of chapters, unless it is a circle.
+        for _ in &self.chapters {
+            let Some(name) = parent else { return false };
+            if name == other.name {
+                return true;
+            }
+            parent = named(name).and_then(|chapter| chapter.from.as_deref());
+        }
+        false
+    }
+
     /// The parts with their headings, such as `I · Make it`, and chapters; a book without parts is one
     /// part with no heading, and so are chapters of no part.
     pub fn parted(&self) -> Vec<(String, Vec<&Chapter>)> {

@@ -94,7 +94,7 @@ impl Shown<'_> {
         let _ = writeln!(
             self.text,
             "The whole code of {page}, compared with that of [{}]({}.html). Green lines are new. The red \
-             lines beside them are those of {number} that they replace. {number} has the yellow lines, too, \
+             lines to their left are those of {number} that they replace. {number} has the yellow lines, too, \
              in another place or another file. {MARKS}\n",
             parent.heading(),
             parent.name
@@ -150,11 +150,8 @@ impl Shown<'_> {
                 (_, true) => "change",
                 (_, false) => "same",
             };
-            let _ = write!(html, "<div class=\"{class}\">{}", new.lines("new", news));
-            if changed {
-                html.push_str(&old.lines("old", olds));
-            }
-            html.push_str("</div>");
+            let before = if changed { old.lines("old", olds) } else { String::new() };
+            let _ = write!(html, "<div class=\"{class}\">{before}{}</div>", new.lines("new", news));
         }
         let moved = match diff.moved() {
             0 => String::new(),

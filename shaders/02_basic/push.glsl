@@ -1,7 +1,7 @@
 // What the shaders of this chapter share: the push constants, and what the pipeline is made for.
-#include "camera.glsl"
-#include "scene.glsl"
-#include "shade.glsl"
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
 #include "common/false_color.glsl"
 
 // ANCHOR: push

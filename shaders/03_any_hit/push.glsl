@@ -3,7 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
-#include "random.glsl"
+#include "common/random.glsl"
 
 // A surface that a ray crossed, in the list of all.
 struct ListedHit {

@@ -2,7 +2,7 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "light.glsl"
+#include "common/light.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
 

@@ -5,8 +5,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "hit.glsl"
-#include "place.glsl"
+#include "common/hit.glsl"
+#include "common/place.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 

@@ -7,7 +7,7 @@
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
-#include "mirror.glsl"
+#include "common/mirror.glsl"
 #include "path.glsl"
 #include "shadow.glsl"
 #include "report.glsl"

@@ -6,7 +6,7 @@
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
-#include "mirror.glsl"
+#include "common/mirror.glsl"
 #include "path.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;

@@ -7,7 +7,7 @@
 #include "push.glsl"
 #include "hit.glsl"
 #include "common/place.glsl"
-#include "instance.glsl"
+#include "common/instance.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 

@@ -1,6 +1,6 @@
 // The random numbers of a path: two for each purpose at each bounce, that belong to the pixel and to one of
 // its samples.
-#include "common/sequence.glsl"
+#include "common/sobol.glsl"
 
 // The purposes of numbers that earlier chapters do not have.
 const uint DIMENSION_CHOICE = 2;

@@ -3,7 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
-#include "sum.glsl"
+#include "float_sum.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

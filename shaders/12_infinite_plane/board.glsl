@@ -2,8 +2,8 @@
 #include "common/scene.glsl"
 #include "hit.glsl"
 #include "ray.glsl"
-#include "plane.glsl"
-#include "checker.glsl"
+#include "common/plane.glsl"
+#include "common/checker.glsl"
 
 struct Board {
     vec3 light;          // linear RGB

@@ -5,7 +5,7 @@
 #include "common/light.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
-#include "plane.glsl"
+#include "common/plane.glsl"
 #include "board.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reflections { vec3 at[]; };

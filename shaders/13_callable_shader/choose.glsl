@@ -1,5 +1,5 @@
 // Which pattern a surface has is in its material's data. Here it becomes code, in one of two ways.
-#include "pattern.glsl"
+#include "common/pattern.glsl"
 #include "finish.glsl"
 
 // ANCHOR: caller

@@ -8,7 +8,7 @@
 #include "hit.glsl"
 #include "common/place.glsl"
 #include "report.glsl"
-#include "pattern.glsl"
+#include "common/pattern.glsl"
 #include "finish.glsl"
 
 // The nearest hit on marble: the record has chosen this shader, and nothing is left to choose.

@@ -5,7 +5,7 @@
 #include "common/light.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
-#include "heightfield.glsl"
+#include "common/heightfield.glsl"
 
 // ANCHOR: ground
 // A landscape in a box.

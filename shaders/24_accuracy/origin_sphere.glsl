@@ -2,8 +2,15 @@
 //
 // A start below the surface meets it again; a start too far above it is beyond what stands close by.
 #include "common/start.glsl"
-#include "common/origin_rungs.glsl"
+#include "common/up_by_floats.glsl"
 #include "two_float.glsl"
+
+const uint ORIGIN_NOTHING = 0;
+const uint ORIGIN_TMIN = 1;
+const uint ORIGIN_NORMAL = 2;
+const uint ORIGIN_INTEGERS = 3;
+const uint ORIGIN_REPROJECTED = 4;
+const uint ORIGIN_BOUND = 5;
 
 // The point of a sphere that a ray leaves.
 struct SphereDeparture {

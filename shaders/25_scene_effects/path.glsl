@@ -6,7 +6,7 @@
 #endif
 #if defined(EFFECT_BOUNCES) || defined(EFFECT_GLASS) || defined(EFFECT_EMITTERS)
 #define NUMBERS
-#include "common/numbers.glsl"
+#include "common/path_numbers.glsl"
 #include "common/surface.glsl"
 #endif
 

@@ -11,7 +11,17 @@
 #include "common/heightfield.glsl"
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
-#include "common/lens.glsl"
+#include "lens.glsl"
+
+// All that shines.
+struct EmitterAddresses {
+    Emitters emitters;    // spheres, then the triangles of each mesh that shines
+    Columns columns;
+    Numbers first;        // of each instance: which emitter its triangle 0 is
+    Numbers sphere_ids;   // of each sphere of the build: which emitter it is
+    uint count;           // of the emitters
+    uint column_count;    // a power of two, or 0 where nothing shines
+};
 
 struct Sphere {
     vec3 center;

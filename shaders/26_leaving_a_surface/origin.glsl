@@ -3,14 +3,9 @@
 //
 // A ray that starts below the surface hits it again: acne. A ray that starts too far above it misses things
 // that are close by: leaks.
+#include "common/start.glsl"
 
 const float ROUNDING = 5.9604645e-8;
-
-// Where a ray starts.
-struct Start {
-    vec3 origin;
-    float tmin;      // a length, however long the direction is
-};
 
 struct Ray {
     Start start;
@@ -81,16 +76,7 @@ Start start_normal(Departure from) {
 }
 // ANCHOR_END: naive
 
-// ANCHOR: up_by_floats
-// Up by so many floats: a step that grows with the coordinate. Near zero, where floats lie dense, a
-// fixed length instead (Waechter and Binder, Ray Tracing Gems, chapter 6; the constants are theirs).
-vec3 up_by_floats(vec3 point, vec3 normal) {
-    ivec3 steps = ivec3(256.0 * normal);
-    ivec3 bits = floatBitsToInt(point) + mix(steps, -steps, lessThan(point, vec3(0.0)));
-    vec3 near_zero = point + (1.0 / 65536.0) * normal;
-    return mix(intBitsToFloat(bits), near_zero, lessThan(abs(point), vec3(1.0 / 32.0)));
-}
-// ANCHOR_END: up_by_floats
+#include "common/up_by_floats.glsl"
 
 // ANCHOR: integers
 Start start_integers(Departure from) {

@@ -1,5 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
-#include "media.glsl"
+#include "common/media.glsl"
 #include "light_disk.glsl"
 
 // ANCHOR: path

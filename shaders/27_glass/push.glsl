@@ -4,7 +4,7 @@
 #include "common/shade.glsl"
 #include "common/light.glsl"
 #include "common/pixel_sum.glsl"
-#include "glass.glsl"
+#include "common/glass.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Glasses { Glass at[]; };
 

@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss, whose own file this is a copy of.
+// Taught by 05_shadow_miss.
 //
 // Where a ray may start that leaves a triangle: a point above it that no rounding puts below.
 //

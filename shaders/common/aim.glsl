@@ -1,4 +1,4 @@
-// Taught by 29_emitters, whose own file this is a copy of.
+// Taught by 29_emitters.
 //
 // Where a shadow ray goes: to a point of an emitter that is chosen by chance.
 #include "sphere_light.glsl"

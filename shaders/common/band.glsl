@@ -1,4 +1,4 @@
-// Taught by 02_basic, whose own file this is a copy of.
+// Taught by 02_basic.
 //
 // Which pixel an invocation of a raygen shader traces.
 

@@ -1,4 +1,4 @@
-// Taught by 08_intersection, whose own file this is a copy of.
+// Taught by 08_intersection.
 //
 // A ray against a box with sides along the axes, in two ways that are equal on paper.
 //

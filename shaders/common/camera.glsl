@@ -1,4 +1,4 @@
-// Taught by 02_basic, whose own file this is a copy of.
+// Taught by 02_basic.
 //
 // A pinhole camera: the ray of a pixel.
 

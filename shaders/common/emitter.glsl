@@ -1,4 +1,4 @@
-// Taught by 29_emitters; what 25 has of it: the list of all that shines, as a part of its world.
+// Taught by 29_emitters.
 //
 // What shines: spheres, and triangles of meshes; and the table by which one of them is chosen.
 
@@ -32,12 +32,3 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Emi
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Columns { Column at[]; };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Numbers { uint at[]; };
-
-struct EmitterAddresses {
-    Emitters emitters;    // spheres, then the triangles of each mesh that shines
-    Columns columns;
-    Numbers first;        // of each instance: which emitter its triangle 0 is
-    Numbers sphere_ids;   // of each sphere of the build: which emitter it is
-    uint count;           // of the emitters
-    uint column_count;    // a power of two, or 0 where nothing shines
-};

@@ -1,4 +1,4 @@
-// Taught by 12_infinite_plane, whose own file this is a copy of.
+// Taught by 12_infinite_plane.
 //
 // The error of a sum and of a product, as a float of its own.
 //

@@ -1,4 +1,4 @@
-// Taught by 27_glass, whose own file this is a copy of.
+// Taught by 27_glass.
 //
 // What a smooth surface between two transparent media does with light.
 

@@ -1,4 +1,4 @@
-// Taught by 21_heightfield, whose own file this is a copy of.
+// Taught by 21_heightfield.
 //
 // A ray against a landscape, y = H(x, z): four ways of marching.
 //

@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss, whose own file this is a copy of.
+// Taught by 05_shadow_miss.
 //
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it.

@@ -1,4 +1,4 @@
-// Taught by 09_instancing, whose own file this is a copy of.
+// Taught by 09_instancing.
 //
 // A ray's origin as an instance's mesh sees it: two ways through the same matrix.
 //

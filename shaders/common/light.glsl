@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss, whose own file this is a copy of.
+// Taught by 05_shadow_miss.
 //
 // Lights: the way to them from a point, and what arrives there.
 

@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss, whose own file this is a copy of.
+// Taught by 05_shadow_miss.
 //
 // How a light lights a surface that a ray has met. A shadow ray finds out whether the light reaches the
 // surface. The including shader defines how this ray is traced.

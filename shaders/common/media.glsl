@@ -1,4 +1,4 @@
-// Taught by 27_glass, whose own file this is a copy of.
+// Taught by 27_glass.
 //
 // The media that a ray is in: bodies may overlap, and one of them counts.
 

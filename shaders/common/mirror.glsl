@@ -1,4 +1,4 @@
-// Taught by 06_reflection, whose own file this is a copy of.
+// Taught by 06_reflection.
 //
 // What a mirror reflects, and where to.
 

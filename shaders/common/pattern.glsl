@@ -1,4 +1,4 @@
-// Taught by 13_callable_shader, whose own file this is a copy of.
+// Taught by 13_callable_shader.
 //
 // Patterns that fill space, made of an integer lattice: marble, wood, a checker board.
 //

@@ -1,4 +1,6 @@
-// Taught by 11_path_tracing; what 27 has of it: the samples of a pixel, added up without rounding the sum.
+// Taught by 11_path_tracing.
+//
+// The samples of a pixel, added up without rounding the sum.
 
 // 32 bits before the point and 32 after it, for each colour.
 struct PixelSum {

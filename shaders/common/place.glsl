@@ -1,4 +1,4 @@
-// Taught by 05_shadow_miss, whose own file this is a copy of.
+// Taught by 05_shadow_miss.
 //
 // Where a ray may start that leaves the triangle that was hit, for a closest hit shader: its built-in
 // variables say which ray it was, and where the instance lies.

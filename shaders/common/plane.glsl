@@ -1,4 +1,4 @@
-// Taught by 12_infinite_plane, whose own file this is a copy of.
+// Taught by 12_infinite_plane.
 //
 // A ray against a plane, in four ways that are equal on paper.
 //

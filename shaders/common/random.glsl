@@ -1,4 +1,4 @@
-// Taught by 03_any_hit, whose own file this is a copy of.
+// Taught by 03_any_hit.
 //
 // Random numbers without state: the same key gives the same number, in every shader and at every time.
 

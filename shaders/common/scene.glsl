@@ -1,4 +1,4 @@
-// Taught by 02_basic, whose own file this is a copy of.
+// Taught by 02_basic.
 //
 // What a ray finds out about the triangle that it hit: addresses lead from the instance to its mesh.
 

@@ -1,26 +1,43 @@
-// Taught by 04_jitter_camera; what 11 has of it: Sobol's points, and Owen's scrambling of them.
+// Taught by 04_jitter_camera.
 //
-// Coordinates are whole numbers of 2^-32.
+// Points of the unit square, one a frame.
+//
+// Coordinates are whole numbers of 2^-32. They wrap around by themselves, lose no digit however far a
+// sequence goes, and have the same bits on every device.
 #include "common/random.glsl"
 
-// The second coordinate adds, without carry, one column of Pascal's triangle modulo 2 for each bit of i.
-uvec2 sobol(uint i) {
-    uint second = 0;
-    uint column = 1u << 31u;
-    for (uint bits = i; bits > 0; bits >>= 1) {
-        second ^= (bits & 1u) * column;
-        column ^= column >> 1;
+const uint SEQUENCE_CENTRE = 0;
+const uint SEQUENCE_RANDOM = 1;
+const uint SEQUENCE_HALTON = 2;
+const uint SEQUENCE_R2 = 3;
+const uint SEQUENCE_SOBOL = 4;
+
+const uint SCRAMBLING_NONE = 0;
+const uint SCRAMBLING_ROTATION = 1;
+const uint SCRAMBLING_OWEN = 2;
+
+// ANCHOR: halton
+// The digits of i in base 3, mirrored at the point: 1 is 0.1, 2 is 0.2, 3 is 0.01.
+uint mirrored_base_3(uint i) {
+    uint mirrored = 0;
+    uint third = 0xffffffffu / 3u;
+    for (; i > 0; i /= 3) {
+        mirrored += (i % 3) * third;
+        third /= 3;
     }
-    return uvec2(bitfieldReverse(i), second);
+    return mirrored;
 }
 
-// Flips each binary digit or not, by a hash of the digits before it (Burley 2020, after Laine and
-// Karras 2011).
-uint owen(uint x, uint key) {
-    x = bitfieldReverse(x) + bitfieldReverse(key);
-    x ^= x * 0x6c50b47cu;
-    x ^= x * 0xb82f1e52u;
-    x ^= x * 0xc7afe638u;
-    x ^= x * 0x8d22f6e6u;
-    return bitfieldReverse(x);
+uvec2 halton(uint i) {
+    return uvec2(bitfieldReverse(i), mirrored_base_3(i));
 }
+// ANCHOR_END: halton
+
+// ANCHOR: r2
+// Multiples of 1/g and 1/g^2, where g = 1.3247... solves g^3 = g + 1. The product drops whole turns.
+uvec2 r2(uint i) {
+    return i * uvec2(3242174889u, 2447445414u);
+}
+// ANCHOR_END: r2
+
+#include "common/sobol.glsl"

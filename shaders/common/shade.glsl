@@ -1,4 +1,4 @@
-// Taught by 02_basic, whose own file this is a copy of.
+// Taught by 02_basic.
 //
 // How a surface looks under a sky and a distant light. The same in every chapter.
 

@@ -1,4 +1,4 @@
-// Taught by 29_emitters, whose own file this is a copy of.
+// Taught by 29_emitters.
 //
 // The solid angle of a triangle, and directions that are uniform in it.
 //

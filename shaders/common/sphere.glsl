@@ -1,4 +1,4 @@
-// Taught by 08_intersection, whose own file this is a copy of.
+// Taught by 08_intersection.
 //
 // A ray against a sphere, in four ways that are equal on paper.
 //

@@ -1,4 +1,4 @@
-// Taught by 29_emitters, whose own file this is a copy of.
+// Taught by 29_emitters.
 //
 // Directions to a sphere, as likely in each part of the solid angle that it fills.
 // ANCHOR: cone

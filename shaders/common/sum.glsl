@@ -1,4 +1,4 @@
-// Taught by 24_accuracy, as fixed-point sums of 64 bits; these have 128, and room for negative colours.
+// Of no chapter: the sums of --samples. Fixed-point as in 24_accuracy, with 128 bits, and room for negative colours.
 //
 // A sum is a whole number of 2^-64: four words, the lowest first, negative as two's complement. Sums of
 // whole numbers do not round. So the order in which samples are added, and by which program, changes nothing.

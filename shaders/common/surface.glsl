@@ -1,4 +1,4 @@
-// Taught by 11_path_tracing, whose own file this is a copy of.
+// Taught by 11_path_tracing.
 //
 // What a surface does with light: a mirror on top, if it is polished, and below it a colour that scatters.
 #include "common/mirror.glsl"

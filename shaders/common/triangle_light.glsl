@@ -1,6 +1,7 @@
-// Taught by 29_emitters; what 25 has of it: directions to a triangle, uniform in the solid angle that it fills, or,
-// where that is small, to points that are uniform on it.
-#include "solid_angle.glsl"
+// Taught by 29_emitters.
+//
+// Directions to a triangle: to points that are uniform on it, or uniform in the solid angle that it fills.
+#include "common/solid_angle.glsl"
 
 // ANCHOR: least
 // Below this solid angle points are chosen by area. Such a triangle is seen, if it is not long and thin, 1/64
@@ -24,8 +25,14 @@ vec3 point_by_area(Emitter emitter, vec3 to_corner, vec2 u) {
 }
 // ANCHOR_END: area
 
-// The solid angle if directions are chosen by it, else 0.
+// The solid angle if directions are chosen by it, else 0. A chapter that compares the two ways defines
+// `ALL_BY_AREA`: whether points are uniform on every triangle.
 float whole_angle(Emitter emitter, vec3 to_corner) {
+#ifdef ALL_BY_AREA
+    if (ALL_BY_AREA) {
+        return 0.0;
+    }
+#endif
     float angle = solid_angle(to_corner, emitter.across, emitter.along);
     return angle < LEAST_ANGLE ? 0.0 : angle;
 }

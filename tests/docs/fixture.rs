@@ -50,9 +50,10 @@ static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
     let mut open = files(&fixture.path("shaders"));
     while let Some(file) = open.pop() {
         let text = fs::read_to_string(file).expect("a shader");
-        for name in text.lines().filter_map(|line| line.strip_prefix("#include \"common/")) {
-            let path = format!("shaders/common/{}", name.trim_end_matches('"'));
-            if !fixture.path(&path).exists() {
+        for name in text.lines().filter_map(|line| line.strip_prefix("#include \"")) {
+            let name = name.trim_end_matches('"').trim_start_matches("common/");
+            let path = format!("shaders/common/{name}");
+            if real.join(&path).exists() && !fixture.path(&path).exists() {
                 fixture.write(&path, &fs::read_to_string(real.join(&path)).expect("a shader"));
                 open.push(fixture.path(&path));
             }
@@ -249,6 +250,8 @@ cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
 
 <!-- controls 02_basic -->
 <!-- /controls -->
+
+All chapters share `band.glsl`, `camera.glsl`, `scene.glsl` and `shade.glsl`.
 
 Compare them with `cargo chapters diff 01 02`, list what `cargo run --bin NN_name` can do.
 

@@ -120,6 +120,27 @@ fn a_comparison_is_plain_when_piped() {
     let new = "shaders/common/false_color.glsl, new: included by shaders/02_basic/push.glsl";
     assert!(shaders.contains(new), "{shaders}");
     assert_eq!(fixture.run(&["diff", "01", "01"]).out.lines().last(), Some("Nothing differs."));
+    // A chapter's parent is the older one, whichever is named first; pages are compared if one asks for it.
+    let both = fixture.run(&["diff", "01", "02"]).out;
+    assert_eq!(fixture.run(&["diff", "02", "01"]).out, both);
+    assert!(both.contains("\nRead these first: main.rs, "), "{both}");
+    let page = |arguments: &[&str]| fixture.run(arguments).out.contains("docs/02_basic.md");
+    assert!(!page(&["diff", "01", "02"]) && page(&["diff", "01", "02", "--page"]));
+}
+
+#[test]
+fn a_file_with_another_name_is_one_comparison() {
+    let fixture = Fixture::new();
+    fixture.write(
+        "samples/01_one/spot.rs",
+        &(0..20).map(|i| format!("line({i});\n")).collect::<String>(),
+    );
+    let moved = fixture.read("samples/01_one/spot.rs").replace("line(7)", "line(70)");
+    fixture.write("samples/02_basic/light.rs", &moved);
+    let outcome = fixture.run(&["diff", "1", "2", "--code"]);
+    let line = "samples/01_one/spot.rs → samples/02_basic/light.rs     +1    −1";
+    assert!(outcome.out.contains(line), "{}", outcome.out);
+    assert!(!outcome.out.contains("line(2)"), "{}", outcome.out);
 }
 
 #[test]

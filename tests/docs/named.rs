@@ -1,5 +1,6 @@
 //! What a page names must be there: chapters, files, lines, anchors, tests, exercises and their checks.
 
+use crate::fixture::Fixture;
 use crate::{Case, expect};
 
 #[test]
@@ -219,7 +220,7 @@ fn exercises_without_a_list_or_a_definition_are_named_with_file_and_line() {
 fn shared_shaders_say_who_teaches_them() {
     const FILE: &str = "shaders/common/false_color.glsl";
     let forms = "`// Of no chapter: …`";
-    let cases: [Case; 3] = [
+    let cases: [Case; 4] = [
         (
             "no word of it",
             |f| f.replace(FILE, "// Of no chapter: what views are painted with.\n", "// Paint.\n"),
@@ -228,19 +229,43 @@ fn shared_shaders_say_who_teaches_them() {
         ),
         (
             "a chapter that is not there",
-            |f| f.replace(FILE, "// Of no chapter: what", "// Taught by 07_paint; what"),
+            |f| f.replace(FILE, "// Of no chapter: what", "// Like b.glsl in 07_paint, but what"),
             "shaders/common/false_color.glsl:1: there is no chapter '07_paint'",
             forms,
         ),
         (
-            "a copy of nothing",
+            "a chapter that does without",
             |f| {
-                let copy = "// Taught by 01_one, whose own file this is a copy of.";
-                f.replace(FILE, "// Of no chapter: what views are painted with.", copy);
+                f.replace(
+                    FILE,
+                    "// Of no chapter: what views are painted with.",
+                    "// Taught by 01_one.",
+                )
             },
-            "shaders/common/false_color.glsl:1: it is no copy of shaders/01_one/false_color.glsl",
-            "or say what differs",
+            "shaders/common/false_color.glsl:1: 01_one teaches it and does not include it",
+            "include it there",
+        ),
+        (
+            "a page that is silent",
+            |f| {
+                f.replace(
+                    FILE,
+                    "// Of no chapter: what views are painted with.",
+                    "// Taught by 02_basic.",
+                )
+            },
+            "shaders/common/false_color.glsl:1: docs/02_basic.md neither shows nor names it",
+            "`<!-- snippet FILE#ANCHOR -->`",
         ),
     ];
     expect(&cases, &[]);
+}
+
+#[test]
+fn one_text_stands_once() {
+    let fixture = Fixture::new();
+    fixture.write("shaders/common/paint.glsl", &fixture.read("shaders/common/false_color.glsl"));
+    let line = "shaders/common/paint.glsl:1: it is the same as shaders/common/false_color.glsl; ";
+    let found = fixture.check();
+    assert!(found.contains(line), "{found}");
 }

@@ -5,12 +5,16 @@ use std::collections::BTreeMap;
 use std::fs;
 #[cfg(unix)]
 use std::path::PathBuf;
+use std::process::Command;
 #[cfg(unix)]
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 #[cfg(unix)]
 use std::time::Duration;
 
-use crate::fixture::Fixture;
+use ::run::{copy, root};
+use tempfile::TempDir;
+
+use crate::fixture::{Fixture, run};
 
 #[test]
 fn a_new_chapter_lacks_only_what_its_author_must_make() {
@@ -50,6 +54,70 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     }
     let written = found.lines().filter(|line| line.contains("'WRITE' holds a place")).count();
     assert!(written >= 5, "the page does not say where to write:\n{found}");
+}
+
+/// A copy of the project's code in which every chapter that may be a parent has a child.
+fn with_a_child_of_each() -> (TempDir, Vec<[String; 2]>) {
+    let project = tempfile::tempdir().expect("a temporary folder");
+    let (from, to) = (root(), project.path());
+    for folder in ["common", "docs", "samples", "shaders", "tests"] {
+        copy(&from.join(folder), &to.join(folder));
+    }
+    for file in ["Cargo.toml", "Cargo.lock"] {
+        fs::copy(from.join(file), to.join(file)).expect("a file is copied");
+    }
+    let mut parents = ::run::chapters();
+    parents.retain(|name| !from.join("samples").join(name).join("Cargo.toml").is_file());
+    let children = parents.into_iter().enumerate().map(|(index, parent)| {
+        let (number, name) = (index + 40, format!("child_of_{}", &parent[..2]));
+        let mut command = Command::new(::run::program("chapters"));
+        command.args(["new", &number.to_string(), &name, "--from", &parent]);
+        let outcome = run(command.arg("--root").arg(to));
+        assert_eq!(outcome.code, 0, "{parent}: {}", outcome.err);
+        [parent, format!("{number}_{name}")]
+    });
+    let children = children.collect();
+    (project, children)
+}
+
+#[test]
+fn a_child_of_any_chapter_has_all_that_its_parent_renders_with() {
+    let (project, children) = with_a_child_of_each();
+    let shaders = project.path().join("shaders");
+    for [parent, child] in children {
+        let read = |path: &str| fs::read_to_string(project.path().join(path)).expect("a program");
+        let code = |name: &str| {
+            let text = read(&format!("samples/{name}/main.rs"));
+            text.lines().skip_while(|line| line.starts_with("//!")).collect::<Vec<_>>().join("\n")
+        };
+        assert_eq!(code(&parent), code(&child));
+        // The parent's program, with the child's shaders.
+        let before = ::run::render(&parent, "16x10", &[]).picture;
+        fs::remove_dir_all(shaders.join(&parent)).expect("a folder");
+        fs::rename(shaders.join(&child), shaders.join(&parent)).expect("a folder");
+        let mut command = ::run::command(&parent);
+        let after = ::run::render_by(command.env("SHADERS", &shaders), "16x10", &[]).picture;
+        assert_eq!(::run::bits(&before), ::run::bits(&after), "{parent}");
+    }
+}
+
+#[test]
+#[ignore = "nightly: it compiles all chapters anew; quick: new::a_child_of_any_chapter_has_all_that_its_parent_renders_with"]
+fn a_child_of_any_chapter_is_built_and_renders_what_its_parent_does() {
+    let (project, children) = with_a_child_of_each();
+    let target = project.path().join("target");
+    let built = Command::new(env!("CARGO"))
+        .args(["build", "--quiet", "--bins", "--package", "ray-tracing-in-vulkan"])
+        .current_dir(project.path())
+        .env("CARGO_TARGET_DIR", &target)
+        .status();
+    assert!(built.expect("cargo starts").success(), "they do not build");
+    for [parent, child] in children {
+        let mut command = Command::new(target.join("debug").join(&child));
+        let theirs = ::run::render_by(command.current_dir(project.path()), "16x10", &[]).picture;
+        let before = ::run::render(&parent, "16x10", &[]).picture;
+        assert_eq!(::run::bits(&before), ::run::bits(&theirs), "{child}");
+    }
 }
 
 #[test]

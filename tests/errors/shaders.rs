@@ -220,24 +220,24 @@ fn structures_that_differ_name_the_field() {
             "Push.extra",
         ),
         (
-            "02_basic/camera.glsl",
+            "common/camera.glsl",
             "vec3 right;",
             "vec3 right; float pad;",
             "CameraBasis.pad is in the shader but not in Rust",
         ),
         (
-            "02_basic/scene.glsl",
+            "common/scene.glsl",
             "float shininess;",
             "float shininess; float extra;",
             "MaterialRecord.extra is in the shader but not in Rust",
         ),
         (
-            "02_basic/scene.glsl",
+            "common/scene.glsl",
             "uint illumination;",
             "uvec2 illumination;",
             "MaterialRecord takes 60 bytes in the shader, 56 in Rust",
         ),
-        ("02_basic/scene.glsl", "uint mesh;", "", "InstanceRecord lacks mesh, which Rust has"),
+        ("common/scene.glsl", "uint mesh;", "", "InstanceRecord lacks mesh, which Rust has"),
     ] {
         let folder = folder(file, |text| text.replacen(from, to, 1));
         shaders_refused(folder.path(), &["02_basic/camera.rgen: ", words]);
@@ -249,7 +249,7 @@ fn what_lies_at_an_address_is_declared_in_rust() {
     // The structure goes by another name, as one that only the shader has.
     let (from, to) =
         ("struct MaterialRecord", "#define MaterialRecord Substance\nstruct MaterialRecord");
-    let folder = folder("02_basic/scene.glsl", |text| text.replacen(from, to, 1));
+    let folder = folder("common/scene.glsl", |text| text.replacen(from, to, 1));
     let words = [
         "02_basic/camera.rgen: the shader reads a Substance through an address",
         "declare it with shader_struct! { struct Substance { ... } }",

@@ -151,7 +151,7 @@ pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
          layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D picture;\n\
          {declarations}\n\
          #include \"push.glsl\"\n\
-         #include \"band.glsl\"\n\
+         #include \"common/band.glsl\"\n\
          void main() {{\n\
              ivec2 at = ivec2(pixel_id());\n\
              vec4 answer = vec4(push.camera.origin, 0.0);\n\

@@ -422,8 +422,7 @@ fn other_shaders_are_refused_and_nothing_is_lost() {
     let parts = Parts::new();
     let file = parts.done("0..2", "part");
     let before = fs::read(&file).unwrap();
-    let shaders =
-        run::shaders_with("04_jitter_camera/filter.glsl", "return u - 0.5;", "return u - 0.4;");
+    let shaders = run::shaders_with("common/filter.glsl", "return u - 0.5;", "return u - 0.4;");
     let mut task = parts.task("0..4", "part");
     let (code, line) = refusal(task.env("SHADERS", shaders.path()).output().unwrap());
     assert!(code == 1 && line.contains("does not fit: the CRC-32 of the shaders is "), "{line}");

@@ -114,12 +114,8 @@ fn reaches_pi_at_most(picture: &Picture) {
 fn no_angle_is_beyond_pi() {
     // Beyond, Vulkan promises nothing of sin() and cos(). The shaders that call them are tried below.
     let known = [
-        "05_shadow_miss/light.glsl",
-        "11_path_tracing/surface.glsl",
         "14_animation/flag.comp",
-        "28_depth_of_field/lens.glsl",
-        "29_emitters/sphere_light.glsl",
-        "common/lens.glsl",
+        "common/aperture.glsl",
         "common/light.glsl",
         "common/sphere_light.glsl",
         "common/surface.glsl",
@@ -142,33 +138,25 @@ fn no_angle_is_beyond_pi() {
 
 #[test]
 fn no_corner_of_a_blade_has_an_angle_beyond_pi() {
-    // The camera and its rungs are none of the matter.
-    let own = "struct Lens { float radius; float inverse_focus; uint blades; float turn; };\n\
-               const uint RUNG = 2, RUNG_EYE = 1, RUNG_START = 2;\n";
-    for (more, file) in [(own, "28_depth_of_field/lens.glsl"), ("", "common/lens.glsl")] {
-        let noting = format!(
-            "{NOTING_ANGLES}struct Other {{ vec3 origin; vec3 right; vec3 up; vec3 forward; }};\n\
-             #define CameraBasis Other\n{more}#include \"{file}\"\n#undef CameraBasis\n"
-        );
-        // All polygons and the disk; the first and the last number of a turn, and some between.
-        let body = "uint last = 16777215u;\n\
-                    float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
-                    vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
-                    uint corners = uint(at.x) % 17;\n\
-                    vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
-                                             : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
-                    answer = vec4(widest, point, 0.0);";
-        let picture = run::evaluate(&noting, body, "34x64");
-        reaches_pi_at_most(&picture);
-        assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001), "{file}");
-    }
+    let noting = format!("{NOTING_ANGLES}#include \"common/aperture.glsl\"\n");
+    // All polygons and the disk; the first and the last number of a turn, and some between.
+    let body = "uint last = 16777215u;\n\
+                float turn = float(at.y < 8 ? last - at.y : at.y < 16 ? at.y - 8 : at.y * (last / 64u));\n\
+                vec2 u = vec2(turn / 16777216.0, 1.0 - 1.0 / 16777216.0);\n\
+                uint corners = uint(at.x) % 17;\n\
+                vec2 point = corners < 3 ? disk_point(at.x < 17 ? u : u.yx)\n\
+                                         : polygon_point(corners, at.x < 17 ? 0.0 : u.x, u);\n\
+                answer = vec4(widest, point, 0.0);";
+    let picture = run::evaluate(&noting, body, "34x64");
+    reaches_pi_at_most(&picture);
+    assert!(picture.pixels.iter().all(|[_, x, y, _]| x.hypot(*y) < 1.000001));
 }
 
 #[test]
 fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
     let noting = format!(
-        "{NOTING_ANGLES}#include \"29_emitters/emitter.glsl\"\n\
-         #include \"29_emitters/sphere_light.glsl\"\n"
+        "{NOTING_ANGLES}#include \"common/emitter.glsl\"\n\
+         #include \"common/sphere_light.glsl\"\n"
     );
     // The numbers that end a turn, and some between, from outside and from inside.
     let body = "float u = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
@@ -260,13 +248,11 @@ fn error_free_sums_demand_rounding_to_nearest() {
     for name in ["12_infinite_plane", "22_solids", "25_scene_effects"] {
         // A copy that does not compile once the mode is demanded.
         let shaders = run::copy_of_shaders();
-        for folder in ["common", "12_infinite_plane"] {
-            let file = shaders.path().join(folder).join("error_free.glsl");
-            let text = fs::read_to_string(&file).expect("a shader");
-            let told = text.replace("spirv_execution_mode(", "#error demanded\n");
-            assert_ne!(told, text);
-            fs::write(file, told).expect("a copy can be written");
-        }
+        let file = shaders.path().join("common/error_free.glsl");
+        let text = fs::read_to_string(&file).expect("a shader");
+        let told = text.replace("spirv_execution_mode(", "#error demanded\n");
+        assert_ne!(told, text);
+        fs::write(file, told).expect("a copy can be written");
         let mut command = run::command(name);
         command.env("SHADERS", shaders.path()).args(["--headless", "--size", "8x8"]);
         let output = command.output().expect("the sample starts");

@@ -9,7 +9,7 @@ use super::points::{hash, mirrored, owen, sobol_second};
 use super::{AT_ORIGIN, SIZE, SMALL, picture};
 use run::figures;
 
-/// What a random number is for, as in `shaders/common/random.glsl` and `sequence.glsl`.
+/// What a random number is for, as in `shaders/common/random.glsl` and `sample_point.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 pub const DIMENSION_LENS: u32 = 5;
 

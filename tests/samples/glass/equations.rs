@@ -10,7 +10,7 @@ use super::U;
 const WIDTH: usize = 288;
 const HEIGHT: usize = 32;
 const SIZE: &str = "288x32";
-const FILES: &str = "#include \"common/random.glsl\"\n#include \"27_glass/glass.glsl\"\n#include \"27_glass/media.glsl\"";
+const FILES: &str = "#include \"common/random.glsl\"\n#include \"common/glass.glsl\"\n#include \"common/media.glsl\"";
 
 /// 256 cosines from 1/256 to 1 and 32 that are powers of two, each between two media: indices 1 and
 /// 1 + 2^-k, into the denser for the first 16 rows and out of it for the rest. All are exact.

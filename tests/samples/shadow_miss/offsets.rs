@@ -11,7 +11,7 @@ use run::{command, figures, shaders_with};
 
 /// Runs with a line of a shader replaced, and returns a picture of 480×300 and the milliseconds of a frame.
 fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
-    let shaders = shaders_with(&format!("{NAME}/{file}"), from, to);
+    let shaders = shaders_with(file, from, to);
     let [out, report] = ["out.exr", "report.json"].map(|name| shaders.path().join(name));
     let run = command(NAME)
         .env("SHADERS", shaders.path())
@@ -34,7 +34,7 @@ const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
 #[test]
 fn specks_come_where_the_bound_is_not_kept() {
     let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
-    let right = shadow("above.glsl", BOUND, BOUND);
+    let right = shadow("common/above.glsl", BOUND, BOUND);
     let is_lit = |pixel: &&[f32; 4]| pixel[0] == 1.0 && pixel[2] == 1.0;
     let lit = right.pixels.iter().filter(is_lit).count();
     let dark = |picture: &Picture| {
@@ -44,7 +44,7 @@ fn specks_come_where_the_bound_is_not_kept() {
     let mut scaled = Map::new();
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01", "0.0"] {
         let picture = shadow(
-            "above.glsl",
+            "common/above.glsl",
             BOUND,
             &BOUND.replace("ROUNDING", &format!("{factor} * ROUNDING")),
         );
@@ -55,7 +55,7 @@ fn specks_come_where_the_bound_is_not_kept() {
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
          hit.height = 0.0;\n"
     );
-    let acne = dark(&shadow("shade.rchit", PLACED, &from_t));
+    let acne = dark(&shadow("05_shadow_miss/shade.rchit", PLACED, &from_t));
     println!("{acne} dark where the ray starts at o + t d");
     figures::hold("05_shadow_miss/scaled", scaled.into());
     figures::hold("05_shadow_miss/acne", json!({ "lit": lit, "dark": acne }));
@@ -70,7 +70,7 @@ fn the_bound_in_time() {
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
          hit.height = 0.001;\n"
     );
-    let time = |to: &str| patched("shade.rchit", PLACED, to, &["--frames", "5"]).1;
+    let time = |to: &str| patched("05_shadow_miss/shade.rchit", PLACED, to, &["--frames", "5"]).1;
     let mut ratios: Vec<f64> = (0..20).map(|_| time(PLACED) / time(&by_eye)).collect();
     ratios.sort_by(f64::total_cmp);
     let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);

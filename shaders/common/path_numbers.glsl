@@ -1,7 +1,7 @@
-// Taught by 11_path_tracing; what 27 has of it: the random numbers of a path.
+// Like numbers.glsl in 11_path_tracing, but by one sequence alone: the random numbers of a path.
 //
 // Two for each purpose at each bounce, that belong to the pixel and to one of its samples.
-#include "common/sequence.glsl"
+#include "common/sobol.glsl"
 
 // What else than in chapters before a number is for.
 const uint DIMENSION_CHOICE = 2;

@@ -1,11 +1,4 @@
-// Taught by 26_leaving_a_surface; what the starts at triangles and those at spheres share.
-
-const uint ORIGIN_NOTHING = 0;
-const uint ORIGIN_TMIN = 1;
-const uint ORIGIN_NORMAL = 2;
-const uint ORIGIN_INTEGERS = 3;
-const uint ORIGIN_REPROJECTED = 4;
-const uint ORIGIN_BOUND = 5;
+// Taught by 26_leaving_a_surface.
 
 // ANCHOR: up_by_floats
 // Up by so many floats: a step that grows with the coordinate. Near zero, where floats lie dense, a

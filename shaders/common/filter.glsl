@@ -1,3 +1,5 @@
+// Taught by 04_jitter_camera.
+//
 // Filters, as the inverse of their integral: of a number that is uniform in [0, 1) they make an offset
 // from the middle of the pixel, in pixels, that is near a place as often as the filter is high there.
 

@@ -1,10 +1,9 @@
-// The shadow ray.
+// Like shadow.glsl in 06_reflection, but for rays that any hit ends: the shadow ray.
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
 layout(location = 1) rayPayloadEXT bool lit;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
     uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT
@@ -25,4 +24,3 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     );
     return lit;
 }
-// ANCHOR_END: shadow

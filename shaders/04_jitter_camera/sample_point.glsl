@@ -1,0 +1,31 @@
+// What makes the points of a sequence differ from pixel to pixel.
+#include "common/sequence.glsl"
+
+// ANCHOR: sample
+// Where in the pixel the ray of a frame goes through, in [0, 1)^2.
+vec2 sample_point(uvec2 pixel, uint i) {
+    if (push.sequence == SEQUENCE_CENTRE) {
+        return vec2(0.5);
+    }
+    // Random numbers that belong to the pixel, or to all of them.
+    uvec2 owner = push.scrambling == SCRAMBLING_NONE ? uvec2(0) : pixel;
+    uvec4 key = hash(uvec4(owner, push.seed, DIMENSION_PIXEL));
+    uvec2 point = hash(uvec4(key.zw, i, 0)).xy;
+    if (push.sequence == SEQUENCE_HALTON) {
+        point = halton(i);
+    }
+    if (push.sequence == SEQUENCE_R2) {
+        point = r2(i);
+    }
+    if (push.sequence == SEQUENCE_SOBOL) {
+        point = sobol(i);
+    }
+    if (push.scrambling == SCRAMBLING_ROTATION) {
+        point += key.xy;
+    }
+    if (push.scrambling == SCRAMBLING_OWEN) {
+        point = uvec2(owen(point.x, key.x), owen(point.y, key.y));
+    }
+    return vec2(to_unit(point.x), to_unit(point.y));
+}
+// ANCHOR_END: sample
