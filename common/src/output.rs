@@ -69,6 +69,11 @@ fn is_plain(letter: char) -> bool {
     !letter.is_control() && !turns
 }
 
+/// The line of an error: what went wrong, and why.
+pub fn line_of(error: &anyhow::Error) -> String {
+    format!("error: {error:#}").replace('\n', " ")
+}
+
 /// Writes what is wrong with an input that is used all the same to standard error, a line each.
 pub fn warn(warnings: &[String]) {
     for warning in warnings {

@@ -205,7 +205,7 @@ enum Command {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
         /// Fail if one of these samples is missing
-        #[arg(long, value_name = "A..B", value_parser = common::app::range)]
+        #[arg(long, value_name = "A..B", value_parser = instruments::sums::range)]
         samples: Option<Range<u32>>,
     },
     /// Make a website of the book with mdBook, to be read from a file or from any folder of a server
@@ -227,7 +227,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    common::app::exit_code(|| {
+    instruments::guard::exit_code(|| {
         // Whoever asks for a chapter that is not there has given a wrong argument.
         run(&parse()?).map_err(|error| match error.downcast() {
             Ok(Unknown(line)) => Usage(line).into(),
@@ -239,7 +239,7 @@ fn main() -> ExitCode {
 fn parse() -> Result<Arguments> {
     Arguments::try_parse().map_err(|error| {
         if !error.use_stderr() {
-            common::app::output::print_and_exit(&error.to_string());
+            common::output::print_and_exit(&error.to_string());
         }
         let text = error.to_string();
         // Without a command clap's error is the help, in which no line says what is missing.
@@ -258,7 +258,7 @@ fn parse() -> Result<Arguments> {
 fn run(arguments: &Arguments) -> Result<()> {
     // These two have children to end first, and wait for it.
     if !matches!(arguments.command, Command::Survey { .. } | Command::Exercise(_)) {
-        common::app::watch();
+        instruments::guard::watch();
     }
     let project = Project::open(&arguments.root)?;
     match &arguments.command {

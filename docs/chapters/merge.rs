@@ -4,10 +4,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use common::app::sums::{check_complete, merge};
-use common::app::{Format, output};
+use common::app::Format;
 use common::files::check_writable;
+use common::output;
 use common::usage::Usage;
+use instruments::sums::{check_complete, merge};
 
 /// Merges `files` and writes a picture if `out` is named as one, else a file of sums; returns the line that
 /// tells what it has.

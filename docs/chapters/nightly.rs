@@ -13,7 +13,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
-use common::app::output::print;
+use common::output::print;
 use common::usage::Usage;
 use patience::Limit;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use common::app::output::print;
+use common::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals};

@@ -6,8 +6,8 @@ use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use common::app::output;
 use common::files::write_whole;
+use common::output;
 use serde::{Deserialize, Serialize};
 
 use crate::exercise::Exercise;

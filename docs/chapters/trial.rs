@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::ExitStatus;
 
 use anyhow::{Context, Result, bail, ensure};
-use common::app::output::print;
 use common::files::Folder;
+use common::output::print;
 use common::usage::Usage;
 use image::RgbImage;
 use panels::{Panel, sheet};

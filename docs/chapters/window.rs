@@ -3,7 +3,7 @@
 use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result};
-use common::app::output::print;
+use common::output::print;
 use patience::Limit;
 
 use crate::child;

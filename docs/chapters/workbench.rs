@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
-use common::app::output::print;
+use common::output::print;
 use common::usage::Usage;
 
 use crate::attempt::{Attempt, Originals, Verdict};

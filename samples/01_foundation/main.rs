@@ -1,22 +1,23 @@
 //! 01 · Foundation: one ray-traced triangle, every Vulkan call in this one file.
 //!
 //! Read it from top to bottom: instance, device, acceleration structures, image, pipeline, shader
-//! binding table, trace, picture. `common::app` gives arguments, shader compiler, picture and report,
-//! and no Vulkan. From 02_basic on, `common::gpu` does what stands here in full.
+//! binding table, trace, picture. `common` gives arguments, shader compiler and picture, `instruments` the
+//! report, and neither any Vulkan. From 02_basic on, `common::gpu` does what stands here in full.
 
 use std::ffi::{CStr, c_void};
 use std::io::Write;
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
-use common::app::output::{complain, print};
-use common::app::{Args, Milliseconds, Picture, Report, check_files, compile_shader, finish};
+use common::app::{Args, Picture};
 use common::gpu::ensure_threads;
+use common::gpu::shader::compile;
+use common::output::{complain, print};
 use common::usage::Usage;
+use instruments::{Milliseconds, Report, check_files, finish};
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
 
 const NAME: &str = env!("CARGO_BIN_NAME");
@@ -47,12 +48,12 @@ fn main() -> ExitCode {
 /// Every layer makes its object, hands it on, and destroys it however the rest ended.
 fn run() -> Result<()> {
     let start = Instant::now();
-    let args = Args::parse_for(NAME)?;
+    let (args, options) = instruments::parse(NAME)?;
     let refused = [
         (!args.sets.is_empty(), "has no controls"),
-        (args.compare.is_some(), "has no controls to compare"),
+        (options.compare.compare.is_some(), "has no controls to compare"),
         (
-            args.compile_for.is_some(),
+            options.compile_for.compile_for.is_some(),
             "makes its pipeline by itself: --compile-for is for 02 and on",
         ),
         (args.scene.is_some(), "brings its own triangle and takes no --scene"),
@@ -71,11 +72,10 @@ fn run() -> Result<()> {
     if args.list_controls {
         return Ok(());
     }
-    check_files(&args)?;
+    check_files(&args, &options)?;
     // A software driver waits forever for threads that the system does not start.
     ensure_threads()?;
-    let mut story =
-        Story { lines: Vec::new(), silent: args.report.as_deref() == Some(Path::new("-")) };
+    let mut story = Story { lines: Vec::new(), silent: options.report.takes_output() };
     let (picture, mut report) = with_instance(args.validate, &messages, |instance| {
         let chosen = choose(candidates(instance)?, args.device.as_deref())?;
         with_device(instance, &chosen, |device| {
@@ -97,7 +97,7 @@ fn run() -> Result<()> {
     }
     report.validation_messages = messages.clone();
     report.chapter = story.lines.into();
-    if let Some(path) = &args.report {
+    if let Some(path) = &options.report.report {
         report.save(path)?;
     }
     match messages.first() {
@@ -413,7 +413,7 @@ fn render(
     let groups =
         [general.general_shader(0), general.general_shader(1), triangle_hit.closest_hit_shader(2)];
     // ANCHOR_END: groups
-    let shaders = files.map(|file| compile_shader(&format!("{NAME}/{file}")));
+    let shaders = files.map(|file| compile(&format!("{NAME}/{file}")));
     let shaders: Vec<_> = shaders.into_iter().collect::<Result<_>>()?;
     let bindings = [
         (0, vk::DescriptorType::ACCELERATION_STRUCTURE_KHR),

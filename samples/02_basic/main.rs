@@ -7,17 +7,16 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
-    Variants,
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 
 // ANCHOR: main
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -88,7 +87,7 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.show, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

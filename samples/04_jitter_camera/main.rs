@@ -9,15 +9,15 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Binding, Buffer, Descriptor, Gpu, HitGroup, Image, Number, RayTracingPipeline, Requirements,
-    TextureTable, Variant, Variants, barrier,
+    TextureTable, barrier,
 };
 use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 /// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
@@ -129,7 +129,7 @@ impl Sample for Demo {
             Descriptor::StorageBuffer(&self.offsets),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.show, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -7,17 +7,16 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
-    Variants,
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
     Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 const MAX_DEPTH: u32 = 8;
@@ -117,7 +116,7 @@ impl Sample for Demo {
         let recursive = (self.method == Method::Recursive).then_some(self.depth);
         let constants = Constants { recursive, ..self.constants };
         let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
         // While a pipeline is made, the last one goes on, and no ray may nest deeper than it declares.
         let depth = key.recursive.unwrap_or(self.depth);
         // ANCHOR_END: variant

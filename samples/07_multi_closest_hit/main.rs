@@ -18,7 +18,7 @@ use common::{Controls, Frame, Sample, Setup, bytemuck};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 common::shader_enum! {

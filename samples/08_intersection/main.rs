@@ -11,18 +11,17 @@ use std::process::ExitCode;
 use anyhow::Result;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
-    Variant, Variants,
 };
 use common::scene::{
     Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use shapes::{SceneKind, ShapeAddresses};
 use shapes_on_gpu::{Build, ShapesOnGpu};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -144,7 +143,7 @@ impl Sample for Demo {
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         if key.sphere_rung == SphereRung::HostC {
             self.shapes.compute_host_c(frame, self.camera.eye.as_vec3())?;
         }

@@ -13,17 +13,17 @@ use std::process::ExitCode;
 use anyhow::Result;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
-    Variant, Variants, barrier,
+    barrier,
 };
 use common::scene::{Camera, CameraBasis, Light, SceneAddresses, SceneOnGpu, ShadowRays, Sun};
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use formation::{Build, Geometry, SceneKind};
 use glam::{DVec3, Vec3};
 use pieces::Pieces;
 use top_level::{FLAGS, PieceRecord, SEEN, TopLevelBuild};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 /// How far the camera goes before the set is placed anew.
@@ -202,7 +202,7 @@ impl Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         let mut area = frame.area;
         area.offset.x = columns.start as i32;

@@ -12,15 +12,15 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, Variant, Variants, barrier,
+    TextureTable, barrier,
 };
 use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage};
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::UVec3;
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 /// How often a path may be reflected at most. If each surface takes 5 % of
@@ -190,7 +190,7 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

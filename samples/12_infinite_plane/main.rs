@@ -12,7 +12,7 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, Variant, Variants,
+    TextureTable,
 };
 use common::scene::board::Board;
 use common::scene::plane::Plane;
@@ -20,13 +20,13 @@ use common::scene::{
     Camera, CameraBasis, Light, Placement, Scene, SceneAddresses, SceneOnGpu, ShadowRays,
     input_usage,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use plane::{InfinitePlane, Inside};
 use scenes::{Lights, Preset, PresetName};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -193,7 +193,7 @@ impl Sample for Demo {
         let (plane, inside) = (self.plane.is_there(), self.plane.inside);
         let constants = Constants { plane, inside, ..self.constants };
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -4,8 +4,8 @@ use std::cell::{Cell, RefCell};
 
 use anyhow::Result;
 use ash::vk;
-use common::app::Milliseconds;
 use common::gpu::{Gpu, Timer};
+use instruments::Milliseconds;
 
 /// How many times are kept of each kind: a window may stay open for days.
 const MOST: usize = 10_000;

@@ -17,14 +17,13 @@ use std::process::ExitCode;
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable, Variant,
-    Variants,
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
     Camera, CameraBasis, Light, SceneAddresses, SceneOptions, ShadowRays, Sun, assets, text,
 };
 use common::usage::Usage;
-use common::{Controls, Frame, Lighting, Playback, Sample, Setup};
+use common::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
 use flag::Flag;
 use glam::{DVec3, Vec3};
 use levels::{Levels, Plan, Policy};
@@ -32,7 +31,7 @@ use motion::Motion;
 use world::World;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -150,12 +149,8 @@ impl Sample for Demo {
             Descriptor::AccelerationStructure(&self.levels.tlas),
             Descriptor::StorageImage(frame.image),
         ];
-        let Variant { pipeline, sbt, .. } = self.pipelines.choose(
-            frame.gpu,
-            &self.world.scene.textures,
-            self.constants,
-            pipeline,
-        )?;
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &self.world.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -6,17 +6,15 @@
 use std::process::ExitCode;
 
 use anyhow::Result;
-use common::gpu::{
-    Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable, Variant, Variants,
-};
+use common::gpu::{Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable};
 use common::scene::{
     Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -108,7 +106,7 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         pipeline.dispatch(frame.cmd, frame.area);
         // ANCHOR_END: trace

@@ -2,9 +2,9 @@
 
 use anyhow::{Context, Result};
 use ash::vk;
-use common::gpu::{Address, Buffer, Gpu, GraphicsPipeline, Image, TextureTable, Variant, Variants};
+use common::gpu::{Address, Buffer, Gpu, GraphicsPipeline, Image, TextureTable};
 use common::scene::{CameraBasis, Scene, SceneAddresses, SceneOnGpu, input_usage};
-use common::{Controls, Frame};
+use common::{Controls, Frame, Variant, Variants};
 use glam::{DMat4, Vec3};
 
 /// Four numbers of 32 bits: a format that every device draws to and has as a storage image.
@@ -118,7 +118,7 @@ impl GBuffer {
         scene: &SceneOnGpu,
     ) -> Result<()> {
         let Variant { pipeline, key, .. } =
-            self.pipelines.choose(frame.gpu, &scene.textures, self.depth, pipeline)?;
+            self.pipelines.choose(frame, &scene.textures, self.depth, pipeline)?;
         let fits = |targets: &Targets| {
             targets.seen.extent == frame.image.extent && targets.depth.format == key.format()
         };

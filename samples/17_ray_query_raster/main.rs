@@ -9,16 +9,15 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use common::gpu::{
-    Address, Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable, Variant,
-    Variants,
+    Address, Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable,
 };
 use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, Sun};
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use gbuffer::{GBuffer, Placed};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
@@ -100,7 +99,7 @@ impl Sample for Demo {
         // ANCHOR: trace
         let camera = self.camera.basis(frame.aspect());
         let Variant { pipeline, key, .. } =
-            self.pipelines.choose(frame.gpu, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         // All bands of a frame share what the first one draws.
         if frame.is_first_band() {
             let draws = key.primary == Primary::Raster;

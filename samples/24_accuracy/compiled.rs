@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use anyhow::{Result, bail};
 use common::app::Progress;
-use common::app::compile_for::{CompiledFor, Family, programs};
 use common::gpu::Blueprint;
+use instruments::compile_for::{CompiledFor, Family, programs};
 use serde::Serialize;
 
 use crate::measure::{Measured, Measurement};

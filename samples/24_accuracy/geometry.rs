@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use anyhow::Result;
 use ash::vk;
-use common::app::compare::{self, Ratio};
 use common::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
     HitGroup, RayTracingPipeline, ShaderBindingTable, Timer, barrier,
 };
 use common::scene::{Camera, CameraBasis, boxes_on_gpu, build_top, input_usage};
 use glam::{DVec3, Vec3};
+use instruments::compare::{self, Ratio};
 use reference::Ray;
 use reference::sphere::Sphere;
 use serde::Serialize;

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::{Result, ensure};
-use common::app::{Progress, output};
+use common::app::Progress;
 use common::files::write_whole;
 use common::gpu::Gpu;
+use common::output;
 use serde::Serialize;
 
 use crate::batch::Batch;
@@ -97,7 +98,7 @@ pub fn run(gpu: &Gpu, path: &Path, tops: bool, report: Option<&Path>) -> Result<
         file: path.display().to_string(),
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.arithmetic.to_string(),
+        arithmetic: gpu.emulation.name().to_owned(),
         fused: probe.fused,
         cases: cases.len(),
         skipped: 0,

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use common::app::{self, Args, check_validation, output};
+use common::app::{Args, Watch, check_validation};
 use common::files::{self, write_whole};
-use common::gpu::{Gpu, GpuOptions, Requirements};
+use common::gpu::{Gpu, Requirements};
+use common::output;
 use common::usage::Usage;
+use instruments::{Instruments, Options, check_files};
 
 use crate::disagreement::Disagreement;
 use crate::drawing::Drawing;
@@ -71,27 +73,24 @@ impl Lab {
     ///
     /// # Errors
     /// Whatever went wrong.
-    pub fn start(&self, args: &Args) -> Result<()> {
+    pub fn start(&self, args: &Args, options: Options) -> Result<()> {
         let is_asked = self.cases.is_some() || self.measure.is_some();
         if !is_asked || args.list_controls {
-            return app::start::<Demo>(env!("CARGO_BIN_NAME"), args);
+            return instruments::start::<Demo>(env!("CARGO_BIN_NAME"), args, options);
         }
-        self.check(args)?;
-        app::check_files(args)?;
+        self.check(args, &options)?;
+        check_files(args, &options)?;
         if let Some(folder) = &self.measure {
             prepare(folder)?;
         }
-        let gpu = Gpu::new(&GpuOptions {
-            // A rung that the device cannot do is told of, and the others are asked.
-            requirements: Requirements::ray_tracing().float64_where_offered(),
-            device: args.device.as_deref(),
-            validate: args.validate,
-            window: None,
-            arithmetic: args.arithmetic,
-        })?;
+        // A rung that the device cannot do is told of, and the others are asked.
+        let mut device = args.device(Requirements::ray_tracing().float64_where_offered());
+        let report = options.report.report.clone();
+        Instruments::new(options).device(&mut device);
+        let gpu = Gpu::new(&device)?;
         let validation = gpu.validation();
         if let Some(cases) = &self.cases {
-            hard::run(&gpu, cases, self.tops, args.report.as_deref())?;
+            hard::run(&gpu, cases, self.tops, report.as_deref())?;
         }
         if let Some(folder) = &self.measure {
             self.measure(&gpu, folder)?;
@@ -101,8 +100,8 @@ impl Lab {
     }
 
     /// Refuses what goes with a picture alone.
-    fn check(&self, args: &Args) -> Result<(), Usage> {
-        if args.compare.is_some() || args.list_devices || !args.sets.is_empty() {
+    fn check(&self, args: &Args, options: &Options) -> Result<(), Usage> {
+        if options.compare.compare.is_some() || args.list_devices || !args.sets.is_empty() {
             let line = "--cases and --measure take no controls, and list no devices";
             return Err(Usage(line.to_owned()));
         }
@@ -114,15 +113,15 @@ impl Lab {
             let line = "--cases and --measure bring their own shapes and take no --scene";
             return Err(Usage(line.to_owned()));
         }
-        if args.compile_for.is_some() {
+        if options.compile_for.compile_for.is_some() {
             let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
             return Err(Usage(line.to_owned()));
         }
-        if self.measure.is_some() && args.report.is_some() {
+        if self.measure.is_some() && options.report.report.is_some() {
             let line = "--measure writes its report to the folder and takes no --report";
             return Err(Usage(line.to_owned()));
         }
-        if let (Some(cases), Some(report)) = (&self.cases, &args.report)
+        if let (Some(cases), Some(report)) = (&self.cases, &options.report.report)
             && files::same(cases, report)
         {
             let line = format!("--cases and --report both name '{}'", report.display());

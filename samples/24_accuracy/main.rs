@@ -25,7 +25,6 @@ mod table;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use common::app::{self, Args};
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, RayTracingPipeline, Requirements, ShaderBindingTable,
 };
@@ -39,9 +38,9 @@ use probe::Probe;
 use specimen::Specimen;
 
 fn main() -> ExitCode {
-    app::finish(|| {
-        let (args, lab) = Args::parse_with::<Lab>(env!("CARGO_BIN_NAME"))?;
-        lab.start(&args)
+    instruments::finish(|| {
+        let (args, options, lab) = instruments::parse_with::<Lab>(env!("CARGO_BIN_NAME"))?;
+        lab.start(&args, options)
     })
 }
 

@@ -5,8 +5,8 @@ use std::time::SystemTime;
 
 use anyhow::Result;
 use common::app::Progress;
-use common::app::compare::{self, Ratio};
 use common::gpu::{Blueprint, Gpu};
+use instruments::compare::{self, Ratio};
 use reference::ulp::ulp_error;
 use serde::Serialize;
 
@@ -160,7 +160,7 @@ pub fn measure(
         }
         rungs.extend(measured);
     }
-    let no_compiler = match gpu.arithmetic.is_worst() {
+    let no_compiler = match gpu.emulation.name() != "driver" {
         true => Some(String::from("no GPU computes as badly as it may")),
         false => compiled::compile(&mut rungs, &progress).err().map(|why| format!("{why:#}")),
     };
@@ -171,7 +171,7 @@ pub fn measure(
     Ok(Measurement {
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.arithmetic.to_string(),
+        arithmetic: gpu.emulation.name().to_owned(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
         fused: probe.fused,
         rays,

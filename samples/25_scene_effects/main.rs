@@ -3,6 +3,7 @@
 //! New since 12_infinite_plane: effects found from the scene, shaders in pieces, stages and groups that
 //! come and go, and one more pipeline that has everything, to be compared with.
 
+mod contents;
 mod costs;
 mod geometry;
 mod ground;
@@ -17,10 +18,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, anyhow};
 use ash::vk;
-use common::app::output;
-use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements, Variant, Variants};
+use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements};
+use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use costs::Costs;
 use effects::{Composition, Effect, Finding, findings, needed};
 use geometry::SceneGeometry;
@@ -31,7 +32,7 @@ use serde_json::Value;
 use world::World;
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 const PIPELINE_EVERYTHING: u32 = 1;
@@ -78,7 +79,6 @@ impl Sample for Demo {
         let path = file.clone().unwrap_or_else(|| scenes::path(EVERYTHING));
         let scene = effects::open(&path)?;
         output::warn(&scene.scene.model.warnings);
-        gpu.share_structs(&world::LAYOUTS);
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let camera = scene.scene.camera;
         Ok(Self {
@@ -136,11 +136,7 @@ impl Sample for Demo {
             self.trouble = Some(anyhow!("costs cannot be measured on {queue}"));
         }
         if let Some(error) = self.trouble.take() {
-            // A window goes on with the scene that it has, and tells.
-            if !gpu.is_watched {
-                return Err(error);
-            }
-            gpu.complain(format!("{error:#}"));
+            return Err(error);
         }
         self.upload(gpu, self.camera.eye.as_vec3())
     }
@@ -238,7 +234,7 @@ impl Demo {
         let geometry = self.geometry.as_mut().context("no scene")?;
         // ANCHOR: trace
         let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame.gpu, &geometry.scene.textures, recipe, pipeline)?;
+            self.pipelines.choose(frame, &geometry.scene.textures, recipe, pipeline)?;
         let push =
             Push { camera, scene: geometry.scene.addresses, world: self.world.address.into() };
         let descriptors = [

@@ -1,7 +1,7 @@
 //! What the panel lets the reader change of a material, and what it tells of the effects.
 
 use common::Controls;
-use common::gpu::Variant;
+use common::Variant;
 use effects::{Finding, is_glass};
 use glam::Vec3;
 

@@ -6,7 +6,7 @@ use common::gpu::{Binding, Gpu, HitGroup, RayTracingPipeline, TextureTable};
 use effects::Effect::*;
 use effects::{Composition, Effect, Effects, Finish, MAX_LIGHTS};
 
-use crate::Push;
+use crate::{Push, world};
 
 /// A kind of geometry: each has a hit group and a bit of the cull mask of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,6 +138,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
         .push_constants::<Push>()
+        .structs(&world::LAYOUTS)
         .skip(recipe.skipped(gpu))
         .raygen("camera.rgen")
         .miss("sky.rmiss");

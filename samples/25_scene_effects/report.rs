@@ -1,10 +1,12 @@
 //! What the chapter reports: the effects with their reasons and costs, and what was compiled.
 
 use anyhow::Result;
-use common::gpu::{Pipeline, Reflection, Stage, Variant};
+use common::Variant;
+use common::gpu::{Pipeline, Reflection, Stage};
 use effects::Finding;
 use serde_json::{Value, json};
 
+use crate::contents::Contents;
 use crate::recipe::Recipe;
 use crate::scenes::SCENES;
 use crate::{Costs, Demo};
@@ -40,7 +42,7 @@ fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
     let Pipeline { blueprint, build_time, .. } = &**pipeline;
     let groups = pipeline.groups;
     let stages = blueprint.stages.iter().map(|Stage { path, words, .. }| {
-        let contents = serde_json::to_value(Reflection::of(words)?.contents())?;
+        let contents = serde_json::to_value(Contents::of(&Reflection::of(words)?))?;
         Ok(json!({ "path": path, "words": words.len(), "module": contents }))
     });
     Ok(json!({

@@ -13,18 +13,18 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, Variant, Variants, barrier,
+    TextureTable, barrier,
 };
 use common::scene::{
     Camera, CameraBasis, Light, LightKind, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::UVec3;
 use glass::{Glass, media_at};
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 /// How many surfaces a path may leave at most: clear glass ends none.
@@ -199,7 +199,7 @@ impl Sample for Demo {
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, &self.on_gpu.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.on_gpu.textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

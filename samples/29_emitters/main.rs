@@ -14,17 +14,17 @@ use anyhow::Result;
 use ash::vk;
 use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, Variant, Variants, barrier,
+    TextureTable, barrier,
 };
 use common::scene::{Camera, CameraBasis, SceneAddresses, input_usage};
-use common::{Controls, Frame, Sample, Setup};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use emitters::EmitterAddresses;
 use glam::UVec3;
 use lit_scene::LitScene;
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    common::run::<Demo>(env!("CARGO_BIN_NAME"))
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 /// How often light may be reflected at most.
@@ -187,7 +187,7 @@ impl Sample for Demo {
         ];
         let textures = &self.lit.on_gpu.textures;
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame.gpu, textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, textures, self.constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace

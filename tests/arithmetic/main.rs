@@ -8,11 +8,11 @@ mod traversal;
 
 use bounds::{BOUNDED, Bounded, Random, pair, ulp};
 use common::gpu::{
-    Address, Arithmetic, Buffer, Gpu, GpuOptions, RayTracingPipeline, Requirements,
-    ShaderBindingTable, barrier,
+    Address, Buffer, Gpu, GpuOptions, RayTracingPipeline, Requirements, ShaderBindingTable, barrier,
 };
 use common::scene::input_usage;
 use glam::{Vec3, Vec3Swizzles};
+use instruments::arithmetic::Arithmetic;
 
 common::shader_struct! {
     struct Push {
@@ -69,9 +69,10 @@ fn every_error_that_is_allowed_is_made_and_none_beyond() {
     let shaders = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/arithmetic/shaders");
     // SAFETY: this is the only test of the program, and no other thread reads the environment yet.
     unsafe { std::env::set_var("SHADERS", shaders) };
-    let open = |arithmetic| {
+    let open = |arithmetic: Arithmetic| {
         let requirements = Requirements::ray_tracing();
-        Gpu::new(&GpuOptions { requirements, arithmetic, ..GpuOptions::default() }).unwrap()
+        let emulation = std::sync::Arc::new(arithmetic);
+        Gpu::new(&GpuOptions { requirements, emulation, ..GpuOptions::default() }).unwrap()
     };
     let gpu = open(Arithmetic::Worst);
     bounds_are_approached_and_kept(&gpu);

@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::Range;
 
 use common::app::Picture;
-use common::app::sums::{Header, Origin, Sums};
+use instruments::sums::{Header, Origin, Sums};
 
 use crate::fixture::Fixture;
 

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::app::sums::{Header, Origin, Sums};
+use instruments::sums::{Header, Origin, Sums};
 use patience::ASLEEP;
 
 /// A program under a limit of the system's, in the words of `prlimit`.

@@ -3,14 +3,15 @@
 
 use std::process::ExitCode;
 
-use common::app::finish;
-use common::gpu::Arithmetic;
-use common::gpu::shader::compile_with;
+use common::gpu::Emulation;
+use common::gpu::shader::Shader;
+use instruments::arithmetic::Arithmetic;
+use instruments::finish;
 
 fn main() -> ExitCode {
     finish(|| {
         let path = std::env::args().nth(1).expect("the path of a shader");
         let ways = [Arithmetic::Driver, Arithmetic::Worst];
-        ways.into_iter().try_for_each(|way| compile_with(&path, &[], way).map(drop))
+        ways.iter().try_for_each(|way| Shader::of(&path, &[], |stage| way.words(&stage)).map(drop))
     })
 }

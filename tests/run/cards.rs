@@ -6,7 +6,7 @@
 use std::ffi::OsString;
 use std::process::{Command, Output};
 
-use common::app::compile_for::{manifest, ways};
+use instruments::compile_for::{manifest, ways};
 use serde_json::Value;
 
 use crate::command;

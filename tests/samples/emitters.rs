@@ -6,7 +6,7 @@ mod directions;
 mod plots;
 
 use common::app::Picture;
-use common::app::sums::merge;
+use instruments::sums::merge;
 use serde_json::{Map, json};
 
 use run::{bits, command, compiled_for, figures, golden, render, same_colors};

@@ -6,7 +6,7 @@ use std::process::{Child, Command};
 use std::time::Duration;
 
 use common::app::Picture;
-use common::app::sums::{Header, merge};
+use instruments::sums::{Header, merge};
 use run::{bits, command, heeding, refusal, render};
 use tempfile::TempDir;
 

@@ -6,8 +6,9 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
-use common::gpu::shader::{Shader, compile_with};
-use common::gpu::{ADDRESS_ALIGNMENT, Arithmetic};
+use common::gpu::shader::Shader;
+use common::gpu::{ADDRESS_ALIGNMENT, Emulation};
+use instruments::arithmetic::Arithmetic;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Decoration, ExecutionModel, Op, StorageClass};
 
@@ -96,7 +97,7 @@ fn compiled() -> Vec<Form> {
         }
         for defines in variants {
             // Not every stage of the laboratory is there for every primitive.
-            let Ok(shader) = compile_with(&path, &defines, Arithmetic::Driver) else {
+            let Ok(shader) = Shader::of(&path, &defines, |stage| stage.words()) else {
                 assert_ne!(defines, [], "{path} does not compile");
                 continue;
             };
@@ -216,8 +217,8 @@ fn every_module_is_valid_in_the_worst_arithmetic() {
     let apart = |file: &str| file.starts_with("01_") || file.starts_with("24_");
     let stages = files().into_iter().filter(|file| !file.ends_with("glsl"));
     for path in stages.filter(|file| !apart(file)) {
-        let shader = compile_with(&path, &[], worst).expect("it compiles");
-        validate(&path, &worst.applied(&path, 0, shader.spirv).expect("it can be rewritten"));
+        let shader = Shader::of(&path, &[], |stage| worst.words(&stage));
+        validate(&path, &shader.expect("it can be rewritten").spirv);
     }
 }
 

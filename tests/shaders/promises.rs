@@ -6,8 +6,8 @@
 use std::fs;
 
 use common::app::Picture;
-use common::gpu::shader::compile_with;
-use common::gpu::{Arithmetic, Gpu, GpuOptions, Requirements};
+use common::gpu::shader::Shader;
+use common::gpu::{Gpu, GpuOptions, Requirements};
 
 use super::files;
 
@@ -265,7 +265,7 @@ fn error_free_sums_demand_rounding_to_nearest() {
     let stages =
         ["12_infinite_plane/camera.rgen", "22_solids/solid.rint", "25_scene_effects/camera.rgen"];
     for stage in stages {
-        let words = compile_with(stage, &define, Arithmetic::Driver).expect("it compiles").spirv;
+        let words = Shader::of(stage, &define, |stage| stage.words()).expect("it compiles").spirv;
         assert!(words.windows(4).any(|w| w[0] == 4 << 16 | 16 && w[2..] == [4462, 32]), "{stage}");
     }
 }

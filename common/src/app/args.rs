@@ -1,16 +1,13 @@
 //! The command line, the same for every sample.
 
-use std::ops::Range;
 use std::path::PathBuf;
 
 use ash::vk;
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::compile_for::Family;
-use super::output;
-use super::samples::range;
-use crate::gpu::{Arithmetic, named_device};
+use crate::gpu::{GpuOptions, Requirements, named_device};
+use crate::output;
 use crate::usage::Usage;
 
 /// What a sample was asked to do.
@@ -37,37 +34,13 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// With --headless, write device, times, stages and messages as JSON; - is standard output
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
-
-    /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
-    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare"])]
-    pub samples: Option<Range<u32>>,
-
-    /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
-    #[arg(long, value_name = "FILE", requires = "samples")]
-    pub save: Option<PathBuf>,
-
-    /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
-    #[arg(long, value_name = "FILE", requires = "samples")]
-    pub resume: Option<PathBuf>,
-
-    /// Seconds from one --save to the next; 0 saves after each sample
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, requires = "save", allow_hyphen_values = true)]
-    pub save_every: u64,
-
     /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
     /// whatever theirs; a name given again acts after all before it
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 
-    /// Time a control's values in turns, --frames rounds, and print a table
-    #[arg(long, value_name = "NAME=A|B|…")]
-    pub compare: Option<String>,
-
     /// Print the controls: name, kind, possible values, value
-    #[arg(long, conflicts_with = "compare")]
+    #[arg(long)]
     pub list_controls: bool,
 
     /// Use this device: a number of --list-devices or a part of its name
@@ -86,35 +59,16 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 
-    /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
-    #[arg(long, value_name = "FAMILY", value_enum)]
-    pub compile_for: Option<Family>,
-
-    /// Ask the device's own compiler about the pipelines, for the report, where it tells
-    #[arg(long, hide = true)]
-    pub compiler_figures: bool,
-
-    /// Make the pipelines on standard input for the family there: the child of --compile-for
-    #[arg(long, hide = true)]
-    pub answer_compile_for: bool,
-
-    /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
-    #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
-    pub arithmetic: Arithmetic,
-
     /// Build acceleration structures in the model's order instead of a spatial one
     #[arg(long)]
     pub unordered: bool,
 }
 
 impl Args {
-    /// Whether no window is to be opened.
-    pub fn is_headless(&self) -> bool {
-        self.headless
-            || self.list_controls
-            || self.compare.is_some()
-            || self.compile_for.is_some()
-            || self.samples.is_some()
+    /// The device that is asked for, with these features.
+    pub fn device(&self, requirements: Requirements) -> GpuOptions<'_> {
+        let (device, validate) = (self.device.as_deref(), self.validate);
+        GpuOptions { requirements, device, validate, ..GpuOptions::default() }
     }
 
     /// Fails if a file and a control both name the scene: one of them would be passed over.
@@ -126,33 +80,6 @@ impl Args {
                 file.display()
             ))),
             _ => Ok(()),
-        }
-    }
-
-    /// Fails if the sums are to go where one would look for a picture: no viewer opens them.
-    fn sums_are_no_picture(&self) -> Result<(), Usage> {
-        let Some(path) = &self.save else { return Ok(()) };
-        let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
-        let others = ["png", "exr", "jpg", "jpeg", "tif", "tiff", "json"];
-        match others.iter().any(ends) || path.as_os_str() == "-" {
-            true => Err(Usage(format!(
-                "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
-                path.display()
-            ))),
-            false => Ok(()),
-        }
-    }
-
-    /// Fails if a render would keep nothing of its samples, perhaps after days.
-    fn samples_are_kept(&self) -> Result<(), Usage> {
-        let asked = self.list_controls || self.compile_for.is_some();
-        let kept = self.out.is_some() || self.save.is_some() || self.report.is_some();
-        match self.samples.is_none() || asked || kept {
-            true => Ok(()),
-            false => Err(Usage(
-                "--samples keeps nothing: name a file for the picture, --out, or for the sums, --save"
-                    .to_owned(),
-            )),
         }
     }
 
@@ -193,8 +120,6 @@ impl Args {
             Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
         })?;
         args.one_scene()?;
-        args.sums_are_no_picture()?;
-        args.samples_are_kept()?;
         Ok((args, more))
     }
 }
@@ -216,10 +141,6 @@ fn size(text: &str) -> Result<vk::Extent2D, String> {
 fn frames(text: &str) -> Result<u32, String> {
     let number = text.parse().ok().filter(|&number| number > 0);
     number.ok_or_else(|| format!("frames are a whole number from 1 to {}", u32::MAX))
-}
-
-fn seconds(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "seconds are a whole number, such as 60".to_owned())
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

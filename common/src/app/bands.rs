@@ -4,9 +4,12 @@
 //! a picture answers nobody. So a picture is traced in bands, each submitted and waited for alone. How
 //! many rows a band has follows what the rows before have cost.
 
+use std::sync::Arc;
+
 use anyhow::Result;
 use ash::vk;
 
+use super::variants::Background;
 use super::{Frame, Sample};
 use crate::gpu::{Gpu, Image, Timer, barrier};
 
@@ -89,16 +92,16 @@ impl Bands {
     ///
     /// # Errors
     /// If the sample or the device fails.
-    pub fn trace<S: Sample>(
+    pub fn trace(
         &mut self,
-        sample: &mut S,
-        (gpu, timer): (&Gpu, &Timer),
+        sample: &mut dyn Sample,
+        (gpu, timer, background): (&Gpu, &Timer, Option<&Arc<Background>>),
         (image, index, accumulated): (&Image, u32, u32),
     ) -> Result<Option<f64>> {
         let Some(area) = self.next() else { return Ok(None) };
         gpu.submit(|cmd| {
             timer.start(cmd);
-            sample.render(&Frame { gpu, cmd, image, area, index, accumulated })?;
+            sample.render(&Frame { gpu, cmd, image, area, index, accumulated, background })?;
             timer.stop(cmd);
             barrier::trace_to_trace(gpu, cmd);
             Ok(())

@@ -200,6 +200,13 @@ impl Blueprint {
 }
 
 impl Group {
+    /// A group of one raygen, miss or callable shader.
+    pub fn general(stage: u32) -> Self {
+        let unused = vk::SHADER_UNUSED_KHR;
+        let kind = vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw();
+        Self { kind, general: stage, intersection: unused, any_hit: unused, closest_hit: unused }
+    }
+
     fn info(&self) -> vk::RayTracingShaderGroupCreateInfoKHR<'static> {
         vk::RayTracingShaderGroupCreateInfoKHR::default()
             .ty(vk::RayTracingShaderGroupTypeKHR::from_raw(self.kind))

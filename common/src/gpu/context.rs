@@ -7,17 +7,15 @@
 use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
 use ash::{Device, Entry, Instance, ext, khr, nv, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
-use super::arithmetic::Arithmetic;
 use super::device::{self, Candidate};
+use super::emulation::{Emulation, Plain};
 use super::instance::{self, WindowHandles};
-use super::layout::StructLayout;
 use super::limits::Limits;
 use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
@@ -26,7 +24,7 @@ use super::threads;
 use super::validation::Messages;
 
 /// How a [`Gpu`] shall be made.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct GpuOptions<'a> {
     /// Features and extensions, no more than the sample needs.
     pub requirements: Requirements,
@@ -36,8 +34,21 @@ pub struct GpuOptions<'a> {
     pub validate: bool,
     /// The window to draw to, if any: the device must have a queue that can.
     pub window: Option<WindowHandles>,
-    /// How shaders compute.
-    pub arithmetic: Arithmetic,
+    /// The driver to be emulated, [`Plain`] for the one that there is.
+    pub emulation: Arc<dyn Emulation>,
+}
+
+impl Default for GpuOptions<'_> {
+    fn default() -> Self {
+        let requirements = Requirements::default();
+        Self {
+            requirements,
+            device: None,
+            validate: false,
+            window: None,
+            emulation: Arc::new(Plain),
+        }
+    }
 }
 
 /// A shared handle to the device and all that belongs to it.
@@ -72,8 +83,6 @@ pub struct GpuContext {
     pub driver: String,
     /// Whether it is a driver that runs on the CPU.
     pub software: bool,
-    /// Whether there is a window: someone who would rather see the last picture than wait for the next.
-    pub is_watched: bool,
     /// The limits that ray tracing code must heed.
     pub limits: Limits,
     /// Whether shaders may sort rays by what they met: the device offers it, and the sample asks for it.
@@ -82,17 +91,11 @@ pub struct GpuContext {
     pub pipeline_cache: PipelineCache,
     /// What the sample has asked for.
     pub requirements: Requirements,
-    /// How shaders compute.
-    pub arithmetic: Arithmetic,
+    /// What stands between this program and the driver.
+    pub emulation: Arc<dyn Emulation>,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
-    /// How many pipelines are being made by other threads.
-    pub(super) building: AtomicUsize,
-    /// How many they have made.
-    pub(super) built: AtomicUsize,
-    complaints: Mutex<Vec<String>>,
     statistics: Mutex<Statistics>,
-    shared_structs: Mutex<Vec<StructLayout>>,
     pub(super) command_pool: Mutex<vk::CommandPool>,
     debug: Option<Debug>,
 }
@@ -116,11 +119,7 @@ impl Gpu {
     /// # Errors
     /// If there is no loader, no suitable device, or no validation layer where one is asked for.
     pub fn new(options: &GpuOptions) -> Result<Self> {
-        let mut wanted = options.requirements.clone();
-        let options = &GpuOptions { arithmetic: options.arithmetic.or_seeded(), ..options.clone() };
-        if options.arithmetic.is_worst() {
-            wanted = wanted.float64();
-        }
+        let wanted = options.emulation.requirements(options.requirements.clone());
         let entry = instance::load()?;
         let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
         let (instance, has_debug_utils) =
@@ -206,14 +205,9 @@ impl Gpu {
             name: chosen.name.clone(),
             driver: chosen.driver.clone(),
             software,
-            is_watched: options.window.is_some(),
-            arithmetic: options.arithmetic,
+            emulation: options.emulation.clone(),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
-            building: AtomicUsize::new(0),
-            built: AtomicUsize::new(0),
-            complaints: Mutex::default(),
             statistics: Mutex::default(),
-            shared_structs: Mutex::default(),
             command_pool: Mutex::new(command_pool),
             device,
             instance,
@@ -242,45 +236,22 @@ impl Gpu {
         messenger.map_or_else(Arc::default, |(_, _, messages)| messages.clone())
     }
 
-    /// Declares structures that shaders find by address: every pipeline made from now on is held to
-    /// them, as a wrong offset there makes a driver follow a wrong address.
-    pub fn share_structs(&self, layouts: &[StructLayout]) {
-        let mut shared = self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner);
-        shared.retain(|known| layouts.iter().all(|layout| layout.name != known.name));
-        shared.extend_from_slice(layouts);
-    }
-
-    /// What [`Gpu::share_structs`] has declared so far.
-    pub(super) fn shared_structs(&self) -> Vec<StructLayout> {
-        self.shared_structs.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// Whether a pipeline is being made by another thread: the picture will change once it is there.
-    pub fn is_building(&self) -> bool {
-        self.building.load(Ordering::Relaxed) > 0
-    }
-
-    /// How many pipelines other threads have made and handed over.
-    pub fn built(&self) -> usize {
-        self.built.load(Ordering::Relaxed)
-    }
-
-    /// Keeps what went wrong without stopping anything, for whoever watches.
-    pub fn complain(&self, what: String) {
-        self.complaints.lock().unwrap_or_else(PoisonError::into_inner).push(what);
-    }
-
-    /// Takes what [`Gpu::complain`] has kept.
-    pub fn complaints(&self) -> Vec<String> {
-        std::mem::take(&mut *self.complaints.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    /// What has been built so far.
+    /// What has been made so far, since [`Gpu::take_statistics`] if that was called.
     pub fn statistics(&self) -> Statistics {
         self.statistics.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Adds to what has been built.
+    /// What has been made since this was called last, for who asks as long as the program runs.
+    pub fn take_statistics(&self) -> Statistics {
+        let mut all = self.statistics.lock().unwrap_or_else(PoisonError::into_inner);
+        let acceleration_structure_bytes = all.acceleration_structure_bytes;
+        std::mem::replace(
+            &mut all,
+            Statistics { acceleration_structure_bytes, ..Statistics::default() },
+        )
+    }
+
+    /// Adds to what has been made.
     pub(super) fn count(&self, add: impl FnOnce(&mut Statistics)) {
         add(&mut self.statistics.lock().unwrap_or_else(PoisonError::into_inner));
     }

@@ -1,21 +1,19 @@
 //! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
 
-pub mod absent;
 mod accel;
-mod arithmetic;
 pub mod barrier;
 mod blueprint;
 mod buffer;
-mod contents;
 mod context;
-mod contraction;
-mod device;
+pub mod contraction;
+pub mod device;
+mod emulation;
 mod enumeration;
 mod executable;
 mod features;
 mod geometry;
 mod image;
-mod instance;
+pub mod instance;
 mod layout;
 mod limits;
 mod margin;
@@ -34,15 +32,13 @@ mod texture;
 mod threads;
 mod timing;
 mod validation;
-mod variants;
 
 pub use accel::{AccelerationStructure, BuildOptions, Input};
-pub use arithmetic::Arithmetic;
 pub use blueprint::{Attachments, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
-pub use contents::Contents;
 pub use context::{Gpu, GpuContext, GpuOptions};
 pub use device::{device_lines, named as named_device};
+pub use emulation::{Emulation, Plain};
 pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
 pub use executable::Executable;
 pub use features::Features;
@@ -67,4 +63,3 @@ pub use texture::TextureTable;
 pub use threads::ensure_threads;
 pub use timing::Timer;
 pub use validation::Messages;
-pub use variants::{Launch, Make, Variant, Variants};

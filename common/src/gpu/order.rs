@@ -6,50 +6,20 @@
 //! primitive `i` of the build is primitive `order[i]` of the model, so that shaders can find the
 //! original, and pictures do not depend on the order.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::Path;
-
 use glam::Vec3;
 
-use super::{Gpu, arithmetic};
+use super::Gpu;
 
 /// A box around a primitive: its low and its high corner.
 pub type Bounds = (Vec3, Vec3);
 
 /// Which primitive of the model each one of a build is: neighbours in space beside each other, or as they
 /// come if `ordering` is off.
-///
-/// A device may offer candidates in any order: with the worst arithmetic the list is turned round, or shuffled
-/// if there is a [`seed`](super::arithmetic::seed).
 pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {
-    let mut order = match ordering {
+    gpu.emulation.order(match ordering {
         true => kd_median(bounds),
         false => (0..bounds.len() as u32).collect(),
-    };
-    match arithmetic::seed() {
-        _ if !gpu.arithmetic.is_worst() => {}
-        None => order.reverse(),
-        Some(seed) => shuffle(&mut order, seed),
-    }
-    order
-}
-
-/// Puts a list in an order that the seed, the list and the program decide: another program's build is another's.
-fn shuffle(order: &mut [u32], seed: u64) {
-    let program =
-        std::env::args_os().next().and_then(|path| Some(Path::new(&path).file_name()?.to_owned()));
-    let key = |i: &u32| {
-        let mut hasher = DefaultHasher::new();
-        (seed, &program, order.len(), i).hash(&mut hasher);
-        hasher.finish()
-    };
-    let mut keyed: Vec<(u64, u32)> = order.iter().map(|i| (key(i), *i)).collect();
-    // Neighbours stay near each other, for time's sake: whole runs change places, and so do those within.
-    keyed.chunks_mut(16).for_each(|run| run.sort_unstable());
-    let mut runs: Vec<_> = keyed.chunks(16).collect();
-    runs.sort_unstable();
-    let shuffled: Vec<u32> = runs.into_iter().flatten().map(|(_, i)| *i).collect();
-    order.copy_from_slice(&shuffled);
+    })
 }
 
 /// The permutation that puts neighbours in space beside each other.
@@ -147,22 +117,6 @@ mod tests {
         let order = kd_median(&shuffled);
         let lower: Vec<f32> = order[..4].iter().map(|&i| shuffled[i as usize].0.x).collect();
         assert!(lower.iter().all(|&x| x < 3.5), "{lower:?}");
-    }
-
-    #[test]
-    fn a_seed_gives_a_permutation_of_its_own() {
-        let shuffled = |seed| {
-            let mut order: Vec<u32> = (0..100).collect();
-            shuffle(&mut order, seed);
-            order
-        };
-        let (one, two) = (shuffled(1), shuffled(2));
-        assert_eq!(one, shuffled(1));
-        assert_ne!(one, two);
-        for mut order in [one, two] {
-            order.sort_unstable();
-            assert!(order.into_iter().eq(0..100));
-        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 mod builder;
 mod compute;
 mod graphics;
-mod stages;
+mod hit_group;
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use ash::vk;
 pub use builder::PipelineBuilder;
 pub use compute::{Band, ComputePipeline};
 pub use graphics::GraphicsPipeline;
-pub use stages::HitGroup;
+pub use hit_group::HitGroup;
 
 use super::blueprint::{Blueprint, STAGES};
 use super::layout::ShaderStruct;

@@ -23,7 +23,8 @@ pub struct Bound {
 
 /// What a shader module says of its structures.
 pub struct Reflection {
-    pub(super) module: Module,
+    /// The module itself.
+    pub module: Module,
 }
 
 impl Reflection {

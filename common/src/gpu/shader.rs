@@ -4,23 +4,23 @@
 //! once and an error names its file and line. The result is kept under `target/spirv`, keyed by a
 //! hash of the whole text, includes and all.
 
-pub mod apart;
 mod source;
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use anyhow::{Context, Result, anyhow, bail};
 use ash::vk;
 use glslang::{
-    Compiler, CompilerOptions, ShaderInput, ShaderMessage, ShaderSource, ShaderStage,
-    SourceLanguage, SpirvVersion, Target, VulkanVersion, error::GlslangError,
+    CompilerOptions, ShaderInput, ShaderMessage, ShaderSource, ShaderStage, SourceLanguage,
+    SpirvVersion, Target, VulkanVersion, error::GlslangError,
 };
 
 use self::source::Source;
-use super::arithmetic::Arithmetic;
+use super::contraction;
 use crate::files;
 
 /// A compiled shader.
@@ -61,56 +61,79 @@ pub fn folder() -> PathBuf {
     }
 }
 
-/// Compiles `path` (below [`folder`]) to SPIR-V 1.6 for Vulkan 1.3, a compute shader to 1.5, or takes it from
-/// the cache.
+/// The whole text of a stage, includes and all, and how it is to be compiled.
+#[derive(Clone, Debug, Default)]
+pub struct StageText<'a> {
+    /// Its path below `shaders/`.
+    pub path: &'a str,
+    /// The text.
+    pub text: String,
+    /// Macros, names and values.
+    pub defines: &'a [(&'a str, String)],
+    /// Whether all arithmetic is to be done as it is written.
+    pub as_written: bool,
+    /// A number that only identical pipelines have in common.
+    pub pipeline: u64,
+}
+
+impl StageText<'_> {
+    /// Its words: SPIR-V 1.6 for Vulkan 1.3, of a compute shader 1.5; from the cache, if they are there.
+    ///
+    /// # Errors
+    /// If it does not compile: the first message, as `file:line: what`.
+    pub fn words(&self) -> Result<Vec<u32>> {
+        let Self { path, text, defines, as_written, .. } = self;
+        let cached = cache_file(path, text, defines);
+        let known = files::read_cached(&cached).and_then(|bytes| unsealed(&bytes));
+        let words = match known {
+            Some(words) => words,
+            None => {
+                let words = COMPILER.get().unwrap_or(&(to_spirv as Compiler))(path, text, defines)?;
+                // A cache that cannot be written costs time at the next start, nothing else.
+                let _ = cached.parent().map(fs::create_dir_all);
+                let _ = files::write_whole(&cached, &sealed(&words));
+                words
+            }
+        };
+        if *as_written { contraction::without(&words) } else { Ok(words) }
+    }
+}
+
+/// What makes words of a stage's path, its whole text and its macros.
+pub type Compiler = fn(&str, &str, &[(&str, String)]) -> Result<Vec<u32>>;
+
+static COMPILER: OnceLock<Compiler> = OnceLock::new();
+
+/// From now on, has this compiler in the place of [`to_spirv`].
+pub fn compile_by(compiler: Compiler) {
+    let _ = COMPILER.set(compiler);
+}
+
+/// Compiles `path` (below [`folder`]) as it stands.
 ///
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
 pub fn compile(path: &str) -> Result<Shader> {
-    compile_with(path, &[], Arithmetic::Driver)
+    Shader::of(path, &[], |stage| stage.words())
 }
 
-/// As [`compile`], with these macros defined, names and values, and with what the arithmetic calls.
-///
-/// # Errors
-/// As [`compile`].
-pub fn compile_with(
-    path: &str,
-    defines: &[(&str, String)],
-    arithmetic: Arithmetic,
-) -> Result<Shader> {
-    let (stage, glslang_stage) = stage(path)?;
-    let mut source = Source::default();
-    source.splice(path, 0)?;
-    let mut spirv = cached(path, &source.text, glslang_stage, defines)?;
-    if arithmetic.is_worst() {
-        let text = Arithmetic::prepared(&source.text, &spirv)
-            .with_context(|| format!("shader '{path}' is not for the worst arithmetic"))?;
-        spirv = cached(path, &text, glslang_stage, defines)?;
+impl Shader {
+    /// Reads the stage at `path`, with these macros, and has its words made.
+    ///
+    /// # Errors
+    /// If a file is missing, or it does not compile.
+    pub fn of(
+        path: &str,
+        defines: &[(&str, String)],
+        words: impl FnOnce(StageText) -> Result<Vec<u32>>,
+    ) -> Result<Self> {
+        let (stage, _) = stage(path)?;
+        let mut source = Source::default();
+        source.splice(path, 0)?;
+        let Source { text, files, constants, .. } = source;
+        let spirv = words(StageText { path, text, defines, ..StageText::default() })?;
+        Ok(Self { path: path.to_owned(), stage, spirv, files, constants })
     }
-    let Source { files, constants, .. } = source;
-    Ok(Shader { path: path.to_owned(), stage, spirv, files, constants })
-}
-
-/// The words of a text, from the cache if they are there.
-fn cached(
-    path: &str,
-    text: &str,
-    stage: ShaderStage,
-    defines: &[(&str, String)],
-) -> Result<Vec<u32>> {
-    let cached = cache_file(path, text, defines);
-    if let Some(words) = files::read_cached(&cached).and_then(|bytes| unsealed(&bytes)) {
-        return Ok(words);
-    }
-    let words = match apart::is_wanted() {
-        true => apart::compile(path, text, defines)?,
-        false => to_spirv(path, text, stage, defines)?,
-    };
-    // A cache that cannot be written costs time at the next start, nothing else.
-    let _ = cached.parent().map(fs::create_dir_all);
-    let _ = files::write_whole(&cached, &sealed(&words));
-    Ok(words)
 }
 
 fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
@@ -133,13 +156,13 @@ fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
     })
 }
 
-fn to_spirv(
-    path: &str,
-    text: &str,
-    stage: ShaderStage,
-    defines: &[(&str, String)],
-) -> Result<Vec<u32>> {
-    let compiler = Compiler::acquire().context("glslang does not start")?;
+/// What glslang makes of a stage's path, its whole text and its macros.
+///
+/// # Errors
+/// As [`StageText::words`].
+pub fn to_spirv(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
+    let (_, stage) = stage(path)?;
+    let compiler = glslang::Compiler::acquire().context("glslang does not start")?;
     let source = ShaderSource::from(text);
     // In 1.6 a workgroup whose size is a specialization constant is `LocalSizeId`, for which a device would
     // have to be asked (maintenance4).
@@ -233,7 +256,7 @@ mod tests {
     #[test]
     fn every_message_names_its_file() {
         let message = |text: &str| {
-            let error = to_spirv("a/b.rmiss", text, ShaderStage::Miss, &[]).err().unwrap();
+            let error = to_spirv("a/b.rmiss", text, &[]).err().unwrap();
             let message = error.to_string();
             message.strip_prefix("shader does not compile: ").unwrap().to_owned()
         };

@@ -21,17 +21,18 @@ impl MeshesOnGpu {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
         let meshes = &scene.model.meshes;
         let usage = input_usage();
-        let corners = || meshes.iter().map(|mesh| mesh.triangles.len());
-        let primitives = || corners().map(|count| count * times(gpu, options));
+        let orders: Vec<_> = meshes.iter().map(|mesh| triangle_order(gpu, mesh, options)).collect();
+        let primitives = || orders.iter().map(Vec::len);
         let lengths = meshes.iter().map(|mesh| mesh.vertices.len());
         let mut vertices = Pack::<Vertex>::new(gpu, "vertices", lengths, usage)?;
-        let mut triangles = Pack::<[u32; 3]>::new(gpu, "triangles", corners(), usage)?;
+        let lengths = meshes.iter().map(|mesh| mesh.triangles.len());
+        let mut triangles = Pack::<[u32; 3]>::new(gpu, "triangles", lengths, usage)?;
         let mut original = Pack::<u32>::new(gpu, "original triangles", primitives(), usage)?;
         let mut ordered = Pack::<[u32; 3]>::new(gpu, "ordered triangles", primitives(), usage)?;
         let mut records = Vec::with_capacity(meshes.len());
         let mut geometries = Vec::with_capacity(meshes.len());
-        for ((index, mesh), opaque) in meshes.iter().enumerate().zip(opaque(scene)) {
-            let order = triangle_order(gpu, mesh, options);
+        let opaque = opaque(scene);
+        for (index, (mesh, order)) in meshes.iter().zip(&orders).enumerate() {
             let in_order: Vec<_> = order.iter().map(|&i| mesh.triangles[i as usize]).collect();
             let first_vertex = vertices.push(&mesh.vertices)?;
             geometries.push([Geometry::Triangles {
@@ -40,14 +41,14 @@ impl MeshesOnGpu {
                 vertex_count: mesh.vertices.len() as u32,
                 indices: ordered.push(&in_order)?,
                 count: in_order.len() as u32,
-                opaque,
+                opaque: opaque[index],
                 no_duplicate_any_hit: options.no_duplicate_any_hit,
             }]);
             let is_kept = !options.position_fetch;
             records.push(InstanceRecord {
                 vertices: if is_kept { first_vertex.into() } else { Address::default() },
                 triangles: triangles.push(&mesh.triangles)?.into(),
-                original: original.push(&order)?.into(),
+                original: original.push(order)?.into(),
                 material: 0,
                 mesh: index as u32,
             });
@@ -76,18 +77,9 @@ fn opaque(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-/// Which triangle of a mesh each primitive of the build is.
-///
-/// A device may offer a triangle more than once, unless that is ruled out: with the worst arithmetic each is
-/// in the list twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
+/// Which triangle of a mesh each primitive of the build is. A device may offer a triangle more than once,
+/// unless that is ruled out.
 pub fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
     let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
-    let times = times(gpu, options);
-    order.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect()
-}
-
-/// How often each triangle is in the list of a build.
-fn times(gpu: &Gpu, options: SceneOptions) -> usize {
-    let is_twice = gpu.arithmetic.is_worst() && !options.no_duplicate_any_hit;
-    if is_twice { 2 } else { 1 }
+    if options.no_duplicate_any_hit { order } else { gpu.emulation.candidates(order) }
 }

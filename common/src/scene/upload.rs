@@ -191,18 +191,10 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
 ///
 /// A device may enlarge a box as it likes, and so call the shader for rays that pass far from it: "AABB
 /// primitive bounds consist of all points within an implementation-defined bound which includes the
-/// specified box" (Vulkan specification, Ray Intersection Candidate Determination). With the worst
-/// arithmetic a box grows by half of its longest side, each way.
+/// specified box" (Vulkan specification, Ray Intersection Candidate Determination).
 ///
 /// # Errors
 /// If memory is short.
 pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer> {
-    let mut boxes = boxes.to_vec();
-    if gpu.arithmetic.is_worst() {
-        for [low, high] in &mut boxes {
-            let by = 0.5 * (*high - *low).max_element();
-            (*low, *high) = (*low - by, *high + by);
-        }
-    }
-    Buffer::with_data(gpu, name, &boxes, input_usage())
+    Buffer::with_data(gpu, name, &gpu.emulation.boxes(boxes.to_vec()), input_usage())
 }

@@ -19,10 +19,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
-use common::app::{finish, output};
 use common::files::write_whole;
+use common::output;
 use common::usage::Usage;
 use image::ImageFormat;
+use instruments::finish;
 
 use crate::mesh::Mesh;
 use crate::obj::Object;

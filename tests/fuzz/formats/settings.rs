@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use anyhow::{Result, anyhow};
-use common::app::compare;
 use common::app::controls::{list, set_all};
-use common::app::range;
 use common::scene::{Camera, Sun};
 use common::{Controls, Playback};
 use glam::{DVec3, Vec3};
+use instruments::compare;
+use instruments::sums::range;
 
 use super::{corpus, nothing};
 use crate::format::{Format, Function};

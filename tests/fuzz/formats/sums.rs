@@ -5,9 +5,9 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Result;
-use common::app::sums::{Header, Origin, Sums, merge};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use instruments::sums::{Header, Origin, Sums, merge};
 use reference::random::Random;
 
 use super::corpus;

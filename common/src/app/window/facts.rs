@@ -1,6 +1,6 @@
 //! What the panel and the title tell of the run.
 
-use crate::gpu::{Arithmetic, Executable};
+use crate::gpu::Executable;
 
 /// What the panel tells of the run.
 #[derive(Clone, Debug, Default)]
@@ -11,8 +11,8 @@ pub struct Facts {
     pub device: String,
     /// Whether it is a driver that runs on the CPU.
     pub software: bool,
-    /// How shaders compute.
-    pub arithmetic: Arithmetic,
+    /// Whose arithmetic it computes with.
+    pub arithmetic: &'static str,
     /// Milliseconds of the last picture on the device.
     pub milliseconds: f64,
     /// The last picture's width and height.
@@ -36,7 +36,7 @@ impl Facts {
     pub fn title(&self) -> String {
         let kind = if self.software { ", software" } else { "" };
         let kind = match self.arithmetic {
-            Arithmetic::Driver => kind.to_owned(),
+            "driver" => kind.to_owned(),
             other => format!("{kind} · arithmetic {other}"),
         };
         let (name, device) = (&self.name, &self.device);

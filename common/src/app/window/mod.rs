@@ -31,9 +31,7 @@ use winit::window::WindowId;
 
 use self::lost::{Choice, Lost};
 use self::session::Session;
-use super::Sample;
-use super::args::Args;
-use crate::gpu::shader::apart;
+use super::{Args, Program, Watch};
 use crate::usage::Usage;
 
 /// Pixels of a window's side: X11 counts in signed 16 bits.
@@ -52,8 +50,8 @@ enum Wake {
 /// # Errors
 /// On wrong arguments ([`Usage`]), without a display, if anything fails, or if validation had something
 /// to say.
-pub fn open<S: Sample>(name: &str, args: &Args) -> Result<()> {
-    if args.out.is_some() || args.report.is_some() {
+pub fn open(program: &Program, args: &Args, watch: &dyn Watch) -> Result<()> {
+    if args.out.is_some() || !watch.files().outputs.is_empty() {
         let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
         return Err(Usage(hint.to_owned()).into());
     }
@@ -64,12 +62,12 @@ pub fn open<S: Sample>(name: &str, args: &Args) -> Result<()> {
         return Err(Usage(most).into());
     }
     log_if_asked();
-    apart::want();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
-    let mut program = Program::<S> { name, args, proxy, shown: Shown::Nothing, outcome: Ok(()) };
-    events.run_app(&mut program).context("the window system failed")?;
-    program.outcome
+    let of = Of { program, args, watch };
+    let mut shows = Shows { of, proxy, shown: Shown::Nothing, outcome: Ok(()) };
+    events.run_app(&mut shows).context("the window system failed")?;
+    shows.outcome
 }
 
 /// What is wrong with the display, and what to do.
@@ -95,45 +93,52 @@ fn log_if_asked() {
 }
 
 /// What a window shows.
-enum Shown<S> {
+enum Shown {
     /// There is no window yet, or no more.
     Nothing,
     /// The sample.
-    Session(Box<Session<S>>),
+    Session(Box<Session>),
     /// That the sample's device was lost.
     Lost(Box<Lost>),
 }
 
-struct Program<'a, S> {
-    name: &'a str,
+/// What a window is opened for.
+#[derive(Clone, Copy)]
+struct Of<'a> {
+    program: &'a Program,
     args: &'a Args,
+    watch: &'a dyn Watch,
+}
+
+struct Shows<'a> {
+    of: Of<'a>,
     proxy: EventLoopProxy<Wake>,
-    shown: Shown<S>,
+    shown: Shown,
     outcome: Result<()>,
 }
 
-impl<S: Sample> Program<'_, S> {
+impl Shows<'_> {
     fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
         self.outcome = Err(error);
         events.exit();
     }
 
-    fn show(&mut self, events: &ActiveEventLoop, shown: Result<Shown<S>>) {
+    fn show(&mut self, events: &ActiveEventLoop, shown: Result<Shown>) {
         match shown {
             Ok(shown) => self.shown = shown,
             Err(error) => self.fail(events, error),
         }
     }
 
-    fn take_shown(&mut self) -> Shown<S> {
+    fn take_shown(&mut self) -> Shown {
         std::mem::replace(&mut self.shown, Shown::Nothing)
     }
 
     /// The sample could not be drawn. Where somebody watches, a lost device is no reason to end.
     fn stop(&mut self, events: &ActiveEventLoop, error: Error) {
         match self.take_shown() {
-            Shown::Session(session) if lost::is_loss(&error) && !self.args.frames_given => {
-                let lost = session.lose(error);
+            Shown::Session(session) if lost::is_loss(&error) && !self.of.args.frames_given => {
+                let lost = session.lose(self.of, error);
                 self.show(events, lost.map(|lost| Shown::Lost(Box::new(lost))));
             }
             shown => {
@@ -147,7 +152,7 @@ impl<S: Sample> Program<'_, S> {
     fn choose(&mut self, events: &ActiveEventLoop, choice: Choice) {
         match (choice, self.take_shown()) {
             (Choice::GoOn, Shown::Lost(lost)) => {
-                let session = Session::go_on(*lost, self.name, self.proxy.clone());
+                let session = Session::go_on(*lost, self.of, self.proxy.clone());
                 self.show(events, session.map(|session| Shown::Session(Box::new(session))));
             }
             (Choice::Leave, Shown::Lost(lost)) => {
@@ -160,10 +165,10 @@ impl<S: Sample> Program<'_, S> {
     }
 }
 
-impl<S: Sample> ApplicationHandler<Wake> for Program<'_, S> {
+impl ApplicationHandler<Wake> for Shows<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if let Shown::Nothing = self.shown {
-            let session = Session::new(events, self.name, self.args, self.proxy.clone());
+            let session = Session::new(events, self.of, self.proxy.clone());
             self.show(events, session.map(|session| Shown::Session(Box::new(session))));
         }
     }

@@ -1,5 +1,6 @@
 //! Shaders edited while the window is open: noticed, compiled beside it, compared.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::thread::Builder;
 use std::time::{Duration, Instant};
@@ -16,8 +17,9 @@ const DEBOUNCE: Duration = Duration::from_millis(60);
 
 /// Watches the files that a sample's shaders are made of.
 pub struct Reload {
-    learnt: usize,
-    stages: Vec<String>,
+    stages: BTreeSet<String>,
+    /// Whether the stages may include other files by now.
+    stale: bool,
     files: Vec<String>,
     bound: Vec<Bound>,
     due: Option<Instant>,
@@ -31,8 +33,8 @@ impl Reload {
     /// Watches the folder of all shaders. Where the system cannot watch it, F5 still reloads.
     pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
         Self {
-            learnt: 0,
-            stages: Vec::new(),
+            stages: BTreeSet::new(),
+            stale: false,
             files: Vec::new(),
             bound: Vec::new(),
             due: None,
@@ -43,26 +45,23 @@ impl Reload {
         }
     }
 
-    /// Takes note of the shaders in use, by path below `shaders/`.
+    /// Takes note of shaders that have come into use, by path below `shaders/`.
     ///
     /// # Errors
     /// If one of them does not compile any more.
-    pub fn learn(&mut self, stages: &[String]) -> Result<()> {
-        // The list only grows, by each stage that is new.
-        if stages.len() == self.learnt {
+    pub fn learn(&mut self, new: &[String]) -> Result<()> {
+        let known = self.stages.len();
+        self.stages.extend(new.iter().cloned());
+        if self.stages.len() == known && !std::mem::take(&mut self.stale) {
             return Ok(());
         }
-        self.learnt = stages.len();
         let (mut files, mut bound) = (Vec::new(), Vec::new());
-        for stage in stages {
+        for stage in &self.stages {
             // They have just been compiled, so this reads the cache.
             let shader = shader::compile(stage)?;
             files.extend(shader.files);
             bound.extend(Reflection::of(&shader.spirv)?.descriptors());
         }
-        self.stages = stages.to_vec();
-        self.stages.sort();
-        self.stages.dedup();
         (self.files, self.bound) = (files, bound);
         Ok(())
     }
@@ -107,8 +106,7 @@ impl Reload {
         let result = result.and_then(|()| self.compare());
         self.failed = result.is_err();
         if result.is_ok() {
-            // They may include other files now.
-            self.learnt = 0;
+            self.stale = true;
         }
         result
     }
@@ -161,7 +159,7 @@ fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
 }
 
 /// Compiles all of them; the results are in the cache then.
-fn compile(stages: &[String]) -> Result<(), String> {
+fn compile(stages: &BTreeSet<String>) -> Result<(), String> {
     let compiled = stages.iter().try_for_each(|stage| shader::compile(stage).map(drop));
     compiled.map_err(|error| format!("{error:#}"))
 }

@@ -11,7 +11,6 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
-use super::Wake;
 use super::facts::Facts;
 use super::keys::Ask;
 use super::lag::Lag;
@@ -21,22 +20,26 @@ use super::reload::Reload;
 use super::rows::Hidden;
 use super::stage::Stage;
 use super::view::{Stepped, View};
-use crate::app::args::Args;
+use super::{Of, Wake};
 use crate::app::controls::Listed;
-use crate::app::headless::check_size;
-use crate::app::{Controls, Sample, Setup, controls};
-use crate::gpu::{Gpu, Requirements};
+use crate::app::files::check_size;
+use crate::app::{Args, Controls, Sample, Setup, controls};
+use crate::gpu::Gpu;
 
 /// How often the title is written anew while pictures come.
 const TITLE: Duration = Duration::from_millis(500);
 
+type Make = fn(&Gpu, &Setup) -> Result<Box<dyn Sample>>;
+
 /// Everything that lives as long as the device. It is dropped in this order, the window last.
-pub struct Session<S> {
-    view: View<S>,
+pub struct Session {
+    view: View,
     panel: Panel,
     facts: Facts,
     reload: Reload,
     args: Args,
+    /// Makes the sample.
+    make: Make,
     hidden: bool,
     redraw_at: Option<Instant>,
     presented: u32,
@@ -45,51 +48,48 @@ pub struct Session<S> {
     stage: Stage,
 }
 
-impl<S: Sample> Session<S> {
+impl Session {
     /// Opens a window and makes the sample.
     ///
     /// # Errors
     /// If there is no such device or window, a control is set wrongly, or the sample cannot be made.
-    pub fn new(
-        events: &ActiveEventLoop,
-        name: &str,
-        args: &Args,
-        proxy: EventLoopProxy<Wake>,
-    ) -> Result<Self> {
+    pub fn new(events: &ActiveEventLoop, of: Of, proxy: EventLoopProxy<Wake>) -> Result<Self> {
+        let Of { program, args, .. } = of;
         // Shown once there is something to show.
         let attributes = Window::default_attributes()
-            .with_title(name)
+            .with_title(program.name)
             .with_visible(false)
             .with_inner_size(PhysicalSize::new(args.size.width, args.size.height));
         let window = events.create_window(attributes).context("cannot open a window")?;
-        let stage = Stage::new(window, requirements::<S>(), args)?;
+        let stage = Stage::new(window, of)?;
         check_size(&stage.gpu, args.size)?;
         let setup = Setup::new(args);
-        let mut sample = S::new(&stage.gpu, &setup)?;
+        let mut sample = (program.make)(&stage.gpu, &setup)?;
         setup.check()?;
-        let mut panel = Panel::new(name);
+        let mut panel = Panel::new(program.name);
         // The camera that the chapter chose is home, whatever `--set` makes of it.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let kept = Kept { args: args.clone(), panel, values: Vec::new(), presented: 0 };
-        Self::on(stage, name, kept, sample, proxy)
+        Self::on(stage, of, kept, sample, proxy)
     }
 
     /// Goes on with the device that came after a lost one.
     ///
     /// # Errors
     /// If the sample cannot be made on it.
-    pub fn go_on(lost: Lost, name: &str, proxy: EventLoopProxy<Wake>) -> Result<Self> {
+    pub fn go_on(lost: Lost, of: Of, proxy: EventLoopProxy<Wake>) -> Result<Self> {
         let Lost { stage, mut kept, .. } = lost;
-        let sample = again(&stage.gpu, &kept.args, &mut kept.panel, &kept.values)?;
-        Self::on(stage, name, kept, sample, proxy)
+        let make = of.program.make;
+        let sample = again(make, &stage.gpu, &kept.args, &mut kept.panel, &kept.values)?;
+        Self::on(stage, of, kept, sample, proxy)
     }
 
     fn on(
         stage: Stage,
-        name: &str,
+        of: Of,
         kept: Kept,
-        sample: S,
+        sample: Box<dyn Sample>,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self> {
         let gpu = &stage.gpu;
@@ -97,14 +97,15 @@ impl<S: Sample> Session<S> {
             view: View::new(gpu, sample)?,
             panel: kept.panel,
             facts: Facts {
-                name: name.to_owned(),
+                name: of.program.name.to_owned(),
                 device: gpu.name.clone(),
                 software: gpu.software,
-                arithmetic: gpu.arithmetic,
+                arithmetic: gpu.emulation.name(),
                 ..Facts::default()
             },
             reload: Reload::new(proxy),
             args: kept.args,
+            make: of.program.make,
             hidden: false,
             redraw_at: None,
             presented: kept.presented,
@@ -156,14 +157,15 @@ impl<S: Sample> Session<S> {
     ///
     /// # Errors
     /// If there is no other, or validation had something to say.
-    pub fn lose(mut self, error: Error) -> Result<Lost> {
+    pub fn lose(mut self, of: Of, error: Error) -> Result<Lost> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let Self { view, mut panel, facts, args, presented, stage, .. } = self;
+        let Self { view, mut panel, args, presented, stage, .. } = self;
         drop(view);
         panel.error = None;
-        let stage = Stage::new(stage.close()?, requirements::<S>(), &args)
-            .with_context(|| format!("{error:#}; and then"))?;
-        Ok(Lost::new(stage, &facts.name, Kept { args, panel, values, presented }, error))
+        let again = Of { args: &args, ..of };
+        let stage =
+            Stage::new(stage.close()?, again).with_context(|| format!("{error:#}; and then"))?;
+        Ok(Lost::new(stage, of.program.name, Kept { args, panel, values, presented }, error))
     }
 
     /// A file below `shaders/` was written.
@@ -312,7 +314,7 @@ impl<S: Sample> Session<S> {
     fn open(&mut self, file: &Path) {
         let args = Args { scene: Some(file.to_owned()), ..self.args.clone() };
         let setup = Setup::new(&args);
-        let made = S::new(&self.stage.gpu, &setup).and_then(|mut sample| {
+        let made = (self.make)(&self.stage.gpu, &setup).and_then(|mut sample| {
             setup.check()?;
             self.panel.navigation.forget_home();
             sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
@@ -331,31 +333,34 @@ impl<S: Sample> Session<S> {
     /// Makes the sample anew and gives it the values that its controls had.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let sample = again(&self.stage.gpu, &self.args, &mut self.panel, &values)?;
+        let sample = again(self.make, &self.stage.gpu, &self.args, &mut self.panel, &values)?;
         self.view.replace(sample)
     }
 
     /// Watches the shaders of the pipelines that there are by now.
     fn learn(&mut self) {
-        let statistics = self.stage.gpu.statistics();
+        let statistics = self.stage.gpu.take_statistics();
         if let Err(error) = self.reload.learn(&statistics.stages) {
             self.panel.error = Some(format!("{error:#}"));
         }
-        self.facts.programs = statistics.executables;
-        if let Some(complaint) = self.stage.gpu.complaints().pop() {
-            self.panel.error = Some(complaint);
+        if !statistics.blueprints.is_empty() {
+            self.facts.programs = statistics.executables;
+        }
+        if let Some(refused) = self.view.refused() {
+            self.panel.error = Some(refused);
         }
     }
 }
 
-/// What a device has to offer for a sample in a window.
-fn requirements<S: Sample>() -> Requirements {
-    S::requirements().window().compiler_figures_where_offered()
-}
-
 /// Makes a sample once more and gives it the values that its controls had.
-fn again<S: Sample>(gpu: &Gpu, args: &Args, panel: &mut Panel, values: &[Listed]) -> Result<S> {
-    let mut sample = S::new(gpu, &Setup::new(args))?;
+fn again(
+    make: Make,
+    gpu: &Gpu,
+    args: &Args,
+    panel: &mut Panel,
+    values: &[Listed],
+) -> Result<Box<dyn Sample>> {
+    let mut sample = make(gpu, &Setup::new(args))?;
     panel.navigation.forget_home();
     sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
     for control in values {

@@ -7,11 +7,11 @@ use winit::event::WindowEvent;
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
+use super::Of;
 use super::painter::Painter;
 use super::style;
-use crate::app::args::Args;
-use crate::app::headless::check_validation;
-use crate::gpu::{Gpu, GpuOptions, Image, Requirements, Swapchain, WindowHandles};
+use crate::app::check_validation;
+use crate::gpu::{Gpu, Image, Swapchain, WindowHandles};
 
 /// What draws to a window. It is dropped in this order, the window last.
 pub struct Stage {
@@ -29,18 +29,16 @@ impl Stage {
     ///
     /// # Errors
     /// If there is none that can, or the window shows no 8-bit colour.
-    pub fn new(window: Window, requirements: Requirements, args: &Args) -> Result<Self> {
+    pub fn new(window: Window, Of { program, args, watch }: Of) -> Result<Self> {
         let handles = WindowHandles {
             display: window.display_handle().context("the window has no display")?.as_raw(),
             window: window.window_handle().context("the window has no handle")?.as_raw(),
         };
-        let gpu = Gpu::new(&GpuOptions {
-            requirements,
-            device: args.device.as_deref(),
-            validate: args.validate,
-            window: Some(handles),
-            arithmetic: args.arithmetic,
-        })?;
+        let requirements = (program.requirements)().window().compiler_figures_where_offered();
+        let mut options = args.device(requirements);
+        options.window = Some(handles);
+        watch.device(&mut options);
+        let gpu = Gpu::new(&options)?;
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);

@@ -1,16 +1,18 @@
 //! A sample's picture in a window: rendered at the size that the moment allows.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 use ash::vk;
 
 use super::facts::Facts;
+use super::lost;
 use super::pace::{Pace, Step};
-use crate::app::bands::Bands;
 use crate::app::playback::Clock;
-use crate::app::{Picture, Sample};
+use crate::app::variants::Background;
+use crate::app::{Bands, Picture, Sample};
 use crate::gpu::{Gpu, Image, Timer};
 
 /// For how long bands are traced before the window looks for input again.
@@ -20,9 +22,9 @@ const SLICE: Duration = Duration::from_millis(40);
 const PATIENCE: f64 = 150.0;
 
 /// The sample and its last picture.
-pub struct View<S> {
+pub struct View {
     /// The sample.
-    pub sample: S,
+    pub sample: Box<dyn Sample>,
     /// The last whole picture.
     pub image: Image,
     /// The next one, which is traced in bands.
@@ -40,6 +42,9 @@ pub struct View<S> {
     milliseconds: f64,
     full: vk::Extent2D,
     picture_due: bool,
+    background: Arc<Background>,
+    /// Why the sample could not be changed as its controls ask.
+    refused: Option<String>,
     gpu: Gpu,
 }
 
@@ -60,12 +65,12 @@ pub enum Stepped {
     Kept(Option<Instant>),
 }
 
-impl<S: Sample> View<S> {
+impl View {
     /// A view that has rendered nothing yet.
     ///
     /// # Errors
     /// If the device has no memory left for it.
-    pub fn new(gpu: &Gpu, sample: S) -> Result<Self> {
+    pub fn new(gpu: &Gpu, sample: Box<dyn Sample>) -> Result<Self> {
         let nothing = vk::Extent2D { width: 1, height: 1 };
         Ok(Self {
             sample,
@@ -82,6 +87,8 @@ impl<S: Sample> View<S> {
             milliseconds: 0.0,
             full: nothing,
             picture_due: false,
+            background: Arc::default(),
+            refused: None,
             gpu: gpu.clone(),
         })
     }
@@ -108,11 +115,13 @@ impl<S: Sample> View<S> {
     ///
     /// # Errors
     /// If the new sample cannot render.
-    pub fn replace(&mut self, sample: S) -> Result<()> {
+    pub fn replace(&mut self, sample: Box<dyn Sample>) -> Result<()> {
         let old = std::mem::replace(&mut self.sample, sample);
         self.changed = true;
         self.pace.restart(Instant::now());
-        let tried = self.begin(self.image.extent).and_then(|()| self.trace_band());
+        let tried = self.sample.changed(&self.gpu);
+        let tried = tried.and_then(|()| self.begin(self.image.extent));
+        let tried = tried.and_then(|()| self.trace_band());
         match tried {
             Ok(true) => _ = self.show(),
             Ok(false) => {}
@@ -144,12 +153,14 @@ impl<S: Sample> View<S> {
         if self.bands.next().is_some() {
             if self.changed {
                 // The rest of a preview shows the new values: what follows from them must be there.
-                self.sample.changed(&self.gpu)?;
+                if let Some(kept) = self.build()? {
+                    return Ok(kept);
+                }
             }
             return self.go_on();
         }
         self.go_on_in_time();
-        let busy = self.gpu.is_building();
+        let busy = self.background.is_building();
         let improves = self.sample.accumulates() || busy;
         let now = Instant::now();
         let step = if self.picture_due && !self.pace.is_sharp() && self.pace.is_still(now) {
@@ -161,17 +172,37 @@ impl<S: Sample> View<S> {
             Step::Render(extent) => extent,
             Step::Keep(until) => return Ok(Stepped::Kept(until)),
         };
+        if let (true, Some(kept)) = (self.changed, self.build()?) {
+            return Ok(kept);
+        }
         self.begin(extent)?;
         self.go_on()
+    }
+
+    /// Has the sample build what its controls ask for. If it cannot, and there is a picture, that stays.
+    fn build(&mut self) -> Result<Option<Stepped>> {
+        match self.sample.changed(&self.gpu) {
+            Err(error) if self.milliseconds > 0.0 && !lost::is_loss(&error) => {
+                let error = format!("{error:#}");
+                // It is tried once more, in case the sample has gone back to what it can do.
+                let again = (self.refused.as_ref() != Some(&error)).then(Instant::now);
+                self.refused = Some(error);
+                Ok(Some(Stepped::Kept(again)))
+            }
+            result => {
+                self.refused = None;
+                result.map(|()| None)
+            }
+        }
     }
 
     /// Traces bands for as long as the window can wait.
     fn go_on(&mut self) -> Result<Stepped> {
         let start = Instant::now();
         while start.elapsed() < SLICE {
-            let built = self.gpu.built();
+            let built = self.background.built();
             let whole = self.trace_band()?;
-            if built != self.gpu.built() {
+            if built != self.background.built() {
                 // What was waited for is there: what the old pipeline has traced is not to be mixed with it.
                 self.give_up();
                 self.change();
@@ -206,9 +237,6 @@ impl<S: Sample> View<S> {
         if self.next.extent != extent {
             self.next = Image::storage(&self.gpu, "next picture", extent)?;
         }
-        if self.changed {
-            self.sample.changed(&self.gpu)?;
-        }
         let like_the_last = !self.changed && self.image.extent == extent;
         self.is_preview = self.changed;
         self.index = if like_the_last { self.index + 1 } else { 0 };
@@ -219,9 +247,9 @@ impl<S: Sample> View<S> {
 
     /// Traces a band; whether the picture is whole.
     fn trace_band(&mut self) -> Result<bool> {
-        let device = (&self.gpu, &self.timer);
+        let device = (&self.gpu, &self.timer, Some(&self.background));
         let frame = (&self.next, self.index, self.index);
-        let took = self.bands.trace(&mut self.sample, device, frame)?;
+        let took = self.bands.trace(&mut *self.sample, device, frame)?;
         self.spent += took.unwrap_or_default();
         Ok(self.bands.next().is_none())
     }
@@ -234,6 +262,11 @@ impl<S: Sample> View<S> {
         let pixels = u64::from(extent.width) * u64::from(extent.height);
         let telling = self.pace.took(pixels, self.milliseconds);
         Stepped::New { milliseconds: self.milliseconds, full: extent == self.full, telling }
+    }
+
+    /// Why what the controls ask for is not shown.
+    pub fn refused(&mut self) -> Option<String> {
+        self.background.refused().pop().or_else(|| self.refused.clone())
     }
 
     /// Adds what is known of the last picture.

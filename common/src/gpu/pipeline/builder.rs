@@ -7,15 +7,15 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 
-use super::stages::{HitGroup, Stages, general};
+use super::hit_group::HitGroup;
 use super::{Binding, ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
 use crate::gpu::blueprint::{Attachments, Blueprint, Group, Stage};
 use crate::gpu::enumeration::ShaderConstant;
 use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
 use crate::gpu::reflection::Reflection;
-use crate::gpu::shader::Shader;
+use crate::gpu::shader::{Shader, StageText};
 use crate::gpu::texture::TextureTable;
-use crate::gpu::{Arithmetic, Executable, Gpu};
+use crate::gpu::{Executable, Gpu};
 
 /// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`],
 /// [`ComputePipeline::builder`] or [`GraphicsPipeline::builder`].
@@ -151,6 +151,12 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Declares structures that shaders find by an address in other structures' memory.
+    pub fn structs(mut self, layouts: &[StructLayout]) -> Self {
+        layouts.iter().for_each(|layout| _ = self.known.add_struct(*layout));
+        self
+    }
+
     /// Sets the specialization constant `id` in every stage that has it. The names that shaders have for
     /// an enumeration's numbers are checked against it.
     pub fn constant<T: ShaderConstant>(mut self, id: u32, value: T) -> Self {
@@ -179,11 +185,9 @@ impl<'a> PipelineBuilder<'a> {
     }
 
     /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
-    /// by `#ifdef ROUNDING_MODE_RTE`. With `worst-by-place` the device cannot, so that both kinds of shaders
-    /// are tried.
+    /// by `#ifdef ROUNDING_MODE_RTE`.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
-        let is_offered = gpu.arithmetic != Arithmetic::WorstByPlace;
-        match gpu.limits.rounding_to_nearest_even && is_offered {
+        match gpu.limits.rounding_to_nearest_even && gpu.emulation.rounds_to_nearest_even() {
             true => self.define("ROUNDING_MODE_RTE", 1),
             false => self,
         }
@@ -212,18 +216,17 @@ impl<'a> PipelineBuilder<'a> {
             self.recursion,
             gpu.name
         );
-        let mut stages = self.stages(gpu);
-        let mut groups = Vec::new();
+        let (mut shaders, mut groups) = (Vec::new(), Vec::new());
+        let mut number = |file: &str| self.add(gpu, file, &mut shaders);
         for shader in self.raygen.iter().chain(&self.miss) {
-            groups.push(general(stages.add(shader)?));
+            groups.push(Group::general(number(shader)?));
         }
         for hit in &self.hit {
-            groups.push(stages.hit_group(hit)?);
+            groups.push(hit.group(&mut number)?);
         }
         for shader in &self.callable {
-            groups.push(general(stages.add(shader)?));
+            groups.push(Group::general(number(shader)?));
         }
-        let shaders = stages.shaders;
         let count = [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()];
         let pipeline = self.make(gpu, start, shaders, groups, None)?;
         Ok(RayTracingPipeline { groups: count, pipeline })
@@ -245,9 +248,8 @@ impl<'a> PipelineBuilder<'a> {
             gpu.name
         );
         let shader = self.compute.context("a compute pipeline without a shader")?;
-        let mut stages = self.stages(gpu);
-        stages.add(shader)?;
-        let shaders = stages.shaders;
+        let mut shaders = Vec::new();
+        self.add(gpu, shader, &mut shaders)?;
         let pipeline = self.make(gpu, start, shaders, Vec::new(), None)?;
         Ok(ComputePipeline { workgroup, pipeline })
     }
@@ -258,11 +260,10 @@ impl<'a> PipelineBuilder<'a> {
     /// As [`build`](Self::build); if there is no vertex or no fragment shader.
     pub fn build_graphics(self, gpu: &Gpu) -> Result<GraphicsPipeline> {
         let start = Instant::now();
-        let mut stages = self.stages(gpu);
+        let mut shaders = Vec::new();
         for shader in &self.raster {
-            stages.add(shader)?;
+            self.add(gpu, shader, &mut shaders)?;
         }
-        let shaders = stages.shaders;
         let kinds: Vec<_> = shaders.iter().map(|shader| shader.stage).collect();
         ensure!(
             kinds == [vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT],
@@ -274,15 +275,17 @@ impl<'a> PipelineBuilder<'a> {
         Ok(GraphicsPipeline { pipeline })
     }
 
-    fn stages(&self, gpu: &Gpu) -> Stages<'_> {
-        Stages {
-            folder: self.name,
-            defines: &self.defines,
-            as_written: self.as_written,
-            arithmetic: gpu.arithmetic,
-            pipeline: self.number(),
-            shaders: Vec::new(),
+    /// The number of a stage among the pipeline's shaders: each is compiled once, however many groups have it.
+    fn add(&self, gpu: &Gpu, file: &str, shaders: &mut Vec<Shader>) -> Result<u32> {
+        let path = format!("{}/{file}", self.name);
+        if let Some(known) = shaders.iter().position(|shader| shader.path == path) {
+            return Ok(known as u32);
         }
+        let (as_written, pipeline) = (self.as_written, self.number());
+        shaders.push(Shader::of(&path, &self.defines, |stage| {
+            gpu.emulation.words(&StageText { as_written, pipeline, ..stage })
+        })?);
+        Ok(shaders.len() as u32 - 1)
     }
 
     /// A number that pipelines share only if they are identical: made of the same stages and state.
@@ -312,8 +315,7 @@ impl<'a> PipelineBuilder<'a> {
              is to be said in requirements(), so that devices are chosen by it",
             self.name
         );
-        let mut known = self.known.clone();
-        gpu.shared_structs().into_iter().for_each(|layout| _ = known.add_struct(layout));
+        let known = &self.known;
         for shader in &shaders {
             let reflection = Reflection::of(&shader.spirv)?;
             reflection.check_memory(&shader.path)?;
@@ -385,16 +387,9 @@ impl<'a> PipelineBuilder<'a> {
         gpu.count(|statistics| {
             let Blueprint { stages, groups, .. } = &*pipeline.blueprint;
             statistics.pipeline_time += pipeline.build_time;
-            for Stage { path, .. } in stages {
-                if !gpu.is_watched || !statistics.stages.contains(path) {
-                    statistics.stages.push(path.clone());
-                }
-            }
+            statistics.stages.extend(stages.iter().map(|stage| stage.path.clone()));
             statistics.groups += groups.len();
-            // A window makes pipelines for as long as it is open, and nobody asks what from.
-            if !gpu.is_watched {
-                statistics.blueprints.push(pipeline.blueprint.clone());
-            }
+            statistics.blueprints.push(pipeline.blueprint.clone());
             statistics.executables = executables;
         });
         Ok(pipeline)

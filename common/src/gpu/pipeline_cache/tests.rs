@@ -4,12 +4,12 @@ use std::process::Command;
 use std::time::Instant;
 
 use ash::khr;
+use instruments::compile_for::{manifest, ways};
 use serde_json::json;
 
 use super::*;
-use crate::app::compile_for::{manifest, ways};
 use crate::gpu::blueprint::{Blueprint, Group, Stage};
-use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, load, shader};
+use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, shader};
 
 /// A device, and what it says of itself.
 fn gpu() -> (Gpu, vk::PhysicalDeviceProperties) {
@@ -135,7 +135,7 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
 #[ignore = "run by a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done"]
 fn make_a_pipeline_for_radv() {
     let wanted = Requirements::ray_tracing().textures();
-    let entry = load().unwrap();
+    let entry = instance::load().unwrap();
     let (instance, _) = instance::create(&entry, None, None).unwrap();
     let chosen = device::candidates(&instance, &wanted).unwrap().remove(0);
     let device = device::create(&instance, &chosen, &wanted).unwrap();

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[cfg(unix)]
-use crate::files;
+use common::files;
 
 /// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
 static LISTENING: AtomicBool = AtomicBool::new(false);

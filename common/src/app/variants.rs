@@ -1,14 +1,46 @@
 //! A pipeline for each set of constants that was asked for, made when it is first wanted.
 
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
 use anyhow::{Context, Result, anyhow};
 
-use super::{
+use super::Frame;
+use crate::gpu::{
     ComputePipeline, Gpu, GraphicsPipeline, RayTracingPipeline, ShaderBindingTable, TextureTable,
 };
+
+/// Where a window's pipelines are made, beside the picture that is shown.
+#[derive(Default)]
+pub struct Background {
+    /// How many pipelines are being made by other threads.
+    building: AtomicUsize,
+    /// How many they have made.
+    built: AtomicUsize,
+    refused: Mutex<Vec<String>>,
+}
+
+impl Background {
+    /// Whether a pipeline is being made: the picture will change once it is there.
+    pub fn is_building(&self) -> bool {
+        self.building.load(Ordering::Relaxed) > 0
+    }
+
+    /// How many were made and handed over.
+    pub fn built(&self) -> usize {
+        self.built.load(Ordering::Relaxed)
+    }
+
+    /// Takes the reasons why pipelines could not be made.
+    pub fn refused(&self) -> Vec<String> {
+        std::mem::take(&mut *self.refused.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn refuse(&self, why: &anyhow::Error) {
+        self.refused.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{why:#}"));
+    }
+}
 
 /// A kind of pipeline, and the table that a launch of it needs.
 pub trait Launch: Sized + Send + 'static {
@@ -54,8 +86,8 @@ const MOST: usize = 32;
 
 /// The pipelines of a sample, each with what it was made for.
 ///
-/// Where someone watches, a variant that is not there yet is made by another thread while the old picture
-/// stays; a run without a window waits for it.
+/// In a window, a variant that is not there yet is made by another thread while the old picture stays; a run
+/// without one waits for it.
 pub struct Variants<V, P: Launch = RayTracingPipeline> {
     /// In the order in which they were chosen, the present one last.
     made: Vec<Variant<V, P>>,
@@ -64,11 +96,11 @@ pub struct Variants<V, P: Launch = RayTracingPipeline> {
     refused: Option<V>,
 }
 
-/// A pipeline that another thread is making. The device counts it until it is taken.
+/// A pipeline that another thread is making, counted until it is taken.
 struct Order<V, P> {
     key: V,
     thread: Option<JoinHandle<Result<P>>>,
-    gpu: Gpu,
+    background: Arc<Background>,
 }
 
 /// A pipeline, its table, and what it was made for.
@@ -94,16 +126,17 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
     /// If it cannot be made. In a window with a picture that is told, and the last pipeline goes on.
     pub fn choose(
         &mut self,
-        gpu: &Gpu,
+        frame: &Frame,
         textures: &Arc<TextureTable>,
         wanted: V,
         make: Make<V, P>,
     ) -> Result<&Variant<V, P>> {
+        let &Frame { gpu, background, .. } = frame;
         if let Some(mut order) = self.order.take_if(|order| order.is_finished()) {
             match order.finish() {
-                Ok(pipeline) => self.keep(gpu, order.key, pipeline)?,
+                Ok(pipeline) => self.keep(frame, order.key, pipeline)?,
                 Err(error) => {
-                    gpu.complain(format!("{error:#}"));
+                    order.background.refuse(&error);
                     self.refused = Some(order.key);
                 }
             }
@@ -112,17 +145,23 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
         if let Some(known) = known {
             let chosen = self.made.remove(known);
             self.made.push(chosen);
-        } else if self.made.is_empty() || !gpu.is_watched {
-            let pipeline = make(gpu, textures, wanted)?;
-            self.keep(gpu, wanted, pipeline)?;
-        } else if self.order.is_none() && self.refused != Some(wanted) {
-            match Order::begin(gpu, textures, wanted, make) {
-                Ok(order) => (self.order, self.refused) = (Some(order), None),
-                Err(error) => {
-                    gpu.complain(format!("{error:#}"));
-                    self.refused = Some(wanted);
+            return self.current().context("no pipeline");
+        }
+        match background.filter(|_| !self.made.is_empty()) {
+            None => {
+                let pipeline = make(gpu, textures, wanted)?;
+                self.keep(frame, wanted, pipeline)?;
+            }
+            Some(background) if self.order.is_none() && self.refused != Some(wanted) => {
+                match Order::begin(gpu, background, textures, wanted, make) {
+                    Ok(order) => (self.order, self.refused) = (Some(order), None),
+                    Err(error) => {
+                        background.refuse(&error);
+                        self.refused = Some(wanted);
+                    }
                 }
             }
+            Some(_) => {}
         }
         self.made.last().context("no pipeline")
     }
@@ -132,10 +171,10 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
         self.made.last()
     }
 
-    fn keep(&mut self, gpu: &Gpu, key: V, pipeline: P) -> Result<()> {
-        let sbt = pipeline.table(gpu)?;
+    fn keep(&mut self, frame: &Frame, key: V, pipeline: P) -> Result<()> {
+        let sbt = pipeline.table(frame.gpu)?;
         // Who plays with the controls may do so for hours; a comparison takes its values in turns.
-        if gpu.is_watched && self.made.len() == MOST {
+        if frame.background.is_some() && self.made.len() == MOST {
             self.made.remove(0);
         }
         self.made.push(Variant { key, pipeline, sbt });
@@ -144,13 +183,19 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
 }
 
 impl<V: Copy + Send + 'static, P: Launch> Order<V, P> {
-    fn begin(gpu: &Gpu, textures: &Arc<TextureTable>, key: V, make: Make<V, P>) -> Result<Self> {
+    fn begin(
+        gpu: &Gpu,
+        background: &Arc<Background>,
+        textures: &Arc<TextureTable>,
+        key: V,
+        make: Make<V, P>,
+    ) -> Result<Self> {
         let (device, textures) = (gpu.clone(), textures.clone());
         let build = move || make(&device, &textures, key);
         let thread = Builder::new().name("pipeline".to_owned()).spawn(build);
         let thread = Some(thread.context("no thread to make a pipeline with")?);
-        gpu.building.fetch_add(1, Ordering::Relaxed);
-        Ok(Self { key, thread, gpu: gpu.clone() })
+        background.building.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { key, thread, background: background.clone() })
     }
 
     fn is_finished(&self) -> bool {
@@ -169,7 +214,7 @@ impl<V, P> Drop for Order<V, P> {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
-        self.gpu.building.fetch_sub(1, Ordering::Relaxed);
-        self.gpu.built.fetch_add(1, Ordering::Relaxed);
+        self.background.building.fetch_sub(1, Ordering::Relaxed);
+        self.background.built.fetch_add(1, Ordering::Relaxed);
     }
 }

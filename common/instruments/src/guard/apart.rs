@@ -1,13 +1,12 @@
-//! The shader compiler in a process of its own: it may abort on an edit, and a window must not. Nor may a short
+//! Shaders are compiled in a process of its own: it may abort on an edit, and a window must not. Nor may a short
 //! text of somebody else's take all memory, or all time: macros and structures double line by line.
-
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result, anyhow};
 use serde::{Deserialize, Serialize};
 
-use crate::child::{self, Crashed};
-use crate::output;
+use super::child::{self, Crashed};
+use common::gpu::shader;
+use common::output;
 
 /// The child's argument.
 const ASKED: &str = "--answer-compile";
@@ -25,16 +24,9 @@ struct Question {
     defines: Vec<(String, String)>,
 }
 
-static WANTED: AtomicBool = AtomicBool::new(false);
-
 /// From now on, this process compiles no shader itself.
 pub fn want() {
-    WANTED.store(true, Ordering::Relaxed);
-}
-
-/// Whether shaders are to be compiled in a child.
-pub fn is_wanted() -> bool {
-    WANTED.load(Ordering::Relaxed)
+    shader::compile_by(compile);
 }
 
 /// Whether this process is such a child.
@@ -42,11 +34,11 @@ pub fn is_asked() -> bool {
     std::env::args_os().nth(1).is_some_and(|argument| argument == ASKED)
 }
 
-/// The words of a shader's whole text, as [`super::to_spirv`] makes them.
+/// The words of a shader's whole text, as [`shader::to_spirv`] makes them.
 ///
 /// # Errors
 /// If the text does not compile, or the compiler crashes or does not come to an end.
-pub fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
+fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
     let defines = defines.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
     let question =
         Question { path: path.to_owned(), text: text.to_owned(), defines: defines.collect() };
@@ -73,10 +65,9 @@ pub fn answer() -> Result<()> {
     bound();
     let question: Question =
         serde_json::from_reader(std::io::stdin().lock()).context("no shader on standard input")?;
-    let (_, stage) = super::stage(&question.path)?;
     let defines: Vec<_> =
         question.defines.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-    let words = super::to_spirv(&question.path, &question.text, stage, &defines)?;
+    let words = shader::to_spirv(&question.path, &question.text, &defines)?;
     output::write(bytemuck::cast_slice(&words))
 }
 

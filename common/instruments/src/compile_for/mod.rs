@@ -2,7 +2,9 @@
 //!
 //! The sample runs on whatever device there is and makes its pipelines. What they were made from goes to
 //! a child process for each family, in which Mesa's RADV compiles it for a card that is not there
-//! ([`gpu::absent`](crate::gpu::absent)). The figures are that compiler's estimates, not times.
+//! ([`absent`]). The figures are that compiler's estimates, not times.
+
+pub mod absent;
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -14,10 +16,24 @@ use ash::vk;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use crate::child::{self, Crashed};
-use crate::gpu::absent::{self, Answer};
-use crate::gpu::{Blueprint, Executable, Requirements};
-use crate::output;
+use absent::Answer;
+use common::gpu::{Blueprint, Executable, Requirements};
+use common::output;
+
+use crate::guard::child::{self, Crashed};
+
+/// What is asked of compilers.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+pub struct Options {
+    /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
+    #[arg(long, value_name = "FAMILY", value_enum)]
+    pub compile_for: Option<Family>,
+
+    /// Make the pipelines on standard input for the family there: the child of --compile-for
+    #[arg(long, hide = true)]
+    pub answer_compile_for: bool,
+}
 
 /// A family of GPUs that RADV compiles ray tracing pipelines for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

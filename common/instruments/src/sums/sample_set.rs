@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 /// A set of numbers of samples.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[u32; 2]>", into = "Vec<[u32; 2]>")]
-pub struct Samples {
+pub struct SampleSet {
     /// In order, apart from each other, none empty.
     ranges: Vec<Range<u32>>,
 }
 
-impl Samples {
+impl SampleSet {
     /// How many there are.
     pub fn count(&self) -> u64 {
         self.ranges.iter().map(|range| u64::from(range.end - range.start)).sum()
@@ -92,7 +92,7 @@ impl Samples {
     }
 }
 
-impl From<Range<u32>> for Samples {
+impl From<Range<u32>> for SampleSet {
     fn from(range: Range<u32>) -> Self {
         let mut samples = Self::default();
         samples.push(range);
@@ -100,13 +100,13 @@ impl From<Range<u32>> for Samples {
     }
 }
 
-impl From<Samples> for Vec<[u32; 2]> {
-    fn from(samples: Samples) -> Self {
+impl From<SampleSet> for Vec<[u32; 2]> {
+    fn from(samples: SampleSet) -> Self {
         samples.ranges.into_iter().map(|range| [range.start, range.end]).collect()
     }
 }
 
-impl TryFrom<Vec<[u32; 2]>> for Samples {
+impl TryFrom<Vec<[u32; 2]>> for SampleSet {
     type Error = String;
 
     fn try_from(pairs: Vec<[u32; 2]>) -> Result<Self, String> {
@@ -122,7 +122,7 @@ impl TryFrom<Vec<[u32; 2]>> for Samples {
     }
 }
 
-impl fmt::Display for Samples {
+impl fmt::Display for SampleSet {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let ranges = self.ranges.iter().map(|range| format!("{}..{}", range.start, range.end));
         let ranges: Vec<_> = ranges.collect();
@@ -150,8 +150,8 @@ pub fn range(text: &str) -> Result<Range<u32>, String> {
 mod tests {
     use super::*;
 
-    fn of(ranges: &[Range<u32>]) -> Samples {
-        let mut samples = Samples::default();
+    fn of(ranges: &[Range<u32>]) -> SampleSet {
+        let mut samples = SampleSet::default();
         ranges.iter().for_each(|range| samples.add(&range.clone().into()).unwrap());
         samples
     }
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn as_many_ranges_as_a_header_holds_are_compared_at_once() {
         // Each with each takes ten thousand million steps.
-        let every = |first: u32| -> Samples {
+        let every = |first: u32| -> SampleSet {
             let pairs: Vec<_> = (0..100_000).map(|i| [first + 4 * i, first + 4 * i + 1]).collect();
             pairs.try_into().unwrap()
         };
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_file_with_ranges_out_of_order_is_refused() {
-        let read = |text: &str| serde_json::from_str::<Samples>(text);
+        let read = |text: &str| serde_json::from_str::<SampleSet>(text);
         assert_eq!(read("[[0,4],[4,8]]").unwrap(), (0..8).into());
         for wrong in ["[[4,4]]", "[[5,4]]", "[[0,4],[3,8]]", "[[4,8],[0,2]]"] {
             assert!(read(wrong).is_err(), "{wrong}");

@@ -1,14 +1,25 @@
-//! What a choice costs: several values of one control, timed in turns within one run.
+//! `--compare`: what a choice costs. Several values of one control, timed in turns within one run.
 //!
 //! Times of separate runs differ by the machine's mood. Here every round renders one frame of each
 //! value, in an order that changes from round to round, and only times of the same round are divided
 //! by each other. The first value is timed twice a round: the second time against the first is the
 //! noise floor, which no smaller difference can beat.
 
+use std::collections::HashMap;
+
 use anyhow::Result;
+use common::app::{Bands, Progress, Run, controls};
+use common::usage::Usage;
 use serde::Serialize;
 
-use crate::usage::Usage;
+/// What is to be compared.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+pub struct Options {
+    /// Time a control's values in turns, --frames rounds, and print a table
+    #[arg(long, value_name = "NAME=A|B|…", conflicts_with = "list_controls")]
+    pub compare: Option<String>,
+}
 
 /// A control's values, measured against the first.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -66,6 +77,23 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), Usage> {
             "--compare takes a control and its values, as NAME=A|B; not '{text}'"
         ))),
     }
+}
+
+/// Times the values of a control of a run, as many rounds as it has frames.
+///
+/// # Errors
+/// If a value is none of the control's, or the sample or the device fails.
+pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
+    let rounds = run.args.frames;
+    let turns = u64::from(rounds) * (values.len() as u64 + 1) + values.len() as u64;
+    let progress = Progress::new(turns, "frames");
+    // What a picture costs is known of each value.
+    let mut bands = HashMap::<_, Bands>::new();
+    compare(control, values, rounds, |value| {
+        controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
+        progress.step();
+        run.time(bands.entry(value.to_owned()).or_default())
+    })
 }
 
 /// Times `rounds` rounds; `frame` renders one frame with the value set and returns milliseconds.

@@ -13,22 +13,72 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::vk;
 use glam::UVec2;
 
-use super::args::Args;
-use super::interrupt::{Interrupt, Stopped};
-use super::samples::Samples;
-use super::sums::{Header, Origin, Spoiled, Sums};
-use super::{Sample, controls, output};
-use crate::files;
-use crate::gpu::{
+use super::{Header, Origin, SampleSet, Spoiled, Sums, range};
+use crate::guard::{Interrupt, Stopped};
+use common::app::{Args, Run, controls};
+use common::gpu::{
     Address, Binding, Blueprint, Buffer, ComputePipeline, Descriptor, Gpu, Image, barrier,
 };
-use crate::scene::text::{opened, shown};
-use crate::usage::Usage;
+use common::scene::text::{opened, shown};
+use common::usage::Usage;
+use common::{files, output};
+
+/// Which samples are rendered, and where their sums are kept.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+pub struct Options {
+    /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
+    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare"])]
+    pub samples: Option<Range<u32>>,
+
+    /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
+    #[arg(long, value_name = "FILE", requires = "samples")]
+    pub save: Option<PathBuf>,
+
+    /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
+    #[arg(long, value_name = "FILE", requires = "samples")]
+    pub resume: Option<PathBuf>,
+
+    /// Seconds from one --save to the next; 0 saves after each sample
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds, requires = "save", allow_hyphen_values = true)]
+    pub save_every: u64,
+}
+
+fn seconds(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "seconds are a whole number, such as 60".to_owned())
+}
+
+impl Options {
+    /// Refuses sums where one would look for a picture, which no viewer opens; and a render that would keep
+    /// nothing of its samples, perhaps after days.
+    ///
+    /// # Errors
+    /// [`Usage`], with what would be right.
+    pub fn check(&self, is_kept: bool) -> Result<(), Usage> {
+        let others = ["png", "exr", "jpg", "jpeg", "tif", "tiff", "json"];
+        if let Some(path) = &self.save {
+            let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+            if others.iter().any(ends) || path.as_os_str() == "-" {
+                return Err(Usage(format!(
+                    "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
+                    path.display()
+                )));
+            }
+        }
+        if self.samples.is_some() && self.save.is_none() && !is_kept {
+            return Err(Usage(
+                "--samples keeps nothing: name a file for the picture, --out, or for the sums, --save"
+                    .to_owned(),
+            ));
+        }
+        Ok(())
+    }
+}
 
 /// Width and height of a workgroup.
 const WORKGROUP: [u32; 2] = [8, 8];
 
-crate::shader_struct! {
+common::shader_struct! {
     /// What the shader that adds up is told.
     struct Push {
         sums: Address,
@@ -40,7 +90,7 @@ crate::shader_struct! {
 pub struct Gather {
     header: Header,
     /// What is still to be rendered.
-    missing: Samples,
+    missing: SampleSet,
     sums: Buffer,
     pipeline: ComputePipeline,
     /// The file, and how often it is written.
@@ -57,8 +107,8 @@ pub struct Gather {
 ///
 /// # Errors
 /// If that is no file of sums, or `--save` would write over samples that are not resumed.
-pub fn resumed(args: &Args) -> Result<Option<Sums>> {
-    let (save, resume) = (args.save.as_deref(), args.resume.as_deref());
+pub fn resumed(options: &Options) -> Result<Option<Sums>> {
+    let (save, resume) = (options.save.as_deref(), options.resume.as_deref());
     let is_there = |path: &Path| path.symlink_metadata().is_ok();
     if let Some(save) =
         save.filter(|save| !resume.is_some_and(|it| files::same(it, save)) && is_there(save))
@@ -81,21 +131,23 @@ impl Gather {
     ///
     /// # Errors
     /// If the sample does not gather, the earlier sums do not fit, or memory is short.
-    pub fn begin<S: Sample>(
-        (name, args, samples): (&str, &Args, Range<u32>),
-        gpu: &Gpu,
-        sample: &mut S,
+    pub fn begin(
+        options: &Options,
+        samples: Range<u32>,
+        run: &mut Run,
         resumed: Option<Sums>,
     ) -> Result<Self> {
-        if !sample.gathers() {
+        let (name, args) = (run.name, run.args);
+        if !run.sample.gathers() {
             let why =
                 "set like this, each of its frames is a picture of its own, not a sample of one";
             return Err(Usage(format!("{name} takes no --samples: {why}")).into());
         }
-        let interrupt = args.save.as_ref().map(|_| Interrupt::listen());
-        let origin = origin(name, args, gpu, sample)?;
+        let interrupt = options.save.as_ref().map(|_| Interrupt::listen());
+        let origin = origin(run)?;
+        let gpu = &run.gpu;
         let pixels = args.size.width as usize * args.size.height as usize;
-        let file = args.resume.as_deref().map(shown).unwrap_or_default();
+        let file = options.resume.as_deref().map(shown).unwrap_or_default();
         let sums = match resumed {
             Some(sums) => {
                 fit(&file, &sums.header.origin, &origin)?;
@@ -110,7 +162,7 @@ impl Gather {
             sums: buffer(gpu, &sums)?,
             header: sums.header,
             pipeline: pipeline(gpu)?,
-            save: args.save.clone().map(|file| (file, Duration::from_secs(args.save_every))),
+            save: options.save.clone().map(|file| (file, Duration::from_secs(options.save_every))),
             saved: Instant::now(),
             interrupt,
             resumed: file,
@@ -119,8 +171,8 @@ impl Gather {
     }
 
     /// What is still to be rendered.
-    pub fn missing(&self) -> Samples {
-        self.missing.clone()
+    pub fn missing(&self) -> &SampleSet {
+        &self.missing
     }
 
     /// To be asked while a sample is rendered: the first one of a run need not be waited for.
@@ -215,7 +267,7 @@ impl Gather {
 
 impl Sums {
     /// Writes the file, unless another run has put more into it: then that stays. Gives what it has.
-    fn save_unless_behind(&self, path: &Path) -> Result<Samples> {
+    fn save_unless_behind(&self, path: &Path) -> Result<SampleSet> {
         let there = Header::open(path).ok();
         let there = there.filter(|there| self.header.origin.difference(&there.origin).is_none());
         if let Some(there) = there.filter(|there| !self.header.samples.contain(&there.samples)) {
@@ -250,8 +302,10 @@ fn pipeline(gpu: &Gpu) -> Result<ComputePipeline> {
 }
 
 /// All that a picture depends on, but for the shaders, which are not compiled yet.
-fn origin<S: Sample>(name: &str, args: &Args, gpu: &Gpu, sample: &mut S) -> Result<Origin> {
-    let controls = controls::list(|c| sample.controls(c));
+fn origin(run: &mut Run) -> Result<Origin> {
+    let controls = controls::list(|c| run.sample.controls(c));
+    let Run { name, args, gpu, .. } = run;
+    let args: &Args = args;
     let mut settings: BTreeMap<_, _> =
         controls.into_iter().map(|control| (control.name, control.value)).collect();
     // Where a name is given twice, one control has chosen what the next was about, and shows it no longer.
@@ -272,7 +326,7 @@ fn origin<S: Sample>(name: &str, args: &Args, gpu: &Gpu, sample: &mut S) -> Resu
         scene.entry(name).and_modify(both).or_insert(crc);
     }
     Ok(Origin {
-        chapter: name.to_owned(),
+        chapter: (*name).to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         size: [args.size.width, args.size.height],
         settings,
@@ -281,7 +335,7 @@ fn origin<S: Sample>(name: &str, args: &Args, gpu: &Gpu, sample: &mut S) -> Resu
         shaders: None,
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.arithmetic.to_string(),
+        arithmetic: gpu.emulation.name().to_owned(),
     })
 }
 

@@ -5,7 +5,7 @@ use std::io::{Write, stderr};
 use std::panic::PanicHookInfo;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::output;
+use common::output;
 
 /// Whether it was said why the process ends. What crashes on the way to its end has nothing to add.
 static SAID: AtomicBool = AtomicBool::new(false);

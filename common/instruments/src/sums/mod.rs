@@ -1,4 +1,4 @@
-//! Exact sums of samples, and the files that keep them.
+//! `--samples`: exact sums of samples, and the files that keep them.
 //!
 //! A colour's sum is a whole number of 2^-64 in 128 bits. Whole numbers do not round, so a sum does not
 //! depend on the order of the samples, nor on how a render was cut: 24_accuracy, rung A3, with more bits.
@@ -6,7 +6,9 @@
 //! A file is `RTSUMS`, its version and the length of its header in little-endian; the header, JSON; the
 //! sums, deflated; and a CRC-32 of all of it.
 
+mod gather;
 mod origin;
+mod sample_set;
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -17,12 +19,13 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use serde::{Deserialize, Serialize};
 
-pub use origin::{Difference, Origin};
+use common::app::Picture;
+use common::files::write_whole;
+use common::scene::text::{regular, shown};
 
-use super::Picture;
-use super::samples::Samples;
-use crate::files::write_whole;
-use crate::scene::text::{regular, shown};
+pub use gather::{Gather, Options, resumed};
+pub use origin::{Difference, Origin};
+pub use sample_set::{SampleSet, range};
 
 /// What a file begins with.
 const MAGIC: &[u8; 6] = b"RTSUMS";
@@ -41,7 +44,7 @@ const FRACTION: i32 = 64;
 /// Bits of a colour's whole part: what is not below 2^31 is added as black.
 const COLOR: i32 = 31;
 
-/// Samples that had a colour that is no number to add, and were added as black.
+/// SampleSet that had a colour that is no number to add, and were added as black.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spoiled {
@@ -68,7 +71,7 @@ pub struct Header {
     /// What the samples have in common.
     pub origin: Origin,
     /// Which they are.
-    pub samples: Samples,
+    pub samples: SampleSet,
     /// Those that could not be added.
     pub spoiled: Spoiled,
 }
@@ -317,7 +320,7 @@ pub fn merge(files: &[&Path]) -> Result<Sums> {
 ///
 /// # Errors
 /// With those that are.
-pub fn check_complete(samples: &Samples, whole: Range<u32>) -> Result<()> {
+pub fn check_complete(samples: &SampleSet, whole: Range<u32>) -> Result<()> {
     let missing = samples.missing(whole);
     ensure!(missing.count() == 0, "samples {missing} are missing");
     Ok(())

@@ -9,10 +9,7 @@ use anyhow::{Context, Result, ensure};
 use ash::{Device, khr, vk};
 use serde::{Deserialize, Serialize};
 
-use super::blueprint::Blueprint;
-use super::instance;
-use super::requirements::Requirements;
-use super::{Executable, TextureTable, device, load};
+use common::gpu::{Blueprint, Executable, Requirements, TextureTable, device, instance};
 
 /// What an absent card's driver has to say.
 #[derive(Serialize, Deserialize)]
@@ -36,7 +33,7 @@ pub fn compile(
     blueprints: &[Blueprint],
 ) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
-    let entry = load()?;
+    let entry = instance::load()?;
     let (instance, _) = instance::create(&entry, None, None)?;
     let result = (|| {
         // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".

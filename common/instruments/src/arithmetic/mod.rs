@@ -1,0 +1,191 @@
+//! `--arithmetic`: whose arithmetic a run is done in, the driver's or the worst that the specification lets any
+//! driver have; and traversal that offers more than it must.
+
+mod operations;
+mod rewrite;
+mod signature;
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+
+use common::gpu::shader::StageText;
+use common::gpu::{Emulation, Requirements, contraction};
+use glam::Vec3;
+
+/// The name of a shader's own `main` while another calls it.
+const MAIN: &str = "shader_main";
+
+/// How shaders compute.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Arithmetic {
+    /// As the driver does.
+    #[default]
+    Driver,
+    /// As inexactly as Vulkan allows: the same operation on the same operands gives the same result.
+    Worst,
+    /// The same, but the result also depends on the place of the operation in the code, and on the pipeline
+    /// if there is a [`seed`].
+    WorstByPlace,
+}
+
+/// The number that `ARITHMETIC_SEED` gives tests: every pipeline is then another compiler's work, and every
+/// build in another order. Vulkan promises equal results of *identical* pipelines alone (appendix Invariance,
+/// rules 4 and 7).
+pub fn seed() -> Option<u64> {
+    std::env::var("ARITHMETIC_SEED").ok()?.parse().ok()
+}
+
+impl Arithmetic {
+    /// This, or `worst-by-place` where nothing else is asked for and there is a [`seed`].
+    pub fn or_seeded(self) -> Self {
+        match self {
+            Self::Driver if seed().is_some() => Self::WorstByPlace,
+            asked => asked,
+        }
+    }
+
+    /// Whether shaders are rewritten.
+    pub fn is_worst(self) -> bool {
+        self != Self::Driver
+    }
+
+    /// A shader's text with all that its words, compiled before, will call: worst.glsl, and in place of the
+    /// shader's `main` one that mentions it, as glslang leaves out what nothing mentions.
+    ///
+    /// # Errors
+    /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
+    fn prepared(text: &str, words: &[u32]) -> Result<String> {
+        let worst = include_str!("worst.glsl");
+        let rewrite::Needs { calls, declared, meets_triangles } = rewrite::needs(words)?;
+        let macros = declared.into_iter().chain([("WORST_TRIANGLES", meets_triangles)]);
+        let macros: String =
+            macros.map(|(name, is_so)| format!("#define {name} {}\n", u32::from(is_so))).collect();
+        let calls = calls.join("\n");
+        let (version, text) = text.split_once('\n').context("the text is empty")?;
+        Ok(format!(
+            "{version}\n#define main {MAIN}\n{text}\n{macros}{worst}#undef main\n\
+             void main() {{\n{MAIN}();\nif (false) {{\n{calls}\n}}\n}}\n"
+        ))
+    }
+
+    /// The module as the driver gets it; `path` tells one module's places from another's, and where there is a
+    /// [`seed`], so does the `pipeline` that it is for.
+    ///
+    /// # Errors
+    /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
+    pub fn applied(self, path: &str, pipeline: u64, words: Vec<u32>) -> Result<Vec<u32>> {
+        let seed = match self {
+            Self::Driver => return Ok(words),
+            Self::Worst => None,
+            Self::WorstByPlace => {
+                let mut hasher = DefaultHasher::new();
+                path.hash(&mut hasher);
+                if let Some(seed) = seed() {
+                    (seed, pipeline).hash(&mut hasher);
+                }
+                Some(hasher.finish() as u32)
+            }
+        };
+        let rewritten = rewrite::worst(&words, seed)
+            .with_context(|| format!("shader '{path}' cannot be had in the worst arithmetic"))?;
+        // What the worst arithmetic computes itself, the driver must not rearrange.
+        contraction::without(&rewritten)
+    }
+}
+
+impl Emulation for Arithmetic {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Driver => "driver",
+            Self::Worst => "worst",
+            Self::WorstByPlace => "worst-by-place",
+        }
+    }
+
+    fn requirements(&self, asked: Requirements) -> Requirements {
+        if self.is_worst() { asked.float64() } else { asked }
+    }
+
+    fn words(&self, stage: &StageText) -> Result<Vec<u32>> {
+        if !self.is_worst() {
+            return stage.words();
+        }
+        let plain = StageText { as_written: false, ..stage.clone() }.words()?;
+        let text = Self::prepared(&stage.text, &plain)
+            .with_context(|| format!("shader '{}' is not for the worst arithmetic", stage.path))?;
+        let words = StageText { text, ..stage.clone() }.words()?;
+        self.applied(stage.path, stage.pipeline, words)
+    }
+
+    /// By place, the device cannot, so that both kinds of shaders are tried.
+    fn rounds_to_nearest_even(&self) -> bool {
+        *self != Self::WorstByPlace
+    }
+
+    /// Turned round, or shuffled if there is a [`seed`].
+    fn order(&self, mut primitives: Vec<u32>) -> Vec<u32> {
+        match seed() {
+            _ if !self.is_worst() => {}
+            None => primitives.reverse(),
+            Some(seed) => shuffle(&mut primitives, seed),
+        }
+        primitives
+    }
+
+    /// Each twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
+    fn candidates(&self, triangles: Vec<u32>) -> Vec<u32> {
+        let times = if self.is_worst() { 2 } else { 1 };
+        triangles.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect()
+    }
+
+    /// Larger by half of the longest side, each way.
+    fn boxes(&self, mut boxes: Vec<[Vec3; 2]>) -> Vec<[Vec3; 2]> {
+        for [low, high] in boxes.iter_mut().filter(|_| self.is_worst()) {
+            let by = 0.5 * (*high - *low).max_element();
+            (*low, *high) = (*low - by, *high + by);
+        }
+        boxes
+    }
+}
+
+/// Puts a list in an order that the seed, the list and the program decide: another program's build is another's.
+fn shuffle(order: &mut [u32], seed: u64) {
+    let program =
+        std::env::args_os().next().and_then(|path| Some(Path::new(&path).file_name()?.to_owned()));
+    let key = |i: &u32| {
+        let mut hasher = DefaultHasher::new();
+        (seed, &program, order.len(), i).hash(&mut hasher);
+        hasher.finish()
+    };
+    let mut keyed: Vec<(u64, u32)> = order.iter().map(|i| (key(i), *i)).collect();
+    // Neighbours stay near each other, for time's sake: whole runs change places, and so do those within.
+    keyed.chunks_mut(16).for_each(|run| run.sort_unstable());
+    let mut runs: Vec<_> = keyed.chunks(16).collect();
+    runs.sort_unstable();
+    let shuffled: Vec<u32> = runs.into_iter().flatten().map(|(_, i)| *i).collect();
+    order.copy_from_slice(&shuffled);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_gives_a_permutation_of_its_own() {
+        let shuffled = |seed| {
+            let mut order: Vec<u32> = (0..100).collect();
+            shuffle(&mut order, seed);
+            order
+        };
+        let (one, two) = (shuffled(1), shuffled(2));
+        assert_eq!(one, shuffled(1));
+        assert_ne!(one, two);
+        for mut order in [one, two] {
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..100));
+        }
+    }
+}

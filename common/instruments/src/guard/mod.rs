@@ -1,0 +1,55 @@
+//! How a program ends: in one line whatever ends it, with no half-written file, and without taking others along.
+//!
+//! - [`signals`]: Ctrl-C, a closed terminal, what a batch system sends
+//! - [`last_words`]: panics, crashes of the driver, no memory left
+//! - [`apart`]: the shader compiler in a process of its own, with bounds
+//! - [`child`]: this program started again, to be asked one question
+
+pub mod apart;
+pub mod child;
+mod last_words;
+mod signals;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::shader::are_others;
+use common::output;
+use common::usage::Usage;
+
+pub use signals::{Interrupt, Stopped, watch};
+
+/// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
+/// half-written file. Shaders of a folder that is not the project's are compiled in a process of their own.
+///
+/// Exit codes: 0 done, 1 failed with one line that says why, 2 wrong arguments, 3 asked to stop, and what was
+/// gathered is saved.
+pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    watch();
+    exit_code(|| {
+        if apart::is_asked() {
+            return apart::answer();
+        }
+        if are_others() {
+            apart::want();
+        }
+        program()
+    })
+}
+
+/// As [`finish`], for a program that heeds signals itself.
+pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    last_words::for_panics();
+    // Of the compiler's child, its parent tells, which can name the shader.
+    if !apart::is_asked() {
+        last_words::for_crashes();
+    }
+    let Err(error) = program() else { return ExitCode::SUCCESS };
+    let line = output::line_of(&error);
+    if error.is::<Stopped>() {
+        last_words::say(line.trim_start_matches("error: "));
+        return ExitCode::from(3);
+    }
+    last_words::say(&line);
+    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}

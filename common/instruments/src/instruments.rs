@@ -1,0 +1,130 @@
+//! Every instrument on one run.
+
+use std::sync::Arc;
+
+use anyhow::Result;
+use common::app::{self, Args, Files, Picture, Run, Watch};
+use common::gpu::GpuOptions;
+use common::{files, output};
+
+use crate::compare::{self, Comparison};
+use crate::report::Report;
+use crate::sums::{Gather, Sums, resumed};
+use crate::{Options, compile_for};
+
+/// Every instrument, and what each has found so far.
+pub struct Instruments {
+    options: Options,
+    /// The control that is compared, and its values.
+    compared: Option<(String, Vec<String>)>,
+    /// Sums of an earlier run.
+    resumed: Option<Sums>,
+    gather: Option<Gather>,
+    comparison: Option<Comparison>,
+    compiled_for: Vec<compile_for::CompiledFor>,
+}
+
+impl Instruments {
+    /// Instruments that have seen nothing yet.
+    pub fn new(options: Options) -> Self {
+        Self {
+            options,
+            compared: None,
+            resumed: None,
+            gather: None,
+            comparison: None,
+            compiled_for: Vec::new(),
+        }
+    }
+
+    /// Prints a table, unless standard output is the report's.
+    fn print(&self, table: &str) -> Result<()> {
+        if self.options.report.takes_output() { Ok(()) } else { output::print(table) }
+    }
+}
+
+/// Refuses before the work what would be refused after it; for a program that renders by itself.
+///
+/// # Errors
+/// If a file cannot be written, or is named twice.
+pub fn check_files(args: &Args, options: &Options) -> Result<()> {
+    app::files::check(args, &Instruments::new(options.clone()))?;
+    Ok(options.report.check()?)
+}
+
+impl Watch for Instruments {
+    fn needs_no_window(&self) -> bool {
+        let Options { compare, sums, compile_for, .. } = &self.options;
+        compare.compare.is_some() || sums.samples.is_some() || compile_for.compile_for.is_some()
+    }
+
+    fn files(&self) -> Files<'_> {
+        let Options { report, sums, .. } = &self.options;
+        let (save, resume) = (sums.save.as_deref(), sums.resume.as_deref());
+        // Only sums are written into the file from which they come.
+        let resume = resume.filter(|it| !save.is_some_and(|save| files::same(it, save)));
+        let outputs = [("--report", report.file()), ("--save", save)];
+        let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
+        let inputs = resume.map(|file| ("--resume", file));
+        Files { inputs: inputs.into_iter().collect(), outputs: outputs.collect() }
+    }
+
+    fn device(&self, options: &mut GpuOptions) {
+        if self.options.report.compiler_figures {
+            options.requirements =
+                std::mem::take(&mut options.requirements).compiler_figures_where_offered();
+        }
+        options.emulation = Arc::new(self.options.arithmetic.or_seeded());
+    }
+
+    fn check(&mut self, _: &Args) -> Result<()> {
+        let Options { report, compare, sums, .. } = &self.options;
+        report.check()?;
+        self.resumed = resumed(sums)?;
+        self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
+        Ok(())
+    }
+
+    fn begin(&mut self, run: &mut Run) -> Result<()> {
+        if let Some((control, values)) = &self.compared {
+            self.comparison = Some(compare::of_run(run, control, values)?);
+            run.frames = vec![0..1];
+        }
+        if let Some(samples) = self.options.sums.samples.clone() {
+            let gather = Gather::begin(&self.options.sums, samples, run, self.resumed.take())?;
+            // Samples are pictures alone: their mean is the sums'.
+            (run.frames, run.apart) = (gather.missing().ranges().to_vec(), true);
+            self.gather = Some(gather);
+        }
+        Ok(())
+    }
+
+    fn band(&mut self) -> Result<()> {
+        self.gather.as_ref().map_or(Ok(()), Gather::heed)
+    }
+
+    fn frame(&mut self, run: &Run, index: u32) -> Result<()> {
+        self.gather.as_mut().map_or(Ok(()), |gather| gather.add(&run.gpu, &run.image, index))
+    }
+
+    fn picture(&mut self, run: &Run) -> Result<Option<Picture>> {
+        let sums = self.gather.take().map(Gather::finish).transpose()?;
+        if let Some(comparison) = &self.comparison {
+            let (name, driver) = (&run.gpu.name, &run.gpu.driver);
+            self.print(&format!("{name} · {driver}\n\n{}", comparison.table()))?;
+        }
+        if let Some(family) = self.options.compile_for.compile_for {
+            let blueprints = run.gpu.statistics().blueprints;
+            self.compiled_for = compile_for::compile_for(family, &blueprints)?;
+            self.print(&compile_for::table(&self.compiled_for))?;
+        }
+        Ok(sums.filter(|_| run.args.out.is_some()).map(|sums| sums.mean()))
+    }
+
+    fn end(&mut self, run: &Run) -> Result<()> {
+        let Some(path) = &self.options.report.report else { return Ok(()) };
+        let comparison = self.comparison.take();
+        let compiled_for = std::mem::take(&mut self.compiled_for);
+        Report { comparison, compiled_for, ..Report::of(run)? }.save(path)
+    }
+}

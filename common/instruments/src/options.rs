@@ -1,0 +1,69 @@
+//! The options of all instruments, beside those of every sample.
+
+use common::app::Args;
+use common::usage::Usage;
+
+use crate::arithmetic::Arithmetic;
+use crate::{compare, compile_for, report, sums};
+
+/// What instruments are asked to do.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+#[command(next_help_heading = "Instruments")]
+pub struct Options {
+    /// `--report`.
+    #[command(flatten)]
+    pub report: report::Options,
+
+    /// `--compare`.
+    #[command(flatten)]
+    pub compare: compare::Options,
+
+    /// `--samples`.
+    #[command(flatten)]
+    pub sums: sums::Options,
+
+    /// `--compile-for`.
+    #[command(flatten)]
+    pub compile_for: compile_for::Options,
+
+    /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
+    #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
+    pub arithmetic: Arithmetic,
+}
+
+impl Options {
+    /// Refuses options that do not go together.
+    fn check(&self, args: &Args) -> Result<(), Usage> {
+        let asked = args.list_controls || self.compile_for.compile_for.is_some();
+        self.sums.check(asked || args.out.is_some() || self.report.report.is_some())
+    }
+}
+
+/// The process's arguments: those of every sample, and the instruments'.
+///
+/// # Errors
+/// One line that says what is wrong and where to look.
+pub fn parse(name: &'static str) -> Result<(Args, Options), Usage> {
+    #[derive(clap::Args)]
+    struct Nothing {}
+    let (args, options, Nothing {}) = parse_with(name)?;
+    Ok((args, options))
+}
+
+/// As [`parse`], for a sample with arguments of its own.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options, Own), Usage> {
+    #[derive(clap::Args)]
+    struct More<Own: clap::Args> {
+        #[command(flatten)]
+        own: Own,
+        #[command(flatten)]
+        options: Options,
+    }
+    let (args, More { options, own }) = Args::parse_with(name)?;
+    options.check(&args)?;
+    Ok((args, options, own))
+}

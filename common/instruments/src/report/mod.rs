@@ -1,0 +1,184 @@
+//! `--report`: what a run found out about itself, as JSON: for scripts, tests and the tables on the pages.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use serde::Serialize;
+
+use common::app::Run;
+use common::files::write_whole;
+use common::gpu::{Executable, Limits};
+use common::output;
+use common::usage::Usage;
+
+use crate::compare::Comparison;
+use crate::compile_for::CompiledFor;
+
+/// What is to be told.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+pub struct Options {
+    /// With --headless, write device, times, stages and messages as JSON; - is standard output
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+
+    /// Ask the device's own compiler about the pipelines, for the report, where it tells
+    #[arg(long, hide = true)]
+    pub compiler_figures: bool,
+}
+
+impl Options {
+    /// The file that is to be written, if it is one.
+    pub fn file(&self) -> Option<&Path> {
+        self.report.as_deref().filter(|path| *path != Path::new("-"))
+    }
+
+    /// Whether standard output is the report's.
+    pub fn takes_output(&self) -> bool {
+        self.report.as_deref() == Some(Path::new("-"))
+    }
+
+    /// Refuses a file that is no JSON by its name.
+    ///
+    /// # Errors
+    /// [`Usage`], with what would be right.
+    pub fn check(&self) -> Result<(), Usage> {
+        let is_json =
+            |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
+        match self.file().filter(|path| !is_json(path)) {
+            None => Ok(()),
+            Some(report) => {
+                let line = "a report is .json, or - for standard output";
+                Err(Usage(format!("--report {}: {line}", report.display())))
+            }
+        }
+    }
+}
+
+/// The report of one run.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// The sample's name, such as `02_basic`.
+    pub sample: String,
+    /// The device's name.
+    pub device: String,
+    /// Its driver, in its maker's words.
+    pub driver: String,
+    /// What it has, and how much of it.
+    pub limits: Limits,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// How many frames were rendered.
+    pub frames: u32,
+    /// The device's time for a frame.
+    pub gpu_milliseconds: Milliseconds,
+    /// Bands of rows that the last frame was traced in.
+    pub bands: usize,
+    /// The device's time for a band, of all frames.
+    pub band_milliseconds: Milliseconds,
+    /// Primary rays a second: pixels over the median time.
+    pub primary_rays_per_second: f64,
+    /// From the start of the process to the end of the first frame.
+    pub first_frame_milliseconds: f64,
+    /// Host time to build all acceleration structures, uploads left out.
+    pub acceleration_structure_milliseconds: f64,
+    /// Bytes of all acceleration structures that are there after the last frame.
+    pub acceleration_structure_bytes: u64,
+    /// Host time to compile shaders and make pipelines.
+    pub pipeline_milliseconds: f64,
+    /// Shader stages compiled, by path below `shaders/`.
+    pub stages: Vec<String>,
+    /// Shader groups in the pipelines.
+    pub groups: usize,
+    /// Device memory in use after the last frame.
+    pub bytes_allocated: u64,
+    /// What validation said; empty where it is off.
+    pub validation_messages: Vec<String>,
+    /// What `--compare` measured.
+    pub comparison: Option<Comparison>,
+    /// What `--compile-for` found out, a row a program.
+    pub compiled_for: Vec<CompiledFor>,
+    /// What the device's own compiler says of the last pipeline, where it was asked and tells.
+    pub executables: Vec<Executable>,
+    /// What the chapter itself has to tell.
+    pub chapter: serde_json::Value,
+}
+
+/// A spread of times, in milliseconds.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Milliseconds {
+    /// The shortest.
+    pub min: f64,
+    /// The median.
+    pub median: f64,
+    /// The longest.
+    pub max: f64,
+}
+
+impl Milliseconds {
+    /// The spread of `times`; zeros for none.
+    pub fn of(times: &[f64]) -> Self {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at = |i: usize| sorted.get(i).copied().unwrap_or_default();
+        Self { min: at(0), median: at(sorted.len() / 2), max: at(sorted.len().saturating_sub(1)) }
+    }
+}
+
+impl Report {
+    /// The report of a run that is done, but for what other instruments have found.
+    ///
+    /// # Errors
+    /// If the sample cannot tell.
+    pub fn of(run: &Run) -> Result<Self> {
+        let Run { gpu, args, .. } = run;
+        let (width, height) = (args.size.width, args.size.height);
+        let times: Vec<f64> = run.times.iter().map(|bands| bands.iter().sum()).collect();
+        let median = Milliseconds::of(&times).median;
+        let pixels = f64::from(width) * f64::from(height);
+        let statistics = gpu.statistics();
+        Ok(Self {
+            sample: run.name.to_owned(),
+            device: gpu.name.clone(),
+            driver: gpu.driver.clone(),
+            limits: gpu.limits,
+            arithmetic: gpu.emulation.name().to_owned(),
+            width,
+            height,
+            frames: if run.apart { times.len() as u32 } else { args.frames },
+            gpu_milliseconds: Milliseconds::of(&times),
+            bands: run.times.last().map_or(0, Vec::len),
+            band_milliseconds: Milliseconds::of(&run.times.concat()),
+            primary_rays_per_second: if median > 0.0 { pixels / median * 1e3 } else { 0.0 },
+            first_frame_milliseconds: run.first_frame.as_secs_f64() * 1e3,
+            acceleration_structure_milliseconds: statistics.build_time.as_secs_f64() * 1e3,
+            acceleration_structure_bytes: statistics.acceleration_structure_bytes,
+            pipeline_milliseconds: statistics.pipeline_time.as_secs_f64() * 1e3,
+            stages: statistics.stages,
+            groups: statistics.groups,
+            bytes_allocated: gpu.allocated_bytes(),
+            validation_messages: gpu.validation().all(),
+            executables: statistics.executables,
+            chapter: run.sample.report()?,
+            ..Self::default()
+        })
+    }
+
+    /// Writes the report to a file, or to standard output if `path` is `-`.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        let mut text = serde_json::to_string_pretty(self)?;
+        text.push('\n');
+        if path == Path::new("-") {
+            output::print(&text)
+        } else {
+            write_whole(path, text.as_bytes())
+        }
+    }
+}

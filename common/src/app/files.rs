@@ -1,0 +1,70 @@
+//! The files that a run reads and writes, refused before the work.
+
+use anyhow::Result;
+use ash::vk;
+
+use super::watch::Files;
+use super::{Args, Format, Watch};
+use crate::files;
+use crate::gpu::Gpu;
+use crate::scene::text;
+use crate::usage::Usage;
+
+/// Refuses before the work what would be refused after it: a file that cannot be written, or that is named
+/// twice.
+///
+/// # Errors
+/// With the file, and why.
+pub fn check(args: &Args, watch: &dyn Watch) -> Result<()> {
+    args.out.as_deref().map(Format::of).transpose()?;
+    let Files { inputs, outputs } = all(args, watch);
+    for (i, (name, file)) in outputs.iter().enumerate() {
+        files::check_writable(file)?;
+        let mut others = outputs[..i].iter().chain(&inputs);
+        if let Some((other, _)) = others.find(|(_, other)| files::same(other, file)) {
+            let file = file.display();
+            return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
+        }
+    }
+    Ok(())
+}
+
+/// The files that a run reads and writes.
+fn all<'a>(args: &'a Args, watch: &'a dyn Watch) -> Files<'a> {
+    let Files { mut inputs, mut outputs } = watch.files();
+    inputs.splice(0..0, args.scene.as_deref().map(|file| ("--scene", file)));
+    outputs.splice(0..0, args.out.as_deref().map(|file| ("--out", file)));
+    Files { inputs, outputs }
+}
+
+/// Fails if an output is one of the scene's files: what they are is known only once they were opened.
+///
+/// # Errors
+/// With the file.
+pub fn check_scene(args: &Args, watch: &dyn Watch) -> Result<(), Usage> {
+    let opened = text::opened();
+    let mut outputs = all(args, watch).outputs.into_iter();
+    match outputs.find(|(_, file)| opened.iter().any(|read| files::same(read, file))) {
+        Some((name, file)) => {
+            Err(Usage(format!("{name} names '{}', a file of the scene", file.display())))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Fails if a picture is larger than the device allows.
+///
+/// # Errors
+/// With what it allows.
+pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
+    if gpu.limits.fits(size) {
+        return Ok(());
+    }
+    let (side, rays) =
+        (gpu.limits.max_image_dimension, gpu.limits.max_ray_dispatch_invocation_count);
+    let (width, height) = (size.width, size.height);
+    Err(Usage(format!(
+        "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",
+        gpu.name
+    )))
+}

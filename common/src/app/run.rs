@@ -1,0 +1,149 @@
+//! A sample that is rendered without a window, picture by picture.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+
+use super::bands::Bands;
+use super::{Args, Picture, Program, Sample, Setup, Watch, controls, files};
+use crate::gpu::{Gpu, Image, Messages, Timer};
+use crate::output;
+
+/// A sample on its device, and its picture.
+pub struct Run<'a> {
+    /// The sample's name.
+    pub name: &'static str,
+    /// What was asked for.
+    pub args: &'a Args,
+    /// The sample, all controls set.
+    pub sample: Box<dyn Sample>,
+    /// What it renders to.
+    pub image: Image,
+    /// The frames that are to be rendered, by [`Frame::index`](super::Frame::index).
+    pub frames: Vec<Range<u32>>,
+    /// Whether each of them is a picture alone.
+    pub apart: bool,
+    /// Milliseconds of each frame, and of each of its bands.
+    pub times: Vec<Vec<f64>>,
+    /// From the start of the run to the end of the first frame.
+    pub first_frame: Duration,
+    bands: Bands,
+    timer: Timer,
+    start: Instant,
+    /// The device.
+    pub gpu: Gpu,
+}
+
+impl<'a> Run<'a> {
+    /// Opens a device, makes the sample and sets its controls.
+    ///
+    /// # Errors
+    /// If there is no such device, or a file or a setting is wrong.
+    pub fn new(
+        program: &Program,
+        args: &'a Args,
+        watch: &dyn Watch,
+        start: Instant,
+    ) -> Result<Self> {
+        let mut options = args.device((program.requirements)());
+        watch.device(&mut options);
+        let gpu = Gpu::new(&options)?;
+        files::check_size(&gpu, args.size)?;
+        let setup = Setup::new(args);
+        let mut sample = (program.make)(&gpu, &setup)?;
+        setup.check()?;
+        files::check_scene(args, watch)?;
+        controls::set_all(&args.sets, |c| sample.controls(c))?;
+        Ok(Self {
+            name: program.name,
+            args,
+            sample,
+            image: Image::storage(&gpu, "picture", args.size)?,
+            frames: vec![0..args.frames],
+            apart: false,
+            times: Vec::new(),
+            first_frame: Duration::ZERO,
+            bands: Bands::default(),
+            timer: Timer::new(&gpu)?,
+            start,
+            gpu,
+        })
+    }
+
+    /// Prints a line for each control: name, kind, what is possible, value.
+    ///
+    /// # Errors
+    /// If that cannot be written.
+    pub fn list_controls(&mut self) -> Result<()> {
+        for control in controls::list(|c| self.sample.controls(c)) {
+            let controls::Listed { name, kind, possible, value } = control;
+            // What is possible may be the names of a scene's materials.
+            let cells = [&*name, kind, &*possible, &*value].map(output::plain);
+            output::print(&(cells.join("\t") + "\n"))?;
+        }
+        Ok(())
+    }
+
+    /// Renders the frame with this number; `band` is called after each band.
+    ///
+    /// # Errors
+    /// If the sample or the device fails, or the first error of `band`.
+    pub fn render(&mut self, index: u32, band: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        let accumulated = if self.apart { 0 } else { index };
+        let Self { sample, image, bands, timer, gpu, .. } = self;
+        bands.begin(image.extent, true);
+        while bands.trace(&mut **sample, (gpu, timer, None), (image, index, accumulated))?.is_some()
+        {
+            band()?;
+        }
+        self.times.push(self.bands.times.clone());
+        if self.first_frame.is_zero() {
+            self.first_frame = self.start.elapsed();
+        }
+        Ok(())
+    }
+
+    /// As [`Run::render`], for a picture of its own whose bands follow what `bands` has learnt, and which is
+    /// none of [`Run::times`]; its milliseconds.
+    ///
+    /// # Errors
+    /// As [`Run::render`].
+    pub fn time(&mut self, bands: &mut Bands) -> Result<f64> {
+        self.sample.changed(&self.gpu)?;
+        bands.begin(self.image.extent, true);
+        let device = (&self.gpu, &self.timer, None);
+        while bands.trace(&mut *self.sample, device, (&self.image, 0, 0))?.is_some() {}
+        Ok(bands.times.iter().sum())
+    }
+
+    /// The last frame.
+    ///
+    /// # Errors
+    /// If the copy fails.
+    pub fn picture(&self) -> Result<Picture> {
+        let (width, height) = (self.image.extent.width, self.image.extent.height);
+        Ok(Picture { width, height, pixels: self.image.read()? })
+    }
+
+    /// Closes the device.
+    ///
+    /// # Errors
+    /// If validation had something to say, a leak for one.
+    pub fn close(self) -> Result<()> {
+        let validation = self.gpu.validation();
+        drop(self);
+        check_validation(&validation)
+    }
+}
+
+/// Fails if validation has said anything.
+///
+/// # Errors
+/// With the number of messages and the first.
+pub fn check_validation(validation: &Messages) -> Result<()> {
+    match validation.all().as_slice() {
+        [] => Ok(()),
+        messages => bail!("{} validation messages; the first: {}", messages.len(), messages[0]),
+    }
+}

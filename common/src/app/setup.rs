@@ -1,0 +1,59 @@
+//! What a sample is made with.
+
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+
+use super::Args;
+use crate::output;
+use crate::scene::text::shown;
+use crate::scene::{Scene, SceneOptions};
+use crate::usage::Usage;
+
+/// What a sample is made with.
+pub struct Setup {
+    /// How acceleration structures are built: in spatial order, unless `--unordered` says otherwise.
+    pub options: SceneOptions,
+    scene: Option<PathBuf>,
+    scene_taken: Cell<bool>,
+}
+
+impl Setup {
+    /// The setup that arguments ask for.
+    pub fn new(args: &Args) -> Self {
+        let options = SceneOptions { ordering: !args.unordered, ..SceneOptions::default() };
+        Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
+    }
+
+    /// The file that `--scene` names, for a sample that takes more than models.
+    pub fn scene(&self) -> Option<&Path> {
+        self.scene_taken.set(true);
+        self.scene.as_deref()
+    }
+
+    /// The scene that `--scene` names, else the chapter's own. What is wrong with a file, and not so wrong
+    /// that it cannot be shown, goes to standard error.
+    ///
+    /// # Errors
+    /// If a file is missing or wrong; on a scene file of chapter 25, [`Usage`].
+    pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
+        let Some(path) = self.scene() else { return own() };
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+            let what =
+                "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";
+            return Err(Usage(format!("{}: {what}", shown(path))).into());
+        }
+        let scene = Scene::open(path)?;
+        output::warn(&scene.model.warnings);
+        Ok(scene)
+    }
+
+    /// Fails if a scene was given to a sample that takes none.
+    pub(super) fn check(&self) -> Result<(), Usage> {
+        if self.scene.is_some() && !self.scene_taken.get() {
+            return Err(Usage("this chapter brings its own scene and takes no --scene".to_owned()));
+        }
+        Ok(())
+    }
+}
