@@ -57,7 +57,7 @@ pub trait ShaderType {
 }
 
 /// Structures and enumerations that Rust has declared, and shaders have too.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Hash)]
 pub struct Known {
     pub(super) structs: Vec<StructLayout>,
     pub(super) enums: Vec<EnumLayout>,
@@ -120,7 +120,7 @@ pub trait ShaderStruct: bytemuck::Pod + ShaderType {
 }
 
 /// The name and the fields of a Rust structure.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Hash)]
 pub struct StructLayout {
     /// The name, the same in GLSL.
     pub name: &'static str,
@@ -131,7 +131,7 @@ pub struct StructLayout {
 }
 
 /// The names of a Rust enumeration, in the order of its numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct EnumLayout {
     /// The name in Rust.
     pub name: &'static str,

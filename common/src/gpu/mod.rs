@@ -1,6 +1,7 @@
 //! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
 
 mod accel;
+mod agreement;
 pub mod barrier;
 mod blueprint;
 mod buffer;

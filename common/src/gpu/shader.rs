@@ -38,7 +38,7 @@ pub struct Shader {
 }
 
 /// A number that a shader has a name for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct UintConstant {
     /// The name.
     pub name: String,
@@ -219,8 +219,12 @@ fn has_place(message: &str) -> bool {
 fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> PathBuf {
     let mut hasher = DefaultHasher::new();
     (env!("CARGO_PKG_VERSION"), path, text, defines).hash(&mut hasher);
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv"));
-    folder.join(format!("{:016x}.words", hasher.finish()))
+    Path::new(cache_folder()).join(format!("{:016x}.words", hasher.finish()))
+}
+
+/// Where words are kept, and what is known of them.
+pub(super) fn cache_folder() -> &'static str {
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv")
 }
 
 /// A module as the cache keeps it; sealed, for a driver may crash on damaged words.

@@ -23,7 +23,7 @@ impl Scene {
     /// # Errors
     /// If the project's own model is missing or wrong.
     pub fn chess() -> Result<Self> {
-        let model = obj::load(&assets().join("chess.obj"))?;
+        let model = obj::load_own(&assets().join("chess.obj"))?;
         let mut instances = Vec::new();
         // The screen stands on the rim behind Black.
         let rim = Vec3::new(0.0, 0.02, -4.28);

@@ -1,18 +1,16 @@
-//! Reading an OBJ file: its meshes, and the materials and textures that it names.
+//! Reading an OBJ file: its meshes, and the materials and textures that it names. tobj parses it.
 //!
-//! The text is checked statement by statement and written out again in a plain form, which tobj then
-//! parses: only `v`, `vt`, `vn`, `f`, `o` and `usemtl`, every corner with all three indices.
+//! A file of somebody else's is not to be trusted: [`load`] has it checked before.
 
 use std::path::Path;
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Context, Result};
 use glam::{Vec2, Vec3};
 
-use super::limits::Limits;
 use super::material::Material;
-use super::mesh::{LEAST, Mesh, REACH, Vertex, around};
-use super::obj_check::Check;
-use super::text::{Folder, Text, shown};
+use super::mesh::{Mesh, Vertex};
+pub use super::obj_check::load;
+use super::text::{note_opened, shown};
 use super::texture::Texture;
 
 /// All that an OBJ file holds and names.
@@ -29,66 +27,56 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Reads an OBJ file with its MTL files and PNG textures.
-///
-/// A new object, a new group in a file without objects, or another material starts a new mesh.
-/// Polygons become fans of triangles. A corner without a normal gets its triangle's: a cube must
-/// not be shaded like a ball, and OBJ smooths only where a file says so. Texture coordinates are turned to
-/// Vulkan's, v downwards; a corner without them gets (0, 0). A face without material gets
-/// [`Material::default`]. Lines, points, curved surfaces and vertex colours are passed over.
-///
-/// Files of the world are often incomplete. An MTL file that is not there, a texture that is not there or
-/// outside the OBJ file's folder, a material that is not defined, a normal or texture coordinate out of range, a statement of another format: the model
-/// comes without, and with a line in [`Model::warnings`].
+/// Reads a model of the project's own: nothing in it is checked, for a tool of the project has written it.
 ///
 /// # Errors
-/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it reaches
-/// too far or is too small, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
-/// folder; the message is one line with file and line number.
-pub fn load(path: &Path) -> Result<Model> {
-    let model = load_within(path, &Limits::DEFAULT)?;
-    let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
-    ensure!(
-        reach <= REACH,
-        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in \
-         32 bits",
-        shown(path)
-    );
-    let (low, high) = around(model.meshes.iter().flat_map(|mesh| <[Vec3; 2]>::from(mesh.bounds())));
-    let size = (high - low).max_element();
-    ensure!(
-        size == 0.0 || size >= LEAST,
-        "{}: is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits",
-        shown(path)
-    );
-    Ok(model)
+/// If a file is missing or is not as that tool writes it.
+pub fn load_own(path: &Path) -> Result<Model> {
+    let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
+    let failed = || format!("{}: is not as the project has it", shown(path));
+    let (models, materials) = tobj::load_obj(path, &options).with_context(failed)?;
+    let materials = materials.with_context(failed)?;
+    note_opened([path, &path.with_extension("mtl")]);
+    let mut textures = Vec::new();
+    let materials =
+        materials.into_iter().map(|material| own_material(path, material, &mut textures));
+    let materials = materials.collect::<Result<Vec<_>>>().with_context(failed)?;
+    let meshes = models.into_iter().map(|model| mesh(model, 0)).collect();
+    Ok(Model { meshes, materials, textures, warnings: Vec::new() })
 }
 
-fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
-    let folder = Folder::of(path)?;
-    let text = Text::read(path, shown(path), limits.obj_bytes)?;
-    let Check { plain, library, mut warnings, .. } = Check::run(&text, &folder, limits)?;
-    let (mut materials, textures) = library.finish(limits, &mut warnings);
-
-    let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
-    // Only names and positions: what the materials hold was read in the check.
-    let names =
-        materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
-    let names = |_: &Path| Ok((Vec::new(), names.clone().collect()));
-    let parsed = tobj::load_obj_buf(&mut plain.as_bytes(), &options, names);
-    let (models, _) = parsed.map_err(|error| anyhow!("{}: tobj: {error}", text.shown))?;
-
-    let models = models.into_iter().filter(|model| !model.mesh.indices.is_empty());
-    let default = materials.len();
-    let meshes: Vec<_> = models.map(|model| mesh(model, default)).collect();
-    if meshes.iter().any(|mesh| mesh.material == default) {
-        materials.push(Material::default());
-    }
-    Ok(Model { meshes, materials, textures, warnings: warnings.lines() })
+/// A material of the project's own, and its textures, if they are not there yet.
+fn own_material(
+    model: &Path,
+    material: tobj::Material,
+    textures: &mut Vec<Texture>,
+) -> Result<Material> {
+    let mut texture = |name: Option<String>| -> Result<Option<usize>> {
+        let Some(name) = name else { return Ok(None) };
+        let known = textures.iter().position(|texture| texture.name == name);
+        if known.is_none() {
+            textures.push(Texture::open(&model.with_file_name(&name), name)?);
+        }
+        Ok(Some(known.unwrap_or(textures.len() - 1)))
+    };
+    let usual = Material::default();
+    Ok(Material {
+        name: material.name,
+        base_color: material.diffuse.map_or(usual.base_color, Vec3::from),
+        specular: material.specular.map_or(usual.specular, Vec3::from),
+        shininess: material.shininess.unwrap_or(usual.shininess),
+        emission: material.emissive.map_or(usual.emission, Vec3::from),
+        opacity: material.dissolve.unwrap_or(usual.opacity),
+        illumination: material.illumination_model.map_or(usual.illumination, u32::from),
+        refraction: material.optical_density.unwrap_or(usual.refraction),
+        base_texture: texture(material.diffuse_texture)?,
+        opacity_texture: texture(material.dissolve_texture)?,
+        ..usual
+    })
 }
 
 /// A mesh as shaders want it: normals of unit length, texture coordinates from the top.
-fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
+pub(super) fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
     let tobj::Mesh { positions, normals, texcoords, indices, material_id, .. } = model.mesh;
     let position = |index: u32| Vec3::from_slice(&positions[3 * index as usize..]);
     let mut triangles: Vec<[u32; 3]> =

@@ -1,18 +1,25 @@
-//! The check of an OBJ file before it is parsed, statement by statement: model files are not to be
-//! trusted, and whatever is wrong in one has a line number.
+//! An OBJ file of somebody else's, which is not to be trusted.
+//!
+//! The text is checked statement by statement, so that whatever is wrong has a line number, and written out
+//! again in a plain form, which tobj then parses: only `v`, `vt`, `vn`, `f`, `o` and `usemtl`, every corner with
+//! all three indices.
 
 use std::collections::HashMap;
 use std::fmt::Write;
+use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::Vec3;
 
 use super::index::{index, out_of_range, position};
 use super::limits::Limits;
+use super::material::Material;
+use super::mesh::{LEAST, Mesh, REACH, around};
 use super::mtl::{MaterialLibrary, material_name};
+use super::obj::{self, Model};
 use super::tally::Tally;
 use super::text::{
-    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, uncommented,
+    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, shown, uncommented,
 };
 use super::warnings::{Kind, Warnings};
 
@@ -22,6 +29,64 @@ const PREAMBLE: &str = "mtllib all\nvn 0 0 0\nvt 0 1\n";
 
 /// The most corners of one face.
 const CORNERS: usize = 1024;
+
+/// Reads an OBJ file with its MTL files and PNG textures.
+///
+/// A new object, a new group in a file without objects, or another material starts a new mesh.
+/// Polygons become fans of triangles. A corner without a normal gets its triangle's: a cube must
+/// not be shaded like a ball, and OBJ smooths only where a file says so. Texture coordinates are turned to
+/// Vulkan's, v downwards; a corner without them gets (0, 0). A face without material gets
+/// [`Material::default`]. Lines, points, curved surfaces and vertex colours are passed over.
+///
+/// Files of the world are often incomplete. An MTL file that is not there, a texture that is not there or
+/// outside the OBJ file's folder, a material that is not defined, a normal or texture coordinate out of range, a statement of another format: the model
+/// comes without, and with a line in [`Model::warnings`].
+///
+/// # Errors
+/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it reaches
+/// too far or is too small, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
+/// folder; the message is one line with file and line number.
+pub fn load(path: &Path) -> Result<Model> {
+    let model = load_within(path, &Limits::DEFAULT)?;
+    let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
+    ensure!(
+        reach <= REACH,
+        "{}: reaches {reach:e} from the origin; beyond {REACH:e}, products of four coordinates overflow in \
+         32 bits",
+        shown(path)
+    );
+    let (low, high) = around(model.meshes.iter().flat_map(|mesh| <[Vec3; 2]>::from(mesh.bounds())));
+    let size = (high - low).max_element();
+    ensure!(
+        size == 0.0 || size >= LEAST,
+        "{}: is {size:e} from end to end; below {LEAST:e}, products of two lengths vanish in 32 bits",
+        shown(path)
+    );
+    Ok(model)
+}
+
+pub(super) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
+    let folder = Folder::of(path)?;
+    let text = Text::read(path, shown(path), limits.obj_bytes)?;
+    let Check { plain, library, mut warnings, .. } = Check::run(&text, &folder, limits)?;
+    let (mut materials, textures) = library.finish(limits, &mut warnings);
+
+    let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
+    // Only names and positions: what the materials hold was read in the check.
+    let names =
+        materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
+    let names = |_: &Path| Ok((Vec::new(), names.clone().collect()));
+    let parsed = tobj::load_obj_buf(&mut plain.as_bytes(), &options, names);
+    let (models, _) = parsed.map_err(|error| anyhow!("{}: tobj: {error}", text.shown))?;
+
+    let models = models.into_iter().filter(|model| !model.mesh.indices.is_empty());
+    let default = materials.len();
+    let meshes: Vec<_> = models.map(|model| obj::mesh(model, default)).collect();
+    if meshes.iter().any(|mesh| mesh.material == default) {
+        materials.push(Material::default());
+    }
+    Ok(Model { meshes, materials, textures, warnings: warnings.lines() })
+}
 
 /// The uses of a material that was not defined when it was met.
 struct Undefined {

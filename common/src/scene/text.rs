@@ -70,8 +70,14 @@ pub fn opened() -> Vec<PathBuf> {
 /// As [`regular`].
 pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let file = regular(path, shown, limit)?;
-    OPENED.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned());
+    note_opened([path]);
     Ok(file)
+}
+
+/// Takes note of files of a scene that were opened otherwise.
+pub fn note_opened<'a>(paths: impl IntoIterator<Item = &'a Path>) {
+    let paths = paths.into_iter().map(Path::to_owned);
+    OPENED.lock().unwrap_or_else(PoisonError::into_inner).extend(paths);
 }
 
 /// Opens a regular file of at most `limit` bytes; a pipe or a device could deliver without end.

@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::io::{BufReader, Read, Seek, SeekFrom};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, ensure};
 use image::codecs::png::PngDecoder;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError};
 
 use super::limits::Limits;
-use super::text::{Named, open};
+use super::text::{Named, note_opened, open};
 use super::warnings::{Kind, Warnings};
 
 /// What decoding may take beside the texels: a few rows, and profiles and texts, which nothing here reads. A
@@ -32,6 +32,19 @@ pub struct Texture {
     /// Whether RGB is sRGB encoded: so for colours, not for a file that only holds opacity. Alpha is
     /// linear always.
     pub srgb: bool,
+}
+
+impl Texture {
+    /// Reads a PNG file of the project's own, which has colours and an alpha channel.
+    ///
+    /// # Errors
+    /// If it is missing or none.
+    pub(super) fn open(path: &Path, name: String) -> Result<Self> {
+        let image = image::open(path)?.into_rgba8();
+        note_opened([path]);
+        let (width, height) = image.dimensions();
+        Ok(Self { name, width, height, rgba: image.into_raw(), srgb: true })
+    }
 }
 
 /// What a material reads from a texture.

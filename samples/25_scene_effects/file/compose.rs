@@ -83,7 +83,7 @@ impl Description {
         let Some(named) = &self.model else {
             return match self.piece.is_empty() && self.position.is_none() {
                 true => Ok(Model::default()),
-                false => obj::load(&assets().join("chess.obj")),
+                false => obj::load_own(&assets().join("chess.obj")),
             };
         };
         let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {

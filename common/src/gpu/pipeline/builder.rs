@@ -9,10 +9,10 @@ use ash::vk;
 
 use super::hit_group::HitGroup;
 use super::{Binding, ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
+use crate::gpu::agreement;
 use crate::gpu::blueprint::{Attachments, Blueprint, Group, Stage};
 use crate::gpu::enumeration::ShaderConstant;
 use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
-use crate::gpu::reflection::Reflection;
 use crate::gpu::shader::{Shader, StageText};
 use crate::gpu::texture::TextureTable;
 use crate::gpu::{Executable, Gpu};
@@ -315,21 +315,8 @@ impl<'a> PipelineBuilder<'a> {
              is to be said in requirements(), so that devices are chosen by it",
             self.name
         );
-        let known = &self.known;
-        for shader in &shaders {
-            let reflection = Reflection::of(&shader.spirv)?;
-            reflection.check_memory(&shader.path)?;
-            reflection.check(&shader.path, &known.structs)?;
-            reflection.check_addresses(&shader.path, &known.structs)?;
-            reflection.check_bindings(
-                &shader.path,
-                self.bindings.len(),
-                self.textures.is_some(),
-            )?;
-        }
-        for layout in &known.enums {
-            layout.check(self.name, &shaders)?;
-        }
+        let bindings = (self.bindings.len(), self.textures.is_some());
+        agreement::check(self.name, &shaders, &self.known, bindings)?;
         let stage = |shader: Shader| Stage {
             path: shader.path,
             stage: shader.stage.as_raw(),

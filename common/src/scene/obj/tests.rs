@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::scene::assets;
+use crate::scene::limits::Limits;
+use crate::scene::obj_check::load_within;
 use proptest::prelude::*;
 use std::path::MAIN_SEPARATOR;
 
@@ -216,4 +218,10 @@ proptest! {
             Err(_) => prop_assert!(cut.is_some() || !flips.is_empty()),
         }
     }
+}
+
+#[test]
+fn what_is_read_without_a_check_is_what_is_read_with_one() {
+    let path = crate::scene::assets().join("chess.obj");
+    assert_eq!(load_own(&path).unwrap(), load(&path).unwrap());
 }
