@@ -8,8 +8,6 @@
 //! `use device as _;`.
 
 use std::path::{Path, PathBuf};
-#[cfg(target_os = "linux")]
-use std::process::Command;
 use std::sync::LazyLock;
 
 /// What names the drivers to the loader. `VK_DRIVER_FILES`, which names them too, goes before it: so a test
@@ -48,20 +46,6 @@ pub fn asked() -> Option<&'static str> {
     static ASKED: LazyLock<Option<String>> =
         LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0"].contains(&&**gpu)));
     ASKED.as_deref()
-}
-
-/// Has a command, and all that it starts, find a Radeon RX 7900 XTX beside the software driver, as a fresh `cargo
-/// test` would with this `GPU`; false where `mesa-drm-shim` is not installed. The card is not there, but its whole
-/// driver is; it computes nothing.
-#[cfg(target_os = "linux")]
-pub fn radeon(command: &mut Command, gpu: Option<&str>) -> bool {
-    let folders = ["/usr/lib".to_owned(), format!("/usr/lib/{}-linux-gnu", std::env::consts::ARCH)];
-    let files = folders.map(|folder| PathBuf::from(folder).join("libamdgpu_noop_drm_shim.so"));
-    let Some(shim) = files.into_iter().find(|file| file.is_file()) else { return false };
-    command.env("LD_PRELOAD", shim).env("AMDGPU_GPU_ID", "navi31");
-    command.env_remove(VARIABLE).env_remove("VK_DRIVER_FILES").env_remove("GPU");
-    command.envs(gpu.map(|gpu| ("GPU", gpu)));
-    true
 }
 
 /// The manifest of Mesa's software driver, where the loader looks for such.

@@ -9,11 +9,14 @@ use std::process::{Command, Output};
 use instruments::compile_for::{manifest, ways};
 use serde_json::Value;
 
-use crate::command;
+use crate::{command, device};
 
 /// What RADV and the shim say on standard error of their own accord.
 const NOISE: [&str; 3] =
     ["DRM_IOCTL_GET_CAP: unhandled", "radv/amdgpu:", "WARNING: radv is not a conformant"];
+
+/// What names drivers to the loader before all else that does.
+const DRIVERS: &str = "VK_DRIVER_FILES";
 
 /// A card, by the shim's name for it.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +36,7 @@ impl Card {
                 return None;
             }
         };
-        variables.push(("VK_DRIVER_FILES", manifest.into()));
+        variables.push((DRIVERS, manifest.into()));
         Some(variables)
     }
 
@@ -48,6 +51,19 @@ impl Card {
         let both = [std::path::PathBuf::from(&*radv), software];
         *radv = std::env::join_paths(both).expect("plain names");
         Some(variables)
+    }
+
+    /// Has a command, and all that it starts, find this card and every driver that is installed, as a fresh `cargo
+    /// test` would with this `GPU`; false, and a line, where there is no shim.
+    pub fn found_by(self, command: &mut Command, gpu: Option<&str>) -> bool {
+        let Some(variables) = self.environment() else { return false };
+        let drivers = [device::VARIABLE, DRIVERS];
+        command.envs(variables.into_iter().filter(|(name, _)| !drivers.contains(name)));
+        for name in drivers {
+            command.env_remove(name);
+        }
+        command.env_remove("GPU").envs(gpu.map(|gpu| ("GPU", gpu)));
+        true
     }
 
     /// Whether the shim that is here knows the card; if not, a line.
