@@ -351,6 +351,46 @@ fn ask_for_more_than_is_promised() {
     assert!(more.ends_with(lacks), "{more}");
 }
 
+/// What a program that leaves out the copy by way of the host's memory does: it maps the device's.
+fn map_memory_of_the_device() -> (Result<(), vk::Result>, Vec<String>) {
+    let requirements = Requirements::ray_tracing();
+    let options = GpuOptions { requirements, validate: true, ..GpuOptions::default() };
+    let gpu = Gpu::new(&options).expect("a device");
+    // As one asks for it who has met the software driver alone: the first type that is the device's own.
+    // SAFETY: the device is alive, and what is allocated is freed.
+    let mapped = unsafe {
+        let types = gpu.instance.get_physical_device_memory_properties(gpu.physical_device);
+        let own = vk::MemoryPropertyFlags::DEVICE_LOCAL;
+        let types = types.memory_types_as_slice();
+        let own = types.iter().position(|kind| kind.property_flags.contains(own)).expect("memory");
+        let info =
+            vk::MemoryAllocateInfo::default().allocation_size(64).memory_type_index(own as u32);
+        let memory = gpu.device.allocate_memory(&info, None).expect("64 bytes");
+        let mapped = gpu.device.map_memory(memory, 0, 64, vk::MemoryMapFlags::empty()).map(drop);
+        gpu.device.free_memory(memory, None);
+        mapped
+    };
+    (mapped, gpu.validation().all())
+}
+
+/// The software driver forgives it, as all of its memory is the host's.
+#[test]
+fn memory_of_the_device_is_not_the_host_s() {
+    if run::device::is_software() {
+        assert_eq!(map_memory_of_the_device(), (Ok(()), vec![]));
+    }
+    in_child("map_what_is_the_device_s_alone", "");
+}
+
+#[test]
+#[ignore = "run by memory_of_the_device_is_not_the_host_s"]
+fn map_what_is_the_device_s_alone() {
+    let (mapped, said) = map_memory_of_the_device();
+    assert_eq!(mapped, Err(vk::Result::ERROR_MEMORY_MAP_FAILED));
+    let id = "VUID-vkMapMemory-memory-00682";
+    assert!(said.len() == 1 && said[0].contains(id), "{said:?}");
+}
+
 /// Shaders promise alignments of addresses, and builds ask for some, that a driver gives no buffer by itself.
 #[test]
 fn addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it() {

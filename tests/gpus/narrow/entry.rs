@@ -69,6 +69,7 @@ fn device_function(name: &str) -> Option<*const c_void> {
         }
         "vkAllocateMemory" => memory::allocate as *const c_void,
         "vkFreeMemory" => memory::free as *const c_void,
+        "vkMapMemory" => memory::map as *const c_void,
         "vkCreateSwapchainKHR" => device::create_swapchain as *const c_void,
         _ => return None,
     })

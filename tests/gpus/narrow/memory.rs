@@ -1,6 +1,7 @@
 //! Memory as on a discrete card: what the device is fast with the host cannot map, and the reverse.
 
 use std::collections::BTreeMap;
+use std::ffi::c_void;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -18,8 +19,8 @@ const BOTH: u32 = 2;
 /// The bytes of each heap, unless the variable says otherwise. The specification promises no size.
 const HEAP: u64 = 1 << 30;
 
-/// What is allocated in the device's heap, and its size.
-static ALLOCATED: Mutex<BTreeMap<u64, u64>> = Mutex::new(BTreeMap::new());
+/// What is allocated in the device's heap: its type, and its size.
+static ALLOCATED: Mutex<BTreeMap<u64, (u32, u64)>> = Mutex::new(BTreeMap::new());
 /// How many allocations there were of each type.
 static COUNTS: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
@@ -167,7 +168,8 @@ pub unsafe extern "system" fn allocate(
         let size = (*info).allocation_size;
         let is_on_device = own != HOST;
         COUNTS[own as usize].fetch_add(1, Ordering::Relaxed);
-        if is_on_device && allocated.values().sum::<u64>() + size > heap() {
+        let in_use: u64 = allocated.values().map(|(_, size)| size).sum();
+        if is_on_device && in_use + size > heap() {
             return vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
         }
         let memory_type_index = types_below(below.physical)[own as usize];
@@ -175,7 +177,7 @@ pub unsafe extern "system" fn allocate(
         let allocate = below.core.fp_v1_0().allocate_memory;
         let result = allocate(device, &raw const info, allocator, memory);
         if is_on_device && result == vk::Result::SUCCESS {
-            allocated.insert((*memory).as_raw(), size);
+            allocated.insert((*memory).as_raw(), (own, size));
         }
         result
     }
@@ -189,6 +191,24 @@ pub unsafe extern "system" fn free(
     ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner).remove(&memory.as_raw());
     // SAFETY: as above.
     unsafe { (below::device(device).core.fp_v1_0().free_memory)(device, memory, allocator) };
+}
+
+pub unsafe extern "system" fn map(
+    device: vk::Device,
+    memory: vk::DeviceMemory,
+    offset: vk::DeviceSize,
+    size: vk::DeviceSize,
+    flags: vk::MemoryMapFlags,
+    data: *mut *mut c_void,
+) -> vk::Result {
+    let allocated = ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner);
+    // Undefined where the host cannot see it; the driver below, whose host sees all, would map it.
+    if allocated.get(&memory.as_raw()).is_some_and(|(own, _)| *own == DEVICE) {
+        return vk::Result::ERROR_MEMORY_MAP_FAILED;
+    }
+    let map = below::device(device).core.fp_v1_0().map_memory;
+    // SAFETY: as above.
+    unsafe { map(device, memory, offset, size, flags, data) }
 }
 
 /// How many allocations there were: that the host cannot map, of the host's memory, of both.
