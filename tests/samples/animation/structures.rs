@@ -1,5 +1,6 @@
 //! What builds and updates take and give: errors before Vulkan is asked, bytes, and times.
 
+use ash::vk;
 use common::gpu::{
     AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, GpuOptions, Input, Requirements,
 };
@@ -10,8 +11,23 @@ use serde_json::{Value, json};
 use super::{NAME, SIZE};
 
 fn gpu() -> Gpu {
+    gpu_with(true)
+}
+
+fn gpu_with(validate: bool) -> Gpu {
     let requirements = Requirements::ray_tracing();
-    Gpu::new(&GpuOptions { requirements, validate: true, ..GpuOptions::default() }).unwrap()
+    Gpu::new(&GpuOptions { requirements, validate, ..GpuOptions::default() }).unwrap()
+}
+
+/// Whether the validation layer is 1.3.275, as Ubuntu 24.04 has it: it ends the process where a structure that
+/// compaction made smaller is updated. Neither 1.3.239 nor 1.4.309 does, nor 1.4.363 (`docs/devices.md`).
+fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
+    // SAFETY: nothing is asked of the loader but a list.
+    let layers = unsafe { gpu.entry.enumerate_instance_layer_properties() }.unwrap();
+    layers.iter().any(|layer| {
+        layer.layer_name_as_c_str() == Ok(c"VK_LAYER_KHRONOS_validation")
+            && layer.spec_version == vk::make_api_version(0, 1, 3, 275)
+    })
 }
 
 /// Two triangles, or as many of them as are asked for.
@@ -76,10 +92,25 @@ fn what_may_not_be_updated_is_refused_before_vulkan_is_asked() {
         assert!(refused.contains("bytes of scratch, and the buffer has 1"), "{refused}");
     }
     update(&moving, &same, &scratch).unwrap();
-    // A structure that was made smaller may be updated with the very flags of its build, compaction's too.
-    let compacted = build(true, true);
-    update(&compacted, &same, &compacted.scratch().unwrap()).unwrap();
-    drop((still, moving, compacted, scratch, small, square));
+    drop((still, moving, scratch, small, square));
+    assert_eq!(gpu.validation().all(), Vec::<String>::new());
+}
+
+/// With the very flags of its build, compaction's too.
+#[test]
+fn a_structure_that_was_made_smaller_may_be_updated() {
+    let mut gpu = gpu();
+    if layer_crashes_of_compacted(&gpu) {
+        println!("not validated: this layer ends the process");
+        gpu = gpu_with(false);
+    }
+    let square = Square::new(&gpu);
+    let input = [square.geometry(2, true)];
+    let options = BuildOptions { updatable: true, compact: true, ..BuildOptions::default() };
+    let blas = AccelerationStructure::bottom(&gpu, "square", &input, options).unwrap();
+    let scratch = blas.scratch().unwrap();
+    gpu.submit(|cmd| blas.update(cmd, Input::Geometries(&input), &scratch)).unwrap();
+    drop((blas, scratch, square));
     assert_eq!(gpu.validation().all(), Vec::<String>::new());
 }
 
