@@ -7,7 +7,7 @@
 
 use common::app::Picture;
 use run::equality::{flipped, ties};
-use run::{Near, bits, command, flip, render, render_by};
+use run::{Near, bits, command, figures, flip, render, render_by};
 
 const SIZE: &str = "96x60";
 /// Models that two chapters show alike.
@@ -162,8 +162,11 @@ fn at_a_shared_edge_either_triangle_answers() {
         let [one, other] = [&[][..], &["--unordered"]].map(hits);
         let (ties, others) = ties(&one, &other);
         println!("from {height}: {ties} ties");
-        assert!(bits(&one) != bits(&other), "from {height}: the edges are not met");
-        assert!(ties > 10 && others == 0, "from {height}: {ties} ties, {others} others");
+        assert_eq!(others, 0, "from {height}, of {ties} ties");
+        // Mesa 25.0.7 keeps the order of the build; with 26.2.6 both builds answer the same.
+        if figures::are_of_this_driver("03_any_hit/ties") {
+            assert!(bits(&one) != bits(&other) && ties > 10, "from {height}: {ties} ties");
+        }
     }
 }
 
