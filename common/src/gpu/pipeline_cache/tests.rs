@@ -28,6 +28,15 @@ fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties)
     cache.known.len()
 }
 
+/// Whether the driver's data begins with all of the header that Vulkan gives it. That of Mesa 26.2.6's llvmpipe ends
+/// after 20 of 32 bytes: it cannot be told whose it is, and the driver never sees it again.
+fn has_whole_header(gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), MOST, gpu, of);
+    let kept = fs::read(only_file(folder.path())).unwrap();
+    unsealed(&kept).unwrap().starts_with(&header(of))
+}
+
 fn only_file(folder: &Path) -> PathBuf {
     let files: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().path()).collect();
     assert_eq!(files.len(), 1, "{files:?}");
@@ -41,6 +50,9 @@ fn a_second_start_has_what_the_first_has_left() {
     let folder = folder.path().join("made when there is something to keep");
     assert_eq!(run(&folder, MOST, &gpu, &properties), 0);
     let kept = run(&folder, MOST, &gpu, &properties);
+    if !has_whole_header(&gpu, &properties) {
+        return assert_eq!(kept, 0);
+    }
     assert!(kept >= 32, "{kept} bytes");
     assert_eq!(fs::metadata(only_file(&folder)).unwrap().len(), kept as u64 + 8);
 }
@@ -80,7 +92,8 @@ fn what_has_grown_too_large_is_begun_anew() {
     let (gpu, properties) = gpu();
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), MOST, &gpu, &properties);
-    assert!(run(folder.path(), 16, &gpu, &properties) >= 32);
+    let known = run(folder.path(), 16, &gpu, &properties);
+    assert_eq!(known >= 32, has_whole_header(&gpu, &properties), "{known} bytes");
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
 
