@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Error, Result, bail};
 use common::app::Picture;
+use flip::near::Near;
 use patience::Limit;
 
 use crate::edition::{Edition, Patched};
@@ -15,7 +16,7 @@ use crate::expectation::{Expectation, Other};
 use crate::missed::Missed;
 use crate::program::Programs;
 use crate::project::Project;
-use crate::seen::Seen;
+use crate::seen::{Seen, is_software};
 use crate::sources::hash;
 use crate::step::{Run, Step, sized};
 
@@ -202,12 +203,24 @@ impl Attempt<'_> {
             let compared = with.map(|with| Ok::<_, Error>((with.clone(), other(with)?)));
             let compared = compared.transpose()?;
             let picture = compared.as_ref().map(|(_, picture)| picture);
-            if let Some(what) = expectation.missed(seen, picture)? {
+            let near = || self.near(seen.device());
+            if let Some(what) = expectation.missed(seen, picture, &near)? {
                 let arguments = Some(arguments.to_vec());
                 return Ok(Some(Missed { what, arguments, compared }));
             }
         }
         Ok(None)
+    }
+
+    /// How far pictures of two pipelines may be apart that compute the same: Vulkan promises equal bits of identical
+    /// pipelines alone (appendix Invariance). The software driver keeps them all the same; in arithmetic of a
+    /// seed of their own its pipelines are as another device's. `None`: by no bit.
+    fn near(&self, device: &str) -> Result<Option<Near>> {
+        let chapter = &self.exercise.chapter;
+        let program = Edition::Book.command(self.project, self.programs, chapter)?;
+        let to_the_bit =
+            std::env::var_os("ARITHMETIC_SEED").is_none() && is_software(program, device, LIMIT)?;
+        Ok(if to_the_bit { None } else { Near::if_any(chapter).map(Near::both) })
     }
 
     /// Holds the exercise to its word: not solved before its solution, and solved after; the line says

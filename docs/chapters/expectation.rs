@@ -38,7 +38,7 @@ pub enum Expectation {
     DiffersBy(Amount, Other),
     /// The number of pixels that differ in 8 bits.
     DiffersIn(Amount, Other),
-    /// The pictures are the same to the bit.
+    /// The pictures are the same: to the bit on a software driver, elsewhere but for its arithmetic.
     Same(Other),
     /// The 8-bit colour of a pixel, from the upper left.
     Pixel([u32; 2], [Amount; 3]),

@@ -67,6 +67,16 @@ impl Seen {
     }
 }
 
+/// Whether the device of this name is a software driver, by the list that a chapter's program prints.
+///
+/// # Errors
+/// If the program does not start.
+pub fn is_software(mut program: Command, device: &str, limit: Limit) -> Result<bool> {
+    let listed = child::run(program.arg("--list-devices"), limit)?.told;
+    let line = format!(": {device} (software;");
+    Ok(listed.lines().any(|listed| listed.contains(&line)))
+}
+
 /// The mean difference of all channels as a PNG would have them, of 1.
 pub fn mean_difference(a: &Picture, b: &Picture) -> f64 {
     let (a, b) = (a.srgb(), b.srgb());

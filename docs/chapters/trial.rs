@@ -12,14 +12,13 @@ use image::RgbImage;
 use panels::{Panel, sheet};
 use patience::Limit;
 
-use crate::child;
 use crate::crew;
 use crate::edition::{Edition, Patched};
 use crate::mistake::{Mistake, Outcome};
 use crate::picture;
 use crate::program::Programs;
 use crate::project::Project;
-use crate::seen::{Seen, mean_difference};
+use crate::seen::{Seen, is_software, mean_difference};
 
 /// How large a mistake is shown.
 const SHOWN: (u32, u32) = (320, 200);
@@ -118,10 +117,8 @@ impl<'a> Trial<'a> {
     fn not_tried(&self, device: &str) -> Result<Option<String>> {
         let Mistake { name, chapter, undefined, .. } = self.mistake;
         let Some(what) = undefined else { return Ok(None) };
-        let mut list = Edition::Book.command(self.project, self.programs, chapter)?;
-        let listed = child::run(list.arg("--list-devices"), LIMIT)?.told;
-        let is_software =
-            listed.lines().any(|line| line.contains(&format!(": {device} (software;")));
+        let program = Edition::Book.command(self.project, self.programs, chapter)?;
+        let is_software = is_software(program, device, LIMIT)?;
         let why = format!("{name}: not tried on {device}: undefined in Vulkan: {what}");
         Ok((!is_software).then_some(why))
     }

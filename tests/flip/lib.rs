@@ -1,4 +1,6 @@
-//! How different two pictures look: FLIP (Andersson et al., HPG 2020), as tests and `chapters survey` use it.
+//! How different two pictures look: FLIP (Andersson et al., HPG 2020), as tests and `cargo chapters` use it.
+
+pub mod near;
 
 /// The largest mean FLIP error between a chapter's picture and its golden. Set by llvmpipe (Mesa 25.0.7),
 /// which made the goldens.

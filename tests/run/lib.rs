@@ -23,6 +23,7 @@ use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, Requirements};
 pub use device;
 pub use equality::{Near, same_answers, same_colors, same_hits, same_paths};
+pub use flip::near::pictures as flip;
 use serde_json::Value;
 #[cfg(target_os = "linux")]
 pub use spent::{Spent, spend};
@@ -279,14 +280,6 @@ pub fn has_worst_arithmetic() -> bool {
         );
     }
     *HAS
-}
-
-/// How far one picture is from another, by FLIP: the mean, and the share of pixels above 0.1.
-pub fn flip(reference: &Picture, picture: &Picture) -> (f32, f32) {
-    let size = (picture.width, picture.height);
-    assert_eq!((reference.width, reference.height), size);
-    let (expected, actual) = (reference.srgb(), picture.srgb());
-    (flip::mean(size, &expected, &actual), flip::share_above(0.1, size, &expected, &actual))
 }
 
 /// The chapters, in their order: the folders of `samples/` that begin with a number.
