@@ -1,7 +1,6 @@
 //! Commands that pages print: taken out of the text, and held to what the programs accept.
 
 use clap::CommandFactory;
-use common::app::Args;
 
 use crate::fault::Fault;
 use crate::markdown::Code;
@@ -67,7 +66,7 @@ impl Run {
 
     /// The controls that it sets or compares, with every value that they are given.
     fn settings(&self) -> Vec<(String, String)> {
-        let command = Args::command().no_binary_name(true);
+        let command = instruments::command().no_binary_name(true);
         let Ok(found) = command.try_get_matches_from(&self.arguments) else { return Vec::new() };
         let sets = found.get_many::<(String, String)>("sets").into_iter().flatten().cloned();
         let compared = found.get_one::<String>("compare").and_then(|text| text.split_once('='));
@@ -96,7 +95,7 @@ impl Run {
         }
         let sample = project.chapters.iter().any(|chapter| chapter.name == name);
         let command = match name {
-            _ if sample => Args::command(),
+            _ if sample => instruments::command(),
             "chapters" => crate::Arguments::command(),
             _ => return None,
         };

@@ -16,7 +16,8 @@ use common::app::Picture;
 #[derive(Clone, Copy, Debug)]
 pub struct Near {
     decisions: u32,
-    mean: f32,
+    /// The mean FLIP.
+    pub mean: f32,
     /// How many of the two pictures are not exact.
     off: u32,
 }

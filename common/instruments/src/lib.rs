@@ -32,7 +32,7 @@ use common::app::{Args, Program};
 
 pub use guard::finish;
 pub use instruments::{Instruments, check_files};
-pub use options::{Options, parse, parse_with};
+pub use options::{Options, command, parse, parse_with};
 pub use report::{Milliseconds, Report};
 
 /// Runs a sample as a program, with every instrument at hand: reads the arguments, renders, and turns errors

@@ -40,6 +40,11 @@ impl Options {
     }
 }
 
+/// The command line of every sample.
+pub fn command() -> clap::Command {
+    <Options as clap::Args>::augment_args(<Args as clap::CommandFactory>::command())
+}
+
 /// The process's arguments: those of every sample, and the instruments'.
 ///
 /// # Errors
