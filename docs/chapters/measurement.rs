@@ -20,7 +20,7 @@ use crate::sources::{self, Sources};
 use crate::stored::{self, Stored};
 
 /// What makes the worst arithmetic that conforms; commands that use it have `worst` in them.
-const ARITHMETIC: &str = "common/src/gpu/arithmetic";
+const ARITHMETIC: &str = "common/instruments/src/arithmetic";
 
 /// A command on a page that gives figures.
 pub struct Measurement {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use common::app::{self, Args, Files, Picture, Run, Watch};
 use common::gpu::GpuOptions;
-use common::{files, output};
+use common::output;
 
 use crate::compare::{self, Comparison};
 use crate::report::Report;
@@ -61,12 +61,12 @@ impl Watch for Instruments {
     fn files(&self) -> Files<'_> {
         let Options { report, sums, .. } = &self.options;
         let (save, resume) = (sums.save.as_deref(), sums.resume.as_deref());
-        // Only sums are written into the file from which they come.
-        let resume = resume.filter(|it| !save.is_some_and(|save| files::same(it, save)));
         let outputs = [("--report", report.file()), ("--save", save)];
         let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
         let inputs = resume.map(|file| ("--resume", file));
-        Files { inputs: inputs.into_iter().collect(), outputs: outputs.collect() }
+        // Only sums are written into the file from which they come.
+        let updated = Some(("--resume", "--save"));
+        Files { inputs: inputs.into_iter().collect(), outputs: outputs.collect(), updated }
     }
 
     fn device(&self, options: &mut GpuOptions) {
@@ -88,7 +88,7 @@ impl Watch for Instruments {
     fn begin(&mut self, run: &mut Run) -> Result<()> {
         if let Some((control, values)) = &self.compared {
             self.comparison = Some(compare::of_run(run, control, values)?);
-            run.frames = vec![0..1];
+            run.frames = std::iter::once(0..1).collect();
         }
         if let Some(samples) = self.options.sums.samples.clone() {
             let gather = Gather::begin(&self.options.sums, samples, run, self.resumed.take())?;

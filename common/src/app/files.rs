@@ -17,10 +17,11 @@ use crate::usage::Usage;
 /// With the file, and why.
 pub fn check(args: &Args, watch: &dyn Watch) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
-    let Files { inputs, outputs } = all(args, watch);
+    let Files { inputs, outputs, updated } = all(args, watch);
     for (i, (name, file)) in outputs.iter().enumerate() {
         files::check_writable(file)?;
-        let mut others = outputs[..i].iter().chain(&inputs);
+        let inputs = inputs.iter().filter(|(input, _)| updated != Some((*input, *name)));
+        let mut others = outputs[..i].iter().chain(inputs);
         if let Some((other, _)) = others.find(|(_, other)| files::same(other, file)) {
             let file = file.display();
             return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
@@ -31,10 +32,10 @@ pub fn check(args: &Args, watch: &dyn Watch) -> Result<()> {
 
 /// The files that a run reads and writes.
 fn all<'a>(args: &'a Args, watch: &'a dyn Watch) -> Files<'a> {
-    let Files { mut inputs, mut outputs } = watch.files();
+    let Files { mut inputs, mut outputs, updated } = watch.files();
     inputs.splice(0..0, args.scene.as_deref().map(|file| ("--scene", file)));
     outputs.splice(0..0, args.out.as_deref().map(|file| ("--out", file)));
-    Files { inputs, outputs }
+    Files { inputs, outputs, updated }
 }
 
 /// Fails if an output is one of the scene's files: what they are is known only once they were opened.

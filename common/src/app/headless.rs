@@ -21,9 +21,10 @@ pub fn run(program: &Program, args: &Args, watch: &mut dyn Watch) -> Result<()> 
     }
     watch.begin(&mut run)?;
     run.sample.changed(&run.gpu)?;
-    let frames: Vec<u32> = run.frames.iter().cloned().flatten().collect();
-    let progress = Progress::new(frames.len() as u64, if run.apart { "samples" } else { "frames" });
-    for (number, &index) in frames.iter().enumerate() {
+    let frames = run.frames.clone();
+    let count = frames.iter().map(|range| u64::from(range.end - range.start)).sum();
+    let progress = Progress::new(count, if run.apart { "samples" } else { "frames" });
+    for (number, index) in frames.into_iter().flatten().enumerate() {
         if let (true, Some(playback)) = (number > 0, run.sample.playback()) {
             playback.advance(1);
         }

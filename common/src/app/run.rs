@@ -60,7 +60,7 @@ impl<'a> Run<'a> {
             args,
             sample,
             image: Image::storage(&gpu, "picture", args.size)?,
-            frames: vec![0..args.frames],
+            frames: std::iter::once(0..args.frames).collect(),
             apart: false,
             times: Vec::new(),
             first_frame: Duration::ZERO,

@@ -82,4 +82,6 @@ pub struct Files<'a> {
     pub inputs: Vec<(&'static str, &'a Path)>,
     /// What is written.
     pub outputs: Vec<(&'static str, &'a Path)>,
+    /// The options of an input and an output that may be one file: it is brought up to date.
+    pub updated: Option<(&'static str, &'static str)>,
 }
