@@ -20,7 +20,7 @@ fn gpu_with(validate: bool) -> Gpu {
 }
 
 /// Whether the validation layer is 1.3.275, as Ubuntu 24.04 has it: it ends the process where a structure that
-/// compaction made smaller is updated. Neither 1.3.239 nor 1.4.309 does, nor 1.4.363 (`docs/devices.md`).
+/// compaction made smaller is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
 fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
     // SAFETY: nothing is asked of the loader but a list.
     let layers = unsafe { gpu.entry.enumerate_instance_layer_properties() }.unwrap();
