@@ -160,6 +160,13 @@ impl Comparison {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
+
+    use clap::FromArgMatches;
+    use common::app::Args;
+    use common::gpu::Gpu;
+    use common::{Controls, Frame, Sample, Setup};
+
     use super::*;
 
     #[test]
@@ -195,5 +202,50 @@ mod tests {
         for wrong in ["mode", "mode=a", "=a|b"] {
             assert!(parse(wrong).unwrap_err().0.contains("NAME=A|B"), "{wrong}");
         }
+    }
+
+    /// A sample that notes what it was asked to build, and of which frames it was asked for.
+    #[derive(Default)]
+    struct Noting {
+        preset: u32,
+        height: u32,
+    }
+
+    static NOTES: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+    impl Sample for Noting {
+        fn new(_: &Gpu, _: &Setup) -> Result<Self> {
+            Ok(Self::default())
+        }
+
+        fn controls(&mut self, c: &mut Controls) {
+            if c.integer("preset", &mut self.preset, 0..=9) {
+                self.height = 10 * self.preset;
+            }
+            c.integer("height", &mut self.height, 0..=99);
+        }
+
+        fn changed(&mut self, _: &Gpu) -> Result<()> {
+            NOTES.lock().unwrap().push(format!("build {}, {}", self.preset, self.height));
+            Ok(())
+        }
+
+        fn render(&mut self, frame: &Frame) -> Result<()> {
+            NOTES.lock().unwrap().push(format!("frame {}", frame.index));
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn what_a_value_asks_for_is_built_before_its_frame() {
+        let arguments = ["test", "--headless", "--size", "8x8", "--compare", "preset=1|2"];
+        let found = crate::command().try_get_matches_from(arguments).unwrap();
+        let args = Args::from_arg_matches(&found).unwrap();
+        let options = crate::Options::from_arg_matches(&found).unwrap();
+        crate::start::<Noting>("test", &args, options).unwrap();
+        let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
+        // A frame is asked for once for each of its bands.
+        notes.dedup();
+        assert_eq!(notes[..4], ["build 1, 10", "frame 0", "build 2, 20", "frame 0"]);
     }
 }
