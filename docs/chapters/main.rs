@@ -13,67 +13,22 @@
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
 //!
-//! Data flows one way: [`project`] is read, pages are parsed ([`page`], [`markdown`]), what should stand
-//! in their blocks is made ([`body`], [`diff`], [`gallery`]) and compared or written ([`book`]).
+//! Arrows between the rooms point one way: [`pages`] → [`exercises`], [`figures`], [`mistakes`], [`survey`] →
+//! [`patches`], [`pictures`] → [`sources`], [`programs`].
 
-mod agree;
-mod amount;
-mod attempt;
-mod body;
-mod book;
-mod card;
-mod child;
-mod command;
-mod copy;
-mod crew;
-mod edition;
-mod essence;
-mod exercise;
-mod expectation;
-mod figure;
-mod gallery;
-mod given;
-mod glossary;
-mod hunk;
-mod laboratory;
-mod markdown;
-mod measurement;
-mod mention;
+mod comparison;
+mod exercises;
+mod figures;
 mod merge;
-mod missed;
-mod mistake;
-mod named;
-mod new;
+mod mistakes;
+mod new_chapter;
 mod nightly;
-mod note;
-mod number;
-mod passage;
-mod patch;
-mod picture;
-mod placeholder;
-mod practice;
-mod program;
-mod progress;
-mod reference;
-mod seen;
-mod sheet;
-mod shot;
-mod show;
-mod shrink;
+mod pages;
+mod patches;
+mod pictures;
+mod programs;
 mod sources;
-mod step;
-mod stop;
-mod stored;
-mod stray;
 mod survey;
-mod taught;
-mod test;
-mod text;
-mod trial;
-mod try_it;
-mod watch;
-mod window;
-mod workbench;
 
 use std::env;
 use std::io::{ErrorKind, Write};
@@ -85,17 +40,17 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
-use manuscript::{anchor, diff, fault, link, page, project, shader};
+use manuscript::diff::{self, Parts};
+use manuscript::fault::Fault;
+use manuscript::project::{Chapter, Project, Unknown};
 use patience::Limit;
 
-use book::Book;
-use diff::Parts;
-use fault::Fault;
-use new::New;
-use practice::Practice;
-use program::Programs;
-use project::{Chapter, Project, Unknown};
-use survey::Survey;
+use exercises::command::Practice;
+use mistakes::reproduction;
+use new_chapter::New;
+use pages::book::Book;
+use programs::program::Programs;
+use survey::command::Survey;
 
 /// Shows any two chapters side by side, and keeps the book's pages true to the code
 #[derive(Debug, Parser)]
@@ -272,12 +227,12 @@ fn run(arguments: &Arguments) -> Result<()> {
             let all = !(*code || *shaders || *page);
             let parts = Parts { code: *code || all, shaders: *shaders || all, page: *page };
             let diffs = diff::chapters(&project, old, new, parts)?;
-            let mut text = show::heading(old, new);
+            let mut text = comparison::heading(old, new);
             if !stat {
-                text.push_str(&show::read_first(&diffs));
-                text.push_str(&show::changes(old, new, &diffs, usize::from(*context)));
+                text.push_str(&comparison::read_first(&diffs));
+                text.push_str(&comparison::changes(old, new, &diffs, usize::from(*context)));
             }
-            text.push_str(&show::statistics(&diffs));
+            text.push_str(&comparison::statistics(&diffs));
             print(&text)
         }
         Command::New { number, name, from } => {
@@ -297,7 +252,7 @@ fn run(arguments: &Arguments) -> Result<()> {
             }
         }
         Command::Mistake { name, list, out, check } => {
-            trial::mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
+            reproduction::mistake(&project, name.as_deref(), *list, out.as_deref(), *check)
         }
         Command::Exercise(practice) => practice.run(&project),
         Command::Measure { names } => measure(&project, names),

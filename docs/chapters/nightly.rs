@@ -15,13 +15,13 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 use common::output::print;
 use common::usage::Usage;
+use manuscript::fault::Fault;
+use manuscript::project::Project;
 use patience::Limit;
 
-use crate::child;
-use crate::fault::Fault;
-use crate::project::Project;
-use crate::stop;
-use crate::test::{self, Test};
+use crate::programs::child;
+use crate::programs::interrupt;
+use crate::programs::test::{self, Test};
 
 /// The tests of a program that are run here.
 struct Group {
@@ -43,7 +43,7 @@ pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
     if list {
         return print(&groups.iter().map(Group::list).collect::<String>());
     }
-    stop::on_signal();
+    interrupt::on_signal();
     let mut failed = Vec::new();
     for group in &groups {
         if !group.pass(&project.root)? {

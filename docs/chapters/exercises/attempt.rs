@@ -1,0 +1,246 @@
+//! An exercise held against an edition of the code: is it solved, and is it what its file says?
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::{Context, Error, Result, bail};
+use common::app::Picture;
+use flip::near::Near;
+use manuscript::project::Project;
+use patience::Limit;
+
+use super::exercise::{Exercise, Takes};
+use super::expectation::{Expectation, Other};
+use super::mismatch::Missed;
+use super::proof::{Run, Step, sized};
+use crate::patches::edition::{Edition, Patched};
+use crate::programs::program::Programs;
+use crate::programs::run_result::{Seen, is_software};
+use crate::sources::hash::hash;
+
+/// How long a program may take.
+const LIMIT: Limit = Limit::worked(120);
+
+/// The book's own pictures, each rendered once.
+pub struct Originals<'a> {
+    project: &'a Project,
+    programs: &'a Programs,
+    /// Where they were kept before the book's own files were edited.
+    kept: Option<PathBuf>,
+    known: Mutex<BTreeMap<(String, Vec<String>), Picture>>,
+}
+
+impl<'a> Originals<'a> {
+    /// Pictures that are rendered when they are asked for.
+    pub fn new(project: &'a Project, programs: &'a Programs) -> Self {
+        Self { project, programs, kept: None, known: Mutex::default() }
+    }
+
+    /// Pictures that lie in a folder.
+    pub fn kept(project: &'a Project, programs: &'a Programs, folder: &Path) -> Self {
+        Self { kept: Some(folder.to_owned()), ..Self::new(project, programs) }
+    }
+
+    /// Renders all that an exercise is compared with into a folder: whole, or not at all.
+    ///
+    /// # Errors
+    /// If one cannot be rendered or written.
+    pub fn keep(&self, exercise: &Exercise, folder: &Path) -> Result<()> {
+        let above = folder.parent().context("a folder lies in a folder")?;
+        fs::create_dir_all(above).with_context(|| format!("cannot make '{}'", above.display()))?;
+        let whole = tempfile::tempdir_in(above).context("cannot make a temporary folder")?;
+        for (run, expectation) in exercise.steps.iter().flat_map(expected) {
+            if let Some(other) = expectation.other().filter(|other| !other.own) {
+                let (chapter, arguments) = self.meant(exercise, run, other);
+                let picture = self.picture(&chapter, &arguments)?;
+                picture.save(&whole.path().join(name(&chapter, &arguments)))?;
+            }
+        }
+        fs::rename(whole.keep(), folder)
+            .with_context(|| format!("cannot make '{}'", folder.display()))
+    }
+
+    /// The chapter and the arguments that make the picture to compare with.
+    fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
+        let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
+        let named = |word: &String| self.project.chapters.iter().any(|known| known.name == *word);
+        let chapter = match arguments.first().is_some_and(named) {
+            true => arguments.remove(0),
+            false => exercise.chapter.clone(),
+        };
+        (chapter, sized(arguments))
+    }
+
+    fn picture(&self, chapter: &str, arguments: &[String]) -> Result<Picture> {
+        if let Some(folder) = &self.kept {
+            let file = folder.join(name(chapter, arguments));
+            return Picture::open_exr(&file)
+                .context("the book's picture is lost; delete its folder");
+        }
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (chapter.to_owned(), arguments.to_vec());
+        if let Some(picture) = known().get(&key) {
+            return Ok(picture.clone());
+        }
+        let command = Edition::Book.command(self.project, self.programs, chapter)?;
+        let seen = Seen::of(command, arguments, LIMIT)?;
+        let picture =
+            seen.picture.with_context(|| format!("{chapter} fails as it is: {}", seen.said))?;
+        known().insert(key, picture.clone());
+        Ok(picture)
+    }
+}
+
+/// The expectations of a step's run of the program, each with the run's arguments.
+fn expected(step: &Step) -> Vec<(&[String], &Expectation)> {
+    let Run::Program(arguments) = &step.run else { return Vec::new() };
+    step.expectations.iter().map(|expectation| (&arguments[..], expectation)).collect()
+}
+
+/// The file of a picture that is kept.
+fn name(chapter: &str, arguments: &[String]) -> String {
+    format!("{chapter}-{}.exr", hash([chapter.as_bytes(), arguments.join("\n").as_bytes()]))
+}
+
+/// What an edition makes of an exercise.
+pub struct Verdict {
+    /// What is not as it should be; `None` if the exercise is solved.
+    pub missed: Option<Missed>,
+    /// The picture of the run that showed it, else the first.
+    pub picture: Option<Picture>,
+}
+
+/// An exercise, and what it takes to hold it against an edition.
+pub struct Attempt<'a> {
+    /// The project.
+    pub project: &'a Project,
+    /// Its programs.
+    pub programs: &'a Programs,
+    /// The book's pictures.
+    pub originals: &'a Originals<'a>,
+    /// The exercise.
+    pub exercise: &'a Exercise,
+}
+
+impl Attempt<'_> {
+    /// Whether an edition solves the exercise. What does not compile or run is not solved.
+    ///
+    /// # Errors
+    /// If it cannot be told: a program is not built, the book's own run fails.
+    pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
+        let mut first = None;
+        for step in &self.exercise.steps {
+            let missed = match &step.run {
+                Run::Program(arguments) => {
+                    let (programs, chapter) = (self.programs, &self.exercise.chapter);
+                    let command = edition.command(self.project, programs, chapter)?;
+                    let seen = Seen::of(command, arguments, LIMIT)?;
+                    let missed = self.missed(edition, step, arguments, &seen)?;
+                    if let Some(missed) = missed {
+                        let picture = seen.picture;
+                        return Ok(Verdict { missed: Some(missed), picture });
+                    }
+                    first = first.or(seen.picture);
+                    None
+                }
+                Run::Test(program, filter) => {
+                    let tested = edition.test(self.project, self.programs, (program, filter))?;
+                    let mut expectations = step.expectations.iter();
+                    let missed =
+                        expectations.find_map(|expected| expected.missed_by_tests(&tested));
+                    missed
+                        .map(|missed| format!("{missed} with cargo test --test {program} {filter}"))
+                }
+            };
+            if let Some(missed) = missed {
+                return Ok(Verdict { missed: Some(missed.into()), picture: first });
+            }
+        }
+        Ok(Verdict { missed: None, picture: first })
+    }
+
+    /// What is not as it should be about one run of the program.
+    fn missed(
+        &self,
+        edition: &Edition,
+        step: &Step,
+        arguments: &[String],
+        seen: &Seen,
+    ) -> Result<Option<Missed>> {
+        let (mut refused, mut heard) = (false, false);
+        for expectation in &step.expectations {
+            refused |= matches!(expectation, Expectation::Refused(_));
+            heard |= matches!(expectation, Expectation::Validation(_));
+        }
+        let Some(status) = seen.status else {
+            let what = format!("the program does not end within {LIMIT}");
+            return Ok(Some(what.into()));
+        };
+        if let (false, Some(message)) = (heard, seen.messages().first()) {
+            return Ok(Some(format!("validation says: {message}").into()));
+        }
+        if !status.success() && !refused && !heard {
+            let said = if seen.said.is_empty() { status.to_string() } else { seen.said.clone() };
+            return Ok(Some(said.into()));
+        }
+        let other = |other: &Other| match other.own {
+            true => {
+                let command =
+                    edition.command(self.project, self.programs, &self.exercise.chapter)?;
+                let arguments = sized(other.arguments.clone().unwrap_or_default());
+                let seen = Seen::of(command, &arguments, LIMIT)?;
+                seen.picture.with_context(|| format!("no picture: {}", seen.said))
+            }
+            false => {
+                let (chapter, arguments) = self.originals.meant(self.exercise, arguments, other);
+                self.originals.picture(&chapter, &arguments)
+            }
+        };
+        for expectation in &step.expectations {
+            let with = expectation.other();
+            let compared = with.map(|with| Ok::<_, Error>((with.clone(), other(with)?)));
+            let compared = compared.transpose()?;
+            let picture = compared.as_ref().map(|(_, picture)| picture);
+            let near = || self.near(seen.device());
+            if let Some(what) = expectation.missed(seen, picture, &near)? {
+                let arguments = Some(arguments.to_vec());
+                return Ok(Some(Missed { what, arguments, compared }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// How far pictures of two pipelines may be apart that compute the same: Vulkan promises equal bits of identical
+    /// pipelines alone (appendix Invariance). The software driver keeps them all the same; in arithmetic of a
+    /// seed of their own its pipelines are as another device's. `None`: by no bit.
+    fn near(&self, device: &str) -> Result<Option<Near>> {
+        let chapter = &self.exercise.chapter;
+        let program = Edition::Book.command(self.project, self.programs, chapter)?;
+        let to_the_bit =
+            std::env::var_os("ARITHMETIC_SEED").is_none() && is_software(program, device, LIMIT)?;
+        Ok(if to_the_bit { None } else { Near::if_any(chapter).map(Near::both) })
+    }
+
+    /// Holds the exercise to its word: not solved before its solution, and solved after; the line says
+    /// what was missed before.
+    ///
+    /// # Errors
+    /// If that is not so.
+    pub fn prove(&self) -> Result<String> {
+        let (exercise, file) = (self.exercise, &self.exercise.patch.file);
+        let before = self.verdict(&Edition::Book).with_context(|| file.clone())?.missed;
+        if exercise.takes == Takes::Look {
+            let Some(missed) = before else { return Ok(format!("{exercise}: its answer holds")) };
+            bail!("{file}: its answer does not hold: {missed}");
+        }
+        let before = before.with_context(|| format!("{file}: solved before its solution"))?;
+        let solved = || self.verdict(&Patched::of(self.project, &exercise.patch)?.edition);
+        let after = solved().with_context(|| file.clone())?.missed;
+        match after {
+            None => Ok(format!("{exercise}: {before}; solved by its solution")),
+            Some(missed) => bail!("{file}: not solved by its solution: {missed}"),
+        }
+    }
+}

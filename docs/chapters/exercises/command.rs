@@ -1,0 +1,225 @@
+//! `cargo chapters exercise`: what a reader, or an author, asks of an exercise.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use clap::Args;
+use common::output::print;
+use common::usage::Usage;
+use manuscript::project::Project;
+
+use super::attempt::{Attempt, Originals};
+use super::exercise::{Exercise, Takes};
+use super::progress::Progress;
+use super::window::has_display;
+use super::workbench::{Workbench, solved};
+use crate::programs::interrupt;
+use crate::programs::program::Programs;
+use crate::programs::workers;
+
+/// What is asked.
+#[derive(Debug, Args)]
+pub struct Practice {
+    /// An exercise, such as 05.2, or a chapter
+    #[arg(value_name = "NN.k")]
+    names: Vec<String>,
+    /// List the exercises, of all chapters or one
+    #[arg(long, group = "what")]
+    list: bool,
+    /// Check once, without waiting: exit code 0 if it is solved, 1 if not yet
+    #[arg(long, group = "what")]
+    check: bool,
+    /// Print what helps
+    #[arg(long, group = "what")]
+    hint: bool,
+    /// Print the solution
+    #[arg(long, group = "what")]
+    solution: bool,
+    /// Make the solution's changes where you edit
+    #[arg(long, requires = "solution")]
+    apply: bool,
+    /// Answer the question of an exercise that takes only looking
+    #[arg(long, value_name = "WORDS", group = "what", allow_hyphen_values = true)]
+    answer: Option<String>,
+    /// Where your copy of the shaders lies [default: target/exercises/NN.k]
+    #[arg(long, value_name = "FOLDER")]
+    folder: Option<PathBuf>,
+    /// Open no window
+    #[arg(long)]
+    headless: bool,
+    /// For authors: hold exercises to what their files claim, unsolved before the solution, solved after it
+    #[arg(long, group = "what")]
+    prove: bool,
+}
+
+impl Practice {
+    /// Does what is asked.
+    ///
+    /// # Errors
+    /// If it cannot be done, or the exercise is not solved yet where that is asked.
+    pub fn run(&self, project: &Project) -> Result<()> {
+        interrupt::on_signal();
+        if self.prove {
+            return self.prove(project);
+        }
+        let exercises = match &self.names[..] {
+            [] if self.list => Exercise::whole(project)?,
+            [] => {
+                let what = "no exercise is named; --list shows them";
+                return Err(Usage(what.to_owned()).into());
+            }
+            [name] => Exercise::named(project, name)?,
+            [_, second, ..] => {
+                let what = format!(
+                    "'{second}' is one too many: name one exercise, put an answer in quotes"
+                );
+                return Err(Usage(what).into());
+            }
+        };
+        let one = self.names.first().is_some_and(|name| name.contains('.'));
+        match &exercises[..] {
+            [exercise] if one && !self.list => self.about(project, exercise),
+            _ => {
+                let asked = self.check || self.hint || self.solution || self.answer.is_some();
+                if asked || self.folder.is_some() {
+                    let what = "a chapter has several exercises: name one, such as";
+                    let first = exercises.first().map_or("05.2".to_owned(), Exercise::to_string);
+                    return Err(Usage(format!("{what} {first}")).into());
+                }
+                list(project, &exercises)
+            }
+        }
+    }
+
+    fn about(&self, project: &Project, exercise: &Exercise) -> Result<()> {
+        let programs = Programs::beside_this(&project.root)?;
+        let bench = Workbench::new(project, &programs, exercise, self.folder.as_deref())?;
+        let mut progress = Progress::open(project);
+        if self.hint {
+            return print(&format!("{}\n", exercise.hint));
+        }
+        if self.solution {
+            return self.solution(exercise, &bench);
+        }
+        if let Some(answer) = &self.answer {
+            return answer_to(exercise, answer, &mut progress);
+        }
+        if self.check {
+            return check(exercise, &bench, &mut progress);
+        }
+        let takes = exercise.takes();
+        let title = &exercise.patch.title;
+        let heading = format!("{exercise} · {title} ({takes})\n\n{}\n\n", exercise.text);
+        // What is seen once it is done would give the answer away.
+        if exercise.takes == Takes::Look {
+            bench.set_up()?;
+            print(&heading)?;
+            return self.look(exercise, &bench);
+        }
+        let there = bench.set_up()?;
+        let on = if there { "You go on where you left it.\n" } else { "" };
+        print(&format!("{heading}{}{on}\n", bench.introduction()))?;
+        bench.practise(!self.headless && has_display(), &mut progress)
+    }
+
+    fn look(&self, exercise: &Exercise, bench: &Workbench) -> Result<()> {
+        let answer = format!("Your answer: cargo chapters exercise {exercise} --answer WORDS\n");
+        if !self.headless && has_display() {
+            print(&answer)?;
+            return bench.window()?.closed();
+        }
+        let render = bench.render().map_or_else(String::new, |render| format!("{render}\n"));
+        print(&format!("{render}{answer}"))
+    }
+
+    fn solution(&self, exercise: &Exercise, bench: &Workbench) -> Result<()> {
+        if !self.apply {
+            let why =
+                exercise.why.as_ref().map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
+            let answers = exercise.answers.join(", or ");
+            return match exercise.takes {
+                Takes::Look => {
+                    print(&format!("Answer: {answers}\nCheck: {}\n{why}", exercise.check))
+                }
+                _ => print(&format!("{}\nCheck: {}\n{why}", exercise.patch.diff(), exercise.check)),
+            };
+        }
+        if exercise.takes == Takes::Look {
+            let what = format!("exercise {exercise} changes nothing: there is nothing to apply");
+            return Err(Usage(what).into());
+        }
+        bench.set_up()?;
+        for file in bench.apply()? {
+            print(&format!("{file}: changed\n"))?;
+        }
+        Ok(())
+    }
+
+    /// Proves the exercises that are named, or all.
+    fn prove(&self, project: &Project) -> Result<()> {
+        let mut exercises = Vec::new();
+        for name in &self.names {
+            exercises.extend(Exercise::named(project, name)?);
+        }
+        if self.names.is_empty() {
+            exercises = Exercise::whole(project)?;
+        }
+        let programs = &Programs::beside_this(&project.root)?;
+        let originals = &Originals::new(project, programs);
+        // Printed as they come: those that are built take minutes.
+        let prove = |exercise: &Exercise| {
+            interrupt::asked()?;
+            let line = Attempt { project, programs, originals, exercise }.prove();
+            interrupt::asked()?;
+            let proved = line.is_ok();
+            print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))
+                .map(|()| proved)
+        };
+        let proved = workers::each(&exercises, prove).into_iter().collect::<Result<Vec<bool>>>()?;
+        let failed = proved.iter().filter(|proved| !**proved).count();
+        match failed {
+            0 => Ok(()),
+            _ => bail!("{failed} of {} exercises are not what their files say", exercises.len()),
+        }
+    }
+}
+
+fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Result<()> {
+    if exercise.takes == Takes::Look {
+        if progress.has(exercise) {
+            return print(&solved(exercise));
+        }
+        bail!("{exercise} is not solved yet: it asks a question; answer it with --answer WORDS");
+    }
+    bench.set_up()?;
+    match bench.missed()? {
+        Some(missed) => bail!("{exercise} is not solved yet: {missed}"),
+        None => {
+            progress.note(exercise)?;
+            print(&solved(exercise))
+        }
+    }
+}
+
+fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Result<()> {
+    if exercise.takes != Takes::Look {
+        let what =
+            format!("exercise {exercise} asks no question; --check tells whether it is solved");
+        return Err(Usage(what).into());
+    }
+    if !exercise.accepts(answer) {
+        bail!("'{answer}' is not the answer; --hint helps");
+    }
+    progress.note(exercise)?;
+    print(&format!("Right: {}\n{}", exercise.check, solved(exercise)))
+}
+
+fn list(project: &Project, exercises: &[Exercise]) -> Result<()> {
+    let progress = Progress::open(project);
+    let line = |exercise: &Exercise| {
+        let done = if progress.has(exercise) { "solved" } else { "" };
+        let (name, takes) = (exercise.to_string(), exercise.takes());
+        format!("{name:5} {takes:13} {done:7} {}\n", exercise.patch.title)
+    };
+    print(&exercises.iter().map(line).collect::<String>())
+}

@@ -1,0 +1,332 @@
+//! An exercise: what a reader is to do, how to check it, and the patch that solves it.
+//!
+//! Each is a file `docs/exercises/NN.k.diff`, a [`Patch`]. What its fields claim is held against runs of the
+//! chapter by [`super::attempt`]; the list on the chapter's page is made from them.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use anyhow::Result;
+use common::usage::Usage;
+use manuscript::fault::Fault;
+use manuscript::project::{Chapter, Project};
+
+use super::interval::{Amount, number};
+use super::proof::{Run, Step, steps};
+use crate::patches::patch::{Field, Patch};
+
+/// Where the exercises lie.
+pub const FOLDER: &str = "docs/exercises";
+
+/// What a file of an exercise looks like.
+const FORM: &str = "write a title, a blank line, `Takes: shader`, `Text`, `Check`, `Hint`, `Run` with its \
+    `Expect` lines, a blank line, the diff that solves it";
+
+/// What an exercise takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    /// No edit: settings, eyes, and an answer.
+    Look,
+    /// Edits of shaders alone.
+    Shader,
+    /// Edits of files that programs read, such as scenes.
+    File,
+    /// Edits of Rust code, and a build.
+    Rust,
+}
+
+/// An exercise.
+#[derive(Clone, Debug)]
+pub struct Exercise {
+    /// The name of its chapter.
+    pub chapter: String,
+    /// Its number in the chapter, from 1.
+    pub number: usize,
+    /// What it takes.
+    pub takes: Takes,
+    /// What is to be done.
+    pub text: String,
+    /// What is seen once it is done.
+    pub check: String,
+    /// What helps.
+    pub hint: String,
+    /// What the result teaches.
+    pub why: Option<String>,
+    /// What answers the question of one that takes only looking.
+    pub answers: Vec<String>,
+    /// What proves that it is solved.
+    pub steps: Vec<Step>,
+    /// Its title, and what solves it.
+    pub patch: Patch,
+}
+
+impl Exercise {
+    /// Every exercise, by chapter and number, and what is wrong with the files.
+    pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
+        let (mut exercises, mut faults) = (Vec::new(), Vec::new());
+        for file in project.files(FOLDER) {
+            let text = project.read(&file).unwrap_or_default();
+            match Self::parse(project, &file, &text) {
+                Ok(exercise) => exercises.push(exercise),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        exercises.sort_by(|a, b| (&a.chapter, a.number).cmp(&(&b.chapter, b.number)));
+        (exercises, faults)
+    }
+
+    /// Every exercise, by chapter and number.
+    ///
+    /// # Errors
+    /// If a file is wrong.
+    pub fn whole(project: &Project) -> Result<Vec<Self>> {
+        let (exercises, faults) = Self::all(project);
+        faults.into_iter().next().map_or(Ok(exercises), |fault| Err(fault.error()))
+    }
+
+    /// The exercises that `05.2` or, all of a chapter, `05` means.
+    ///
+    /// # Errors
+    /// If the file of one of these is wrong, or there is none of this name; the line lists those that there are.
+    pub fn named(project: &Project, name: &str) -> Result<Vec<Self>> {
+        let (chapter, number) = name.split_once('.').unwrap_or((name, ""));
+        let chapter = project.chapter(chapter)?;
+        let (mut found, faults) = Self::all(project);
+        let files = match number {
+            "" => format!("{FOLDER}/{}.", chapter.number()),
+            _ => format!("{FOLDER}/{}.{number}.diff", chapter.number()),
+        };
+        if let Some(fault) = faults.into_iter().find(|fault| fault.file.starts_with(&files)) {
+            return Err(fault.error());
+        }
+        found.retain(|exercise| exercise.chapter == chapter.name);
+        if !name.contains('.') {
+            return Ok(found);
+        }
+        let names: Vec<String> = found.iter().map(Self::to_string).collect();
+        found.retain(|exercise| number.parse() == Ok(exercise.number));
+        match found.is_empty() {
+            true => {
+                Err(Usage(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+            }
+            false => Ok(found),
+        }
+    }
+
+    fn parse(project: &Project, file: &str, text: &str) -> Result<Self, Fault> {
+        let wrong = |line, what: &str, remedy: &str| Err(Fault::new(file, line, what, remedy));
+        let name = file.rsplit_once('/').map_or(file, |(_, name)| name);
+        let name = name.strip_suffix(".diff").and_then(|name| name.split_once('.'));
+        let Some((chapter, Ok(number))) = name.map(|(chapter, k)| (chapter, k.parse())) else {
+            return wrong(1, "an exercise is a file NN.k.diff", "rename it");
+        };
+        let known = |known: &&Chapter| known.number() == chapter;
+        let Some(chapter) = project.chapters.iter().find(known) else {
+            return wrong(1, &format!("there is no chapter {chapter}"), "rename it");
+        };
+        let mut patch = Patch::parse(file, text, FORM)?;
+        let Field { line, value: takes, .. } = patch.field("Takes")?;
+        let takes = match takes.trim_end_matches(", test") {
+            "look" => Takes::Look,
+            "shader" => Takes::Shader,
+            "file" => Takes::File,
+            "Rust" => Takes::Rust,
+            _ => {
+                return wrong(
+                    line,
+                    &format!("an exercise takes no '{takes}'"),
+                    "write look, shader, file or Rust",
+                );
+            }
+        };
+        let mut text_of = |key| patch.field(key).map(|field| field.value);
+        let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
+        let why = patch.field_if_any("Why")?.map(|field| field.value);
+        let answer = patch.field_if_any("Answer")?;
+        let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
+        patch.no_other_field("an exercise")?;
+        let what = match (takes, &answer, patch.is_empty()) {
+            (Takes::Look, Some(_), true) => None,
+            (Takes::Look, None, _) => {
+                Some(("what takes only looking asks a question", "add `Answer: …`"))
+            }
+            (Takes::Look, ..) => {
+                Some(("what takes only looking has no diff", "write what it takes"))
+            }
+            (_, Some(_), _) => Some(("what is solved by a diff has no answer", "remove it")),
+            (_, _, true) => Some(("there is no diff that solves it", FORM)),
+            (Takes::Shader, ..) if !patch.is_in_shaders() => {
+                Some(("the diff changes more than shaders", "write `Takes: Rust`"))
+            }
+            (Takes::File | Takes::Rust, ..) if patch.is_in_shaders() => {
+                Some(("the diff changes shaders alone", "write `Takes: shader`"))
+            }
+            (Takes::File, ..) if patch.is_in_rust() => {
+                Some(("the diff changes Rust code", "write `Takes: Rust`"))
+            }
+            (Takes::Rust, ..) if !patch.is_in_rust() => {
+                Some(("the diff changes no Rust code", "write `Takes: file`"))
+            }
+            _ if steps.is_empty() => Some(("nothing tells when it is solved", FORM)),
+            _ => None,
+        };
+        if let Some((what, remedy)) = what {
+            return wrong(line, what, remedy);
+        }
+        let answers = answer.iter().flat_map(|field| field.value.split('|'));
+        let answers = answers.map(|answer| answer.trim().to_owned()).collect();
+        let chapter = chapter.name.clone();
+        let exercise =
+            Self { chapter, number, takes, text, check, hint, why, answers, steps, patch };
+        match exercise.gives_itself_away() {
+            Some(word) => wrong(
+                line,
+                &format!("the first run, which a reader is shown, holds the answer: {word}"),
+                "begin with another run",
+            ),
+            None => Ok(exercise),
+        }
+    }
+
+    /// What it takes, in words.
+    pub fn takes(&self) -> String {
+        let word = match self.takes {
+            Takes::Look => "look",
+            Takes::Shader => "shader",
+            Takes::File => "file",
+            Takes::Rust => "Rust",
+        };
+        let test = if self.runs_tests() { ", test" } else { "" };
+        format!("{word}{test}")
+    }
+
+    /// Whether tests tell that it is solved.
+    pub fn runs_tests(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
+    }
+
+    /// Whether an answer is right: compared without case, articles and final point; numbers as numbers, with
+    /// or without what is counted.
+    pub fn accepts(&self, answer: &str) -> bool {
+        let given = plain(answer);
+        self.answers.iter().map(|right| plain(right)).any(|right| {
+            match Amount::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
+                Some(amount) => told(&given).is_some_and(|given| amount.holds(given)),
+                None => given == right,
+            }
+        })
+    }
+
+    /// The argument of its first run that holds the answer, unless the text names it anyway.
+    fn gives_itself_away(&self) -> Option<&str> {
+        let Run::Program(arguments) = &self.steps.first()?.run else { return None };
+        let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
+        let mut told = arguments.iter().filter(|word| !self.text.contains(&***word));
+        told.find(|word| self.accepts(&value(word))).map(String::as_str)
+    }
+
+    /// Its item in the list on its page.
+    fn item(&self) -> String {
+        let Self { number, patch, text, check, .. } = self;
+        format!("{number}. **{}** ({}). {text} *Check:* {check}\n", patch.title, self.takes())
+    }
+}
+
+/// The number of an answer such as `about 1,600 squares`.
+fn told(answer: &str) -> Option<f64> {
+    let mut words = answer.strip_prefix("about ").unwrap_or(answer).split_whitespace();
+    let first = words.next()?;
+    // What is counted is words: two numbers are no answer.
+    if words.any(|word| word.contains(|c: char| c.is_ascii_digit())) {
+        return None;
+    }
+    number(if first == "zero" || first == "no" { "0" } else { first })
+}
+
+impl fmt::Display for Exercise {
+    /// Its name, such as `05.2`.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let chapter = self.chapter.split('_').next().unwrap_or_default();
+        write!(f, "{chapter}.{}", self.number)
+    }
+}
+
+/// The list on a chapter's page.
+pub fn list(project: &Project, chapter: &Chapter) -> String {
+    let mut own = Exercise::all(project).0;
+    own.retain(|exercise| exercise.chapter == chapter.name);
+    let items: String = own.iter().map(Exercise::item).collect();
+    let edited = own.iter().find(|exercise| exercise.takes != Takes::Look);
+    let (chapter, number) = (chapter.number(), edited.map_or(1, |exercise| exercise.number));
+    format!(
+        "`cargo chapters exercise {chapter}.{number}` sets up exercise {number}, checks it on each save, and \
+         gives `--hint` and `--solution`.\n\n{items}"
+    )
+}
+
+/// What is wrong with the files: a number left out, a diff that does not fit.
+pub fn check(project: &Project) -> Vec<Fault> {
+    let (exercises, mut faults) = Exercise::all(project);
+    let there: BTreeSet<(&str, usize)> =
+        exercises.iter().map(|exercise| (&*exercise.chapter, exercise.number)).collect();
+    for exercise in &exercises {
+        let before = exercise.number.saturating_sub(1);
+        let first = before == 0 && exercise.number == 1;
+        // A file that is no exercise has been told as that.
+        if faults.is_empty() && !first && !there.contains(&(&*exercise.chapter, before)) {
+            let what = format!("there is no exercise {before} before this one");
+            faults.push(Fault::new(&*exercise.patch.file, 1, what, "count from 1"));
+        }
+        faults.extend(exercise.patch.patched_in(project).err());
+    }
+    faults
+}
+
+/// An answer in small letters, without articles and final point.
+fn plain(answer: &str) -> String {
+    let answer = answer.trim().trim_end_matches('.').to_lowercase();
+    let words = answer.split_whitespace().filter(|word| !["a", "an", "the"].contains(word));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exercise(answers: &[&str]) -> Exercise {
+        Exercise {
+            chapter: "05_x".to_owned(),
+            number: 2,
+            takes: Takes::Look,
+            text: String::new(),
+            check: String::new(),
+            hint: String::new(),
+            why: None,
+            answers: answers.iter().map(|answer| (*answer).to_owned()).collect(),
+            steps: vec![],
+            patch: Patch::parse("f", "T\n", FORM).unwrap(),
+        }
+    }
+
+    #[test]
+    fn answers_are_compared_as_a_reader_means_them() {
+        let exercise = exercise(&["up", "+y", "the white king", "40 to 44", "1,600"]);
+        let right = [
+            "up",
+            "Up.",
+            "+y",
+            "White  King",
+            "a white king",
+            "40",
+            "44.0",
+            "42.5",
+            "1600",
+            "1,600",
+            "about 42 frames",
+        ];
+        let wrong = ["", "down", "king", "39", "45", "y", "the", "40 to 44"];
+        assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 11]);
+        assert_eq!(wrong.map(|answer| exercise.accepts(answer)), [false; 8]);
+        assert_eq!(exercise.to_string(), "05.2");
+    }
+}

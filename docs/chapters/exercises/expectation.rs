@@ -1,0 +1,196 @@
+//! What must hold of a run once an exercise is solved.
+
+use std::fmt;
+
+use super::interval::Amount;
+use crate::pages::shell::quoted;
+
+/// The forms of an expectation, as an error tells them to the author.
+pub const FORMS: &str = "write differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
+    pixel X Y is R G B, pixels R G B: N [to M], largest a is N [to M], report KEY N [to M], says TEXT, \
+    refused: TEXT, validation: TEXT, passes, fails [with TEXT]";
+
+/// The book's picture, or the reader's own, with which a run's picture is compared.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Other {
+    /// Whether the reader's code makes it.
+    pub own: bool,
+    /// The first word of `arguments` may name a chapter; `None`: the run's own arguments.
+    pub arguments: Option<Vec<String>>,
+}
+
+impl fmt::Display for Other {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let whose = if self.own { "and yours" } else { "the book's" };
+        match &self.arguments {
+            Some(arguments) if !arguments.is_empty() => {
+                write!(f, "{whose} with {}", quoted(arguments))
+            }
+            _ => f.write_str(whose),
+        }
+    }
+}
+
+/// What must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expectation {
+    /// The mean difference of the pictures over all channels in sRGB, of 1.
+    DiffersBy(Amount, Other),
+    /// The number of pixels that differ in 8 bits.
+    DiffersIn(Amount, Other),
+    /// The pictures are the same: to the bit on a software driver, elsewhere but for its arithmetic.
+    Same(Other),
+    /// The 8-bit colour of a pixel, from the upper left.
+    Pixel([u32; 2], [Amount; 3]),
+    /// How many pixels have an 8-bit colour.
+    Pixels([u8; 3], Amount),
+    /// The largest float in a channel.
+    Largest(usize, Amount),
+    /// The number at a dotted key of the report.
+    Number(String, Amount),
+    /// The text at a dotted key of the report.
+    Text(String, String),
+    /// A line that is printed holds this.
+    Says(String),
+    /// The program refuses by exit code 1 or 2, and a line holds this.
+    Refused(String),
+    /// A validation message holds this.
+    Validation(String),
+    /// The tests pass.
+    Passes,
+    /// A test fails, and what it says holds this.
+    Fails(String),
+}
+
+/// Three values, each a number or `A to B`.
+fn channels(words: &[&str]) -> Option<[Amount; 3]> {
+    let (mut rest, mut found) = (words, Vec::new());
+    while !rest.is_empty() {
+        let count = if rest.get(1) == Some(&"to") { 3 } else { 1 };
+        found.push(Amount::exactly(rest.get(..count)?)?);
+        rest = &rest[count..];
+    }
+    found.try_into().ok()
+}
+
+/// What follows `from` or `as`: arguments as in a shell.
+fn other(text: &str) -> Option<Other> {
+    let mut arguments = shlex::split(text)?;
+    let own = arguments.first().is_some_and(|word| word == "own");
+    if own {
+        arguments.remove(0);
+    }
+    Some(Other { own, arguments: Some(arguments) })
+}
+
+impl Expectation {
+    /// Reads one; `None` if it is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let after =
+            |start: &str| text.strip_prefix(start).map(str::trim).filter(|rest| !rest.is_empty());
+        if let Some(text) = after("says ") {
+            return Some(Self::Says(text.to_owned()));
+        }
+        if let Some(text) = after("refused:") {
+            return Some(Self::Refused(text.to_owned()));
+        }
+        if let Some(text) = after("validation:") {
+            return Some(Self::Validation(text.to_owned()));
+        }
+        if let Some(text) = after("fails with ") {
+            return Some(Self::Fails(text.to_owned()));
+        }
+        if let Some(rest) = after("report ") {
+            let (key, value) = rest.split_once(' ')?;
+            let words: Vec<&str> = value.split_whitespace().collect();
+            return Some(match Amount::exactly(&words) {
+                Some(amount) => Self::Number(key.to_owned(), amount),
+                None => Self::Text(key.to_owned(), value.trim().to_owned()),
+            });
+        }
+        if let Some(arguments) = text.strip_prefix("same as ") {
+            return other(arguments).map(Self::Same);
+        }
+        if let Some(rest) = after("differs ") {
+            let (amount, from) = match rest.split_once(" from ") {
+                Some((amount, from)) => (amount, other(from)?),
+                None => (rest, Other::default()),
+            };
+            let words: Vec<&str> = amount.split_whitespace().collect();
+            return match &words[..] {
+                ["by", amount @ ..] => Some(Self::DiffersBy(Amount::at_least(amount)?, from)),
+                ["in", amount @ .., "pixels" | "pixel"] => {
+                    Some(Self::DiffersIn(Amount::exactly(amount)?, from))
+                }
+                _ => None,
+            };
+        }
+        let words: Vec<&str> = text.split_whitespace().collect();
+        match &words[..] {
+            ["same"] => Some(Self::Same(Other::default())),
+            ["passes"] => Some(Self::Passes),
+            ["fails"] => Some(Self::Fails(String::new())),
+            ["pixel", x, y, "is", rest @ ..] => {
+                Some(Self::Pixel([x.parse().ok()?, y.parse().ok()?], channels(rest)?))
+            }
+            ["pixels", r, g, b, count @ ..] => {
+                let blue = b.strip_suffix(':')?;
+                let color = [r.parse().ok()?, g.parse().ok()?, blue.parse().ok()?];
+                Some(Self::Pixels(color, Amount::exactly(count)?))
+            }
+            ["largest", channel, "is", amount @ ..] => {
+                let channel = ["r", "g", "b", "a"].iter().position(|name| name == channel)?;
+                Some(Self::Largest(channel, Amount::exactly(amount)?))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it is one of tests, not of a program's run.
+    pub fn is_of_tests(&self) -> bool {
+        matches!(self, Self::Passes | Self::Fails(_))
+    }
+
+    /// The picture that it compares with.
+    pub fn other(&self) -> Option<&Other> {
+        match self {
+            Self::DiffersBy(_, other) | Self::DiffersIn(_, other) | Self::Same(other) => {
+                Some(other)
+            }
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_none_is_refused() {
+        for text in [
+            "",
+            "equal",
+            "differs",
+            "differs by",
+            "differs by x",
+            "differs in 3",
+            "same as \"",
+            "pixel 1 is 0 0 0",
+            "pixel 0 0 is 1 2",
+            "pixel 0 0 is 1 to 2",
+            "pixels 1 2 3 4",
+            "pixels 1 2 300: 4",
+            "largest x is 1",
+            "says",
+            "refused:",
+            "report",
+            "report groups",
+            "fails by",
+            "passes well",
+            "differs by NaN",
+        ] {
+            assert_eq!(Expectation::parse(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! What keeps an exercise from being solved: in a line, with the run that showed it and the pictures that were
+//! compared.
+
+use std::fmt;
+
+use anyhow::{Context, Result, anyhow, ensure};
+use common::app::Picture;
+use flip::near::Near;
+use serde_json::Value;
+
+use super::expectation::{Expectation, Other};
+use super::interval::Amount;
+use crate::pages::shell::quoted;
+use crate::patches::edition::Tested;
+use crate::programs::run_result::{Seen, mean_difference, pixels_apart, same_bits};
+
+/// What was seen instead of what an exercise expects.
+#[derive(Default)]
+pub struct Missed {
+    /// In a line.
+    pub what: String,
+    /// The arguments of the run that showed it; `None` if it was no run of a program.
+    pub arguments: Option<Vec<String>>,
+    /// What it was compared with.
+    pub compared: Option<(Other, Picture)>,
+}
+
+impl fmt::Display for Missed {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.what)?;
+        match &self.arguments {
+            Some(arguments) => write!(f, " with {}", quoted(arguments)),
+            None => Ok(()),
+        }
+    }
+}
+
+impl From<String> for Missed {
+    fn from(what: String) -> Self {
+        Self { what, ..Self::default() }
+    }
+}
+
+impl Missed {
+    /// The line for a reader, with where the pictures lie: the run's own, and what it was compared with.
+    pub fn told(&self, own: &str, other: &str) -> String {
+        match &self.compared {
+            Some((with, _)) => format!("{self}: yours {own}, {with} {other}"),
+            None if self.arguments.is_some() => format!("{self}: {own}"),
+            None => self.to_string(),
+        }
+    }
+}
+
+impl Expectation {
+    /// What was seen instead, if a run does not meet it; `other` is the picture to compare with, and `near` tells,
+    /// if it is asked, how far two pictures that are the same may be apart: by no bit, if it tells nothing.
+    ///
+    /// # Errors
+    /// If there is no picture, or the other is of another size.
+    pub fn missed(
+        &self,
+        seen: &Seen,
+        other: Option<&Picture>,
+        near: &dyn Fn() -> Result<Option<Near>>,
+    ) -> Result<Option<String>> {
+        let picture =
+            || seen.picture.as_ref().with_context(|| format!("no picture: {}", seen.said));
+        let pictures = || -> Result<(&Picture, &Picture)> {
+            let (own, other) = (picture()?, other.context("there is nothing to compare with")?);
+            let [a, b] = [own, other].map(|picture| (picture.width, picture.height));
+            ensure!(a == b, "pictures of {}x{} and {}x{} cannot be compared", a.0, a.1, b.0, b.1);
+            Ok((own, other))
+        };
+        let held = |holds: bool, what: String| Ok((!holds).then_some(what));
+        match self {
+            Self::DiffersBy(amount, _) => {
+                let (own, other) = pictures()?;
+                let by = mean_difference(own, other);
+                held(amount.holds(by), format!("differs by {by:.4}, not {}", amount))
+            }
+            Self::DiffersIn(amount, _) => {
+                let (own, other) = pictures()?;
+                let pixels = pixels_apart(own, other);
+                let what = format!("differs in {pixels} pixels, not in {}", amount);
+                held(amount.holds(pixels as f64), what)
+            }
+            Self::Same(_) => {
+                let (own, other) = pictures()?;
+                let same =
+                    same_bits(own, other) || near()?.is_some_and(|near| near.holds(own, other));
+                held(
+                    same,
+                    match pixels_apart(own, other) {
+                        0 => "not the same to the bit".to_owned(),
+                        pixels => format!("not the same: {pixels} pixels differ"),
+                    },
+                )
+            }
+            Self::Pixel([x, y], amounts) => {
+                let picture = picture()?;
+                let inside = *x < picture.width && *y < picture.height;
+                ensure!(inside, "{x} {y} is no pixel of {}x{}", picture.width, picture.height);
+                let at = 3 * (y * picture.width + x) as usize;
+                let color = &picture.srgb()[at..at + 3];
+                let holds =
+                    amounts.iter().zip(color).all(|(amount, c)| amount.holds(f64::from(*c)));
+                let wanted: Vec<String> = amounts.iter().map(Amount::to_string).collect();
+                held(holds, format!("pixel {x} {y} is {color:?}, not [{}]", wanted.join(", ")))
+            }
+            Self::Pixels(color, amount) => {
+                let pixels = picture()?.srgb();
+                let count = pixels.chunks(3).filter(|pixel| pixel == color).count();
+                let what = format!("{count} pixels are {color:?}, not {}", amount);
+                held(amount.holds(count as f64), what)
+            }
+            Self::Largest(channel, amount) => {
+                let values = picture()?.pixels.iter().map(|pixel| pixel[*channel]);
+                let largest = values.fold(f32::NEG_INFINITY, f32::max);
+                let what = format!("the largest value is {largest}, not {}", amount);
+                held(amount.holds(f64::from(largest)), what)
+            }
+            Self::Number(key, amount) => {
+                let value = at_key(&seen.report, key)?;
+                let number =
+                    value.as_f64().or_else(|| value.as_array().map(|list| list.len() as f64));
+                let number =
+                    number.with_context(|| format!("'{key}' of the report is no number"))?;
+                held(amount.holds(number), format!("{key} is {number}, not {}", amount))
+            }
+            Self::Text(key, text) => {
+                let value = at_key(&seen.report, key)?;
+                let found = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+                held(found == *text, format!("{key} is '{found}', not '{text}'"))
+            }
+            Self::Says(text) => held(
+                seen.said.contains(text) || seen.told.contains(text),
+                format!("does not say '{text}'"),
+            ),
+            Self::Refused(text) => {
+                let refused = seen.status.and_then(|status| status.code());
+                let refused = refused.is_some_and(|code| code == 1 || code == 2);
+                let what = match refused {
+                    true => format!("refused, but not by '{text}': {}", seen.said),
+                    false => format!("not refused by '{text}'"),
+                };
+                held(refused && seen.said.contains(text), what)
+            }
+            Self::Validation(text) => {
+                let heard = seen.messages().iter().any(|message| message.contains(text));
+                held(heard, format!("validation does not say '{text}'"))
+            }
+            Self::Passes | Self::Fails(_) => Err(anyhow!("a run of a program is no test")),
+        }
+    }
+
+    /// What was seen instead, if tests do not meet it.
+    pub fn missed_by_tests(&self, tested: &Tested) -> Option<String> {
+        match self {
+            Self::Passes => (tested.failed > 0).then(|| format!("{} tests fail", tested.failed)),
+            Self::Fails(_) if tested.failed == 0 => Some("all tests pass".to_owned()),
+            Self::Fails(text) if !tested.said.contains(text) => {
+                Some(format!("a test fails, but does not say '{text}'"))
+            }
+            _ => None,
+        }
+    }
+}
+
+fn at_key<'a>(report: &'a Value, key: &str) -> Result<&'a Value> {
+    let step = |value: &'a Value, part: &str| match part.parse::<usize>() {
+        Ok(index) if value.is_array() => value.get(index),
+        _ => value.get(part),
+    };
+    let found = key.split('.').try_fold(report, step);
+    found.with_context(|| format!("the report has no '{key}'"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two pixels: mid grey and red.
+    fn picture() -> Picture {
+        Picture { width: 2, height: 1, pixels: vec![[0.5, 0.5, 0.5, 3.0], [1.0, 0.0, 0.0, -1.0]] }
+    }
+
+    fn seen(code: i32) -> Seen {
+        #[cfg(unix)]
+        let status = std::os::unix::process::ExitStatusExt::from_raw(code << 8);
+        #[cfg(windows)]
+        let status = std::os::windows::process::ExitStatusExt::from_raw(code as u32);
+        let report = serde_json::json!({
+            "groups": 3, "chapter": { "rows": [{ "name": "a b" }] }, "validation_messages": ["VUID-x: y"],
+        });
+        let (said, told) = ("no such control".to_owned(), "2 rays\n".to_owned());
+        Seen { picture: Some(picture()), status: Some(status), said, told, report }
+    }
+
+    /// Whether it holds against a picture of which one pixel is black.
+    fn holds(text: &str) -> bool {
+        let expectation = Expectation::parse(text).unwrap_or_else(|| panic!("{text}"));
+        let other = expectation.other().map(|other| {
+            let mut picture = picture();
+            // Called by arguments, the pictures are the same.
+            if other.arguments.is_none() {
+                picture.pixels[1] = [0.0; 4];
+            }
+            picture
+        });
+        let seen = seen(if text.starts_with("refused") { 2 } else { 0 });
+        expectation.missed(&seen, other.as_ref(), &|| Ok(None)).unwrap().is_none()
+    }
+
+    #[test]
+    fn each_holds_or_not() {
+        for (true_one, false_one) in [
+            ("differs by 0.16", "differs by 0.17"),
+            ("differs by 0.1 to 0.2", "differs by 0.1 to 0.16"),
+            ("differs in 1 pixels", "differs in 2 pixels"),
+            ("differs in 1 to 4 pixels", "differs in 2 to 4 pixels"),
+            ("differs in 0 pixels from --set a=b", "differs in 1 pixels from own --set a=b"),
+            ("same as --set a=b", "same"),
+            ("same as own", "same"),
+            ("pixel 0 0 is 188 188 188", "pixel 0 0 is 188 188 187"),
+            ("pixel 1 0 is 250 to 255 0 0", "pixel 1 0 is 250 to 254 0 0"),
+            ("pixels 255 0 0: 1", "pixels 255 0 0: 2"),
+            ("pixels 255 0 0: 0 to 1", "pixels 255 0 1: 1,000"),
+            ("largest a is 3", "largest r is 3"),
+            ("report groups 3", "report groups 4"),
+            ("report validation_messages 1", "report validation_messages 0"),
+            ("report groups 2 to 3", "report groups 4 to 5"),
+            ("report chapter.rows.0.name a b", "report chapter.rows.0.name a"),
+            ("says 2 rays", "says 3 rays"),
+            ("says no such", "says any such"),
+            ("refused: no such control", "refused: no such window"),
+            ("validation: VUID-x", "validation: VUID-y"),
+        ] {
+            assert!(holds(true_one), "{true_one} should hold");
+            assert!(!holds(false_one), "{false_one} should not hold");
+        }
+    }
+
+    /// Another device's arithmetic may change a pixel beside an edge, and no more than a few.
+    #[test]
+    fn what_is_the_same_may_be_off_by_arithmetic_where_that_is_allowed() {
+        let same = Expectation::parse("same").unwrap();
+        let plain = Picture { width: 96, height: 60, pixels: vec![[0.5; 4]; 96 * 60] };
+        let is_met = |flipped: usize, near: Option<Near>| {
+            let mut own = plain.clone();
+            own.pixels.iter_mut().step_by(101).take(flipped).for_each(|pixel| *pixel = [1.0; 4]);
+            let seen = Seen { picture: Some(own), ..seen(0) };
+            same.missed(&seen, Some(&plain), &|| Ok(near)).unwrap().is_none()
+        };
+        let near = Some(Near::of("16_ray_query").both());
+        assert_eq!([0, 1, 40].map(|flipped| is_met(flipped, None)), [true, false, false]);
+        assert_eq!([0, 1, 40].map(|flipped| is_met(flipped, near)), [true, true, false]);
+    }
+
+    #[test]
+    fn a_refusal_is_an_exit_code() {
+        let refused = Expectation::parse("refused: no such control").unwrap();
+        assert!(refused.missed(&seen(0), None, &|| Ok(None)).unwrap().is_some());
+    }
+
+    #[test]
+    fn tests_pass_or_fail() {
+        let tested = |failed| Tested { passed: 1, failed, said: "9 pixels differ".to_owned() };
+        let missed = |text, failed| {
+            Expectation::parse(text).unwrap().missed_by_tests(&tested(failed)).is_some()
+        };
+        assert_eq!([missed("passes", 0), missed("passes", 1)], [false, true]);
+        assert_eq!([missed("fails", 1), missed("fails", 0)], [false, true]);
+        assert_eq!(
+            [missed("fails with 9 pixels", 1), missed("fails with 8 pixels", 1)],
+            [false, true]
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_told() {
+        let wide = Picture { width: 1, height: 2, ..picture() };
+        let missed = |text: &str| {
+            let expectation = Expectation::parse(text).unwrap();
+            let wrong = expectation.missed(&seen(0), Some(&wide), &|| Ok(None)).unwrap_err();
+            format!("{wrong:#}")
+        };
+        assert_eq!(missed("same"), "pictures of 2x1 and 1x2 cannot be compared");
+        assert_eq!(missed("pixel 2 0 is 0 0 0"), "2 0 is no pixel of 2x1");
+        assert_eq!(missed("report chapter.gone 1"), "the report has no 'chapter.gone'");
+    }
+}

@@ -1,0 +1,13 @@
+//! Exercises: a reader solves one in a [`workbench`], and an [`attempt`] is held to what the exercise expects.
+
+pub mod attempt;
+pub mod command;
+pub mod exercise;
+pub mod expectation;
+pub mod interval;
+pub mod mismatch;
+pub mod progress;
+pub mod proof;
+pub mod watcher;
+pub mod window;
+pub mod workbench;

@@ -1,0 +1,334 @@
+//! A reader's place to solve an exercise in: a copy of the shaders or the project itself, checked on each
+//! save, with the chapter's window beside it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow};
+use common::output::print;
+use common::usage::Usage;
+use manuscript::project::Project;
+
+use super::attempt::{Attempt, Originals, Verdict};
+use super::exercise::{Exercise, Takes};
+use super::progress::Progress;
+use super::proof::Run;
+use super::watcher::Watch;
+use super::window::Window;
+use crate::pages::shell::quoted;
+use crate::patches::copy::{Changed, copy_shaders, file_on_the_way};
+use crate::patches::edition::Edition;
+use crate::programs::interrupt;
+use crate::programs::program::{BUILD, Programs};
+
+/// The place of an exercise.
+pub struct Workbench<'a> {
+    project: &'a Project,
+    programs: &'a Programs,
+    exercise: &'a Exercise,
+    /// The copy of the shaders; for Rust code where the book's pictures are kept.
+    folder: PathBuf,
+    /// The folder as the reader has named it.
+    shown: String,
+}
+
+impl<'a> Workbench<'a> {
+    /// The place of an exercise, which is made by [`Workbench::set_up`].
+    ///
+    /// # Errors
+    /// If the folder cannot be one, or the exercise needs none.
+    pub fn new(
+        project: &'a Project,
+        programs: &'a Programs,
+        exercise: &'a Exercise,
+        folder: Option<&Path>,
+    ) -> Result<Self> {
+        if folder.is_some() && exercise.takes != Takes::Shader {
+            let what = match exercise.takes {
+                Takes::File | Takes::Rust => "is done in the project itself",
+                _ => "changes nothing",
+            };
+            return Err(Usage(format!("exercise {exercise} {what} and takes no --folder")).into());
+        }
+        let own = format!("target/exercises/{exercise}");
+        let shown = folder.map_or_else(|| own.clone(), |folder| folder.display().to_string());
+        let folder = match folder {
+            Some(folder) => std::path::absolute(folder).context("no folder is named")?,
+            None => project.root.join(own),
+        };
+        if let Some(file) = file_on_the_way(&folder) {
+            let what = if file == folder { shown } else { file.display().to_string() };
+            return Err(Usage(format!("'{what}' is no folder; name another with --folder")).into());
+        }
+        Ok(Self { project, programs, exercise, folder, shown })
+    }
+
+    /// Makes the place, unless it is there: then the reader's edits are gone on with. Returns whether it was.
+    ///
+    /// # Errors
+    /// If it cannot be made, holds something else, or the chapter's program is not built.
+    pub fn set_up(&self) -> Result<bool> {
+        let built = || self.programs.command(&self.exercise.chapter);
+        match self.exercise.takes {
+            Takes::Look => {
+                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                // Where the command that is told writes its picture.
+                fs::create_dir_all(self.project.root.join("target/exercises"))?;
+                Ok(true)
+            }
+            Takes::Shader => {
+                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                let book = self.project.root.join("shaders");
+                let is_book =
+                    |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
+                let refused = |what: &str| {
+                    Usage(format!("'{}' {what}; name another with --folder", self.shown))
+                };
+                if self.folder.ancestors().any(is_book) {
+                    return Err(refused("holds the book's own shaders").into());
+                }
+                let filled =
+                    self.folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
+                if filled {
+                    let own = self.folder.join(&self.exercise.chapter).is_dir();
+                    let what = "holds something else than a copy of the shaders";
+                    return if own { Ok(true) } else { Err(refused(what).into()) };
+                }
+                let failed = || format!("cannot make '{}'", self.shown);
+                let above = self.folder.parent().with_context(failed)?;
+                fs::create_dir_all(above).with_context(failed)?;
+                // Copied beside it and then renamed: the folder is there whole or not at all.
+                let whole = tempfile::tempdir_in(above).with_context(failed)?;
+                copy_shaders(self.project, whole.path(), &Changed::new())?;
+                fs::rename(whole.keep(), &self.folder).with_context(failed)?;
+                Ok(false)
+            }
+            Takes::File | Takes::Rust => {
+                if self.kept().is_dir() {
+                    return Ok(true);
+                }
+                let fits = self.exercise.patch.patched_in(self.project);
+                let what =
+                    "the project is not as the book has it: undo your changes and begin again";
+                fits.map_err(|fault| {
+                    let misfit = fault.what.replace("this hunk", "the solution");
+                    anyhow!("{misfit}: {what}")
+                })?;
+                Originals::new(self.project, self.programs).keep(self.exercise, &self.kept())?;
+                Ok(false)
+            }
+        }
+    }
+
+    /// Where the book's pictures lie, from before its own files were edited.
+    fn kept(&self) -> PathBuf {
+        self.folder.join("book")
+    }
+
+    fn edition(&self) -> Edition {
+        match self.exercise.takes {
+            Takes::Look => Edition::Book,
+            Takes::Shader => Edition::Shaders(self.folder.clone()),
+            Takes::File | Takes::Rust => Edition::Edited,
+        }
+    }
+
+    /// Where to edit what, in lines for the reader.
+    pub fn introduction(&self) -> String {
+        let shader = self.exercise.takes == Takes::Shader;
+        let places = self.exercise.patch.places(self.project).into_iter().map(|(file, items)| {
+            let there = self.project.has(&file);
+            let file = if shader { file.trim_start_matches("shaders/") } else { &*file };
+            match (there, &items[..]) {
+                (false, _) => format!("{file} (new)"),
+                (true, []) => file.to_owned(),
+                (true, items) => format!("{file} ({})", items.join(", ")),
+            }
+        });
+        let places = places.collect::<Vec<_>>().join("; ");
+        let (shown, name) = (&self.shown, self.exercise);
+        let place = match self.exercise.takes {
+            Takes::Look => return String::new(),
+            Takes::Shader => format!("Edit in {shown}, a copy of the shaders: {places}"),
+            Takes::File | Takes::Rust => {
+                format!(
+                    "Edit in the project itself; `git restore` undoes it, but for new files: {places}"
+                )
+            }
+        };
+        let mut lines = vec![place];
+        if let Some(render) = self.render() {
+            lines.push(format!("The picture after each save: {shown}.png"));
+            lines.push(format!("Make it yourself: {render}"));
+        }
+        lines.push(format!("Stuck? cargo chapters exercise {name} --hint"));
+        lines.iter().map(|line| format!("{line}\n")).collect()
+    }
+
+    /// The command by which a reader makes the first picture without a window: that which is checked, or of what
+    /// takes only looking one in the usual size. `None` where only tests run.
+    pub fn render(&self) -> Option<String> {
+        let look = self.exercise.takes == Takes::Look;
+        let mut words = if look { self.look() } else { self.first_run()?.to_vec() };
+        words.extend(["--headless".to_owned(), "--out".to_owned(), self.own_picture()]);
+        let shaders = match self.exercise.takes {
+            Takes::Shader => format!("SHADERS={} ", quoted(std::slice::from_ref(&self.shown))),
+            _ => String::new(),
+        };
+        let chapter = &self.exercise.chapter;
+        Some(format!("{shaders}cargo run --bin {chapter} -- {}", quoted(&words)))
+    }
+
+    /// Where the reader's picture lies.
+    fn own_picture(&self) -> String {
+        format!("{}.png", self.shown)
+    }
+
+    /// Where the picture lies with which it was compared.
+    fn other_picture(&self) -> String {
+        format!("{}.other.png", self.shown)
+    }
+
+    /// What keeps the exercise from being solved, in a line; keeps the pictures beside the folder.
+    ///
+    /// # Errors
+    /// If it cannot be told.
+    pub fn missed(&self) -> Result<Option<String>> {
+        self.missed_with(&self.originals())
+    }
+
+    fn originals(&self) -> Originals<'a> {
+        match self.exercise.takes {
+            Takes::File | Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
+            _ => Originals::new(self.project, self.programs),
+        }
+    }
+
+    fn missed_with(&self, originals: &Originals) -> Result<Option<String>> {
+        let Self { project, programs, exercise, .. } = *self;
+        let Verdict { missed, picture } =
+            Attempt { project, programs, originals, exercise }.verdict(&self.edition())?;
+        let [own, other] = ["png", "other.png"]
+            .map(|extension| PathBuf::from(format!("{}.{extension}", self.folder.display())));
+        fs::create_dir_all(own.parent().context("a file lies in a folder")?)?;
+        if let Some(picture) = &picture {
+            picture.save(&own)?;
+        }
+        match missed.as_ref().and_then(|missed| missed.compared.as_ref()) {
+            Some((_, picture)) => picture.save(&other)?,
+            // It may lie there from the save before.
+            None => drop(fs::remove_file(&other)),
+        }
+        Ok(missed.map(|missed| missed.told(&self.own_picture(), &self.other_picture())))
+    }
+
+    /// Checks on each save, a line each, until the exercise is solved.
+    ///
+    /// # Errors
+    /// If the window does not start, or the progress cannot be written.
+    pub fn practise(&self, with_window: bool, progress: &mut Progress) -> Result<()> {
+        let folders = match self.exercise.takes {
+            Takes::File | Takes::Rust => ["common", "samples", "shaders", "tests"]
+                .map(|f| self.project.root.join(f))
+                .to_vec(),
+            _ => vec![self.folder.clone()],
+        };
+        let mut watch = Watch::of(folders)?;
+        let originals = self.originals();
+        let mut window = with_window.then(|| self.window()).transpose()?;
+        loop {
+            watch.wait()?;
+            // A program that runs cannot be built anew everywhere.
+            let again = self.exercise.takes != Takes::Shader && window.take().is_some();
+            let missed =
+                self.missed_with(&originals).unwrap_or_else(|error| Some(format!("{error:#}")));
+            interrupt::asked()?;
+            if again {
+                window = self.window().ok();
+            }
+            match missed {
+                None => break,
+                Some(missed) => print(&format!("not yet: {missed}\n"))?,
+            }
+        }
+        progress.note(self.exercise)?;
+        print(&solved(self.exercise))?;
+        window.map_or(Ok(()), Window::closed)
+    }
+
+    /// Opens the chapter's window with what the first run sets.
+    ///
+    /// # Errors
+    /// If it does not start.
+    pub fn window(&self) -> Result<Window> {
+        let command = self.edition().command(self.project, self.programs, &self.exercise.chapter);
+        Window::open(command?.args(self.settings()))
+    }
+
+    /// The arguments of the first run that are of use in a window.
+    fn settings(&self) -> Vec<String> {
+        let mut words = self.first_run().into_iter().flatten();
+        let mut settings = Vec::new();
+        while let Some(word) = words.next() {
+            match &**word {
+                "--size" | "--frames" => drop(words.next()),
+                _ => settings.push(word.clone()),
+            }
+        }
+        settings
+    }
+
+    /// The arguments of the first run, in the usual size.
+    fn look(&self) -> Vec<String> {
+        let mut words = self.first_run().unwrap_or_default().to_vec();
+        if let Some(at) = words.iter().position(|word| word == "--size") {
+            words.drain(at..at + 2);
+        }
+        words
+    }
+
+    /// The arguments of the first run of the program.
+    fn first_run(&self) -> Option<&'a [String]> {
+        self.exercise.steps.iter().find_map(|step| match &step.run {
+            Run::Program(arguments) => Some(&arguments[..]),
+            Run::Test(..) => None,
+        })
+    }
+
+    /// Applies the solution to the reader's place, and returns the files that it changes.
+    ///
+    /// # Errors
+    /// If it does not fit there any more, or cannot be written.
+    pub fn apply(&self) -> Result<Vec<String>> {
+        let below = |file: &str| match self.exercise.takes {
+            Takes::Shader => self.folder.join(file.trim_start_matches("shaders/")),
+            _ => self.project.root.join(file),
+        };
+        let read = |file: &str| {
+            fs::read_to_string(below(file)).ok().map(|text| text.replace("\r\n", "\n"))
+        };
+        let patched = self.exercise.patch.patched(read).map_err(|fault| {
+            let (place, anew) = match self.exercise.takes {
+                Takes::Shader => (format!("in {}", self.shown), ", or delete it to begin anew"),
+                _ => ("in the project".to_owned(), ""),
+            };
+            let what = fault.what.replace("this hunk", "the solution");
+            anyhow!("{what} {place} any more: undo what you have changed there{anew}")
+        })?;
+        for (file, text) in &patched {
+            common::files::write_whole(&below(file), text.as_bytes())?;
+        }
+        Ok(patched.into_keys().collect())
+    }
+}
+
+/// What to print once an exercise is solved.
+pub fn solved(exercise: &Exercise) -> String {
+    // Who has answered has read it.
+    let check = match exercise.takes {
+        Takes::Look => String::new(),
+        _ => format!("Check: {}\n", exercise.check),
+    };
+    let why = exercise.why.as_ref().map_or_else(String::new, |why| format!("Why: {why}\n"));
+    format!("{exercise} is solved.\n{check}{why}")
+}

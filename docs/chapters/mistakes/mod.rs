@@ -1,0 +1,4 @@
+//! Classic mistakes: patches that make a chapter wrong, reproduced and held to what their files claim.
+
+pub mod mistake;
+pub mod reproduction;

@@ -1,0 +1,227 @@
+//! A new chapter: a copy of its parent that compiles, runs and is tested, ready to be changed.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use common::files::{Folder, folder, write_all};
+use common::usage::Usage;
+use manuscript::project::{Chapter, Project};
+use manuscript::shader;
+
+/// Letters of a name at most: it heads columns and names files.
+const NAME_LETTERS: usize = 40;
+
+/// A chapter that is to be made.
+pub struct New<'a> {
+    project: &'a Project,
+    from: &'a Chapter,
+    chapter: Chapter,
+}
+
+impl<'a> New<'a> {
+    /// A chapter with this number and name, a copy of `from`.
+    ///
+    /// # Errors
+    /// If number or name are none, taken, or the parent is a package of its own.
+    pub fn plan(
+        project: &'a Project,
+        number: u32,
+        name: &str,
+        from: &'a Chapter,
+    ) -> Result<Self, Usage> {
+        let refuse = |what: String| Err(Usage(what));
+        let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        if name.len() > NAME_LETTERS {
+            return refuse(format!("a chapter's name has at most {NAME_LETTERS} letters"));
+        }
+        if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(letter) {
+            return refuse(format!("'{name}' is no chapter's name: use a to z, 0 to 9 and _"));
+        }
+        if number == 0 || number > 99 {
+            return refuse(format!("{number} is no chapter's number: use 1 to 99"));
+        }
+        let full = format!("{number:02}_{name}");
+        let taken =
+            |other: &&Chapter| other.number().parse() == Ok(number) || other.module() == name;
+        if let Some(twin) = project.chapters.iter().find(taken) {
+            return refuse(format!("'{full}' has the number or the name of '{}'", twin.name));
+        }
+        if project.has_own_package(from) {
+            return refuse(format!(
+                "'{}' is a package of its own: no chapter is made from it",
+                from.name
+            ));
+        }
+        for folder in ["samples", "shaders"] {
+            if project.root.join(folder).join(&full).exists() {
+                return refuse(format!("{folder}/{full} is there already"));
+            }
+        }
+        let mut title = name.replace('_', " ");
+        title[..1].make_ascii_uppercase();
+        let chapter = Chapter {
+            name: full,
+            title,
+            teaches: "say here, in a line, what it teaches".to_owned(),
+            part: from.part.clone(),
+            from: Some(from.name.clone()),
+            needs: from.needs.clone(),
+            ..Chapter::default()
+        };
+        Ok(Self { project, from, chapter })
+    }
+
+    /// Writes the chapter's files and entries, all or none; returns their paths.
+    ///
+    /// # Errors
+    /// If a file cannot be read or written.
+    pub fn write(&self) -> Result<Vec<String>> {
+        let mut files = self.program()?;
+        files.extend(self.shaders()?);
+        files.push(("Cargo.toml".to_owned(), self.manifest()));
+        let module = self.chapter.module();
+        files.push((format!("tests/samples/{module}.rs"), self.test()));
+        files.push(("tests/samples/main.rs".to_owned(), self.modules()?));
+        files.push((self.chapter.page(), self.page()));
+        files.push((format!("docs/exercises/{}.1.diff", self.chapter.number()), self.exercise()));
+        let root = &self.project.root;
+        let own = ["samples", "shaders"].map(|folder| format!("{folder}/{}/", self.chapter.name));
+        let is_new = |own: &&String| files.iter().any(|(path, _)| path.starts_with(own.as_str()));
+        let folders = own.iter().filter(is_new).map(|own| Folder::at(&root.join(own)));
+        let folders = folders.collect::<Result<Vec<_>>>()?;
+        let places: Vec<PathBuf> = files.iter().map(|(path, _)| root.join(path)).collect();
+        for place in &places {
+            folder::make(place.parent().unwrap_or(root))?;
+        }
+        let texts = files.iter().map(|(_, text)| text.as_bytes());
+        let all: Vec<_> = places.iter().map(PathBuf::as_path).zip(texts).collect();
+        write_all(&all, folders)?;
+        Ok(files.into_iter().map(|(path, _)| path).collect())
+    }
+
+    /// What to do next.
+    pub fn next(&self) -> String {
+        let (name, module) = (&self.chapter.name, self.chapter.module());
+        format!(
+            "cargo run --bin {name}\nUPDATE=1 cargo test --test samples {module}\n\
+             cargo chapters sync --pictures {name}\ncargo chapters check\n"
+        )
+    }
+
+    fn own(&self, path: &str) -> String {
+        path.replacen(&self.from.name, &self.chapter.name, 1)
+    }
+
+    fn program(&self) -> Result<Vec<(String, String)>> {
+        let files = self.project.files(&format!("samples/{}", self.from.name));
+        let copy = |path: String| {
+            let text = self.project.read(&path)?;
+            let text = if path.ends_with("/main.rs") { self.opened(&text) } else { text };
+            Ok((self.own(&path), text))
+        };
+        files.into_iter().map(copy).collect()
+    }
+
+    /// A program with an opening of its own.
+    fn opened(&self, text: &str) -> String {
+        let rest = text.lines().skip_while(|line| line.starts_with("//!"));
+        let rest: String = rest.flat_map(|line| [line, "\n"]).collect();
+        let (heading, from) = (self.chapter.heading(), &self.from.name);
+        format!(
+            "//! {heading}: what it teaches, in a line.\n//!\n//! New since {from}: what is new.\n{rest}"
+        )
+    }
+
+    /// The parent's own shaders; what it shares with others, the new chapter shares too.
+    fn shaders(&self) -> Result<Vec<(String, String)>> {
+        let own = shader::own(self.project, self.from).into_iter();
+        own.map(|path| Ok((self.own(&path), self.project.read(&path)?))).collect()
+    }
+
+    fn manifest(&self) -> String {
+        let Chapter { name, title, teaches, part, needs, .. } = &self.chapter;
+        let from = &self.from.name;
+        let bin = format!("[[bin]]\nname = \"{name}\"\npath = \"samples/{name}/main.rs\"\n\n");
+        let needs = needs.iter().map(|need| format!("{need:?}")).collect::<Vec<_>>().join(", ");
+        let part = match &part[..] {
+            "" => String::new(),
+            part => format!("part = \"{part}\"\n"),
+        };
+        let table = format!(
+            "[package.metadata.chapters.{name}]\ntitle = \"{title}\"\nteaches = \"{teaches}\"\n{part}\
+             from = \"{from}\"\nneeds = [{needs}]\n\n"
+        );
+        // Each stands before the first chapter with a larger number, else after the last.
+        let manifest = &self.project.manifest;
+        let later: Vec<&Chapter> =
+            self.project.chapters.iter().filter(|other| other.name > *name).collect();
+        let place = |marks: Vec<String>, end: usize| {
+            marks.iter().find_map(|mark| manifest.find(mark.as_str())).unwrap_or(end)
+        };
+        let bins =
+            later.iter().map(|other| format!("[[bin]]\nname = \"{}\"", other.name)).collect();
+        let bin_end = manifest.find("# Makes samples/assets").or(manifest.find("[[test]]"));
+        let bin_at = place(bins, bin_end.unwrap_or(manifest.len()));
+        let tables =
+            later.iter().map(|other| format!("[package.metadata.chapters.{}]", other.name));
+        let table_at = place(tables.collect(), manifest.len());
+        let (head, rest) = manifest.split_at(bin_at);
+        let (middle, tail) = rest.split_at(table_at - bin_at);
+        let gap = if tail.is_empty() && !middle.ends_with("\n\n") { "\n" } else { "" };
+        let text = format!("{head}{bin}{middle}{gap}{table}{tail}");
+        text.trim_end().to_owned() + "\n"
+    }
+
+    fn modules(&self) -> Result<String> {
+        let text = self.project.read("tests/samples/main.rs")?;
+        let declaration = format!("mod {};", self.chapter.module());
+        let mut lines: Vec<&str> = text.lines().collect();
+        let later = |line: &&str| line.starts_with("mod ") && **line > *declaration;
+        let last =
+            lines.iter().rposition(|line| line.starts_with("mod ")).map_or(lines.len(), |i| i + 1);
+        let at = lines.iter().position(later).unwrap_or(last);
+        lines.insert(at, &declaration);
+        Ok(lines.join("\n") + "\n")
+    }
+
+    fn test(&self) -> String {
+        let name = &self.chapter.name;
+        format!(
+            "//! {name}: the picture, and what the chapter claims.\n\n\
+             use run::{{bits, golden, render}};\n\n\
+             const NAME: &str = \"{name}\";\n\n\
+             #[test]\n\
+             fn the_picture_is_the_golden_one_and_repeats() {{\n    \
+             let [first, second] = [0, 1].map(|_| render(NAME, \"240x150\", &[]).picture);\n    \
+             assert_eq!(bits(&first), bits(&second));\n    \
+             // Say here which device set the tolerance.\n    \
+             golden(NAME, &first, 0.002);\n}}\n"
+        )
+    }
+
+    /// A first exercise, which holds until the chapter does what its parent does not.
+    fn exercise(&self) -> String {
+        let from = &self.from.name;
+        format!(
+            "Compare it with its parent\n\nTakes: look\nText: Render this chapter and {from} with the same \
+             arguments. Does a pixel differ?\nCheck: The pictures are the same to the bit.\nHint: The chapter \
+             is still a copy. WRITE another exercise once it is not.\nRun:\nExpect: same as {from}\nAnswer: no\n"
+        )
+    }
+
+    /// A page with every section; what is still to be written, `check` names.
+    fn page(&self) -> String {
+        let Chapter { name, .. } = &self.chapter;
+        let (heading, from) = (self.chapter.heading(), &self.from.name);
+        let parent = self.from.number();
+        format!(
+            "# {heading}\n\n![WRITE](images/{name}.png)\n\n<!-- picture -->\n```sh\n\
+             cargo run --bin {name} -- --headless --size 960x600 --out docs/images/{name}.png\n```\n\n\
+             ## What you will learn\n\nWRITE\n\n## What changed since {parent}\n\n\
+             <!-- diff {from} {name} main.rs -->\n<!-- /diff -->\n\n## How it works\n\nWRITE\n\n\
+             ## What accuracy costs here\n\nWRITE\n\n## Hard cases\n\nWRITE\n\n## Controls\n\n\
+             <!-- controls {name} -->\n<!-- /controls -->\n\n## Try it\n\n\
+             <!-- exercises {name} -->\n<!-- /exercises -->\n\n## Sources\n\nWRITE\n"
+        )
+    }
+}

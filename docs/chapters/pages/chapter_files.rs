@@ -1,0 +1,159 @@
+//! Whether everything that a chapter consists of is there, and is called what it should be.
+
+use manuscript::fault::Fault;
+use manuscript::project::{Chapter, Project, README};
+
+/// What does not agree, seen from `Cargo.toml`.
+pub fn check(project: &Project) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (index, chapter) in project.chapters.iter().enumerate() {
+        faults.extend(metadata(project, chapter, index));
+        faults.extend(parts(project, chapter));
+    }
+    faults.extend(bins(project));
+    faults.extend(folders(project));
+    if !project.has(README) {
+        faults.push(Fault::new(README, 1, "there is no README", "write it, with <!-- gallery -->"));
+    }
+    faults
+}
+
+fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
+    let line = project.chapter_line(chapter);
+    let fault = |what: String, remedy: &str| Fault::new("Cargo.toml", line, what, remedy);
+    let mut faults = Vec::new();
+    let name = &chapter.name;
+    let digits =
+        chapter.number().len() == 2 && chapter.number().bytes().all(|b| b.is_ascii_digit());
+    if !digits || chapter.module().is_empty() {
+        faults.push(fault(format!("'{name}' is no chapter's name"), "call it such as 02_basic"));
+    }
+    let before = &project.chapters[..index];
+    if let Some(twin) = before.iter().find(|other| other.number() == chapter.number()) {
+        faults.push(fault(format!("'{name}' has the number of '{}'", twin.name), "renumber one"));
+    }
+    for (key, text) in [("title", &chapter.title), ("teaches", &chapter.teaches)] {
+        if text.trim().is_empty() {
+            faults.push(fault(format!("'{name}' has no {key}"), "write it"));
+        }
+    }
+    if !project.parts.is_empty() && !project.parts.contains(&chapter.part) {
+        let what =
+            format!("'{name}' belongs to no part of the book: its `part` is '{}'", chapter.part);
+        let titles = format!("make it one of {}", project.parts.join(", "));
+        faults.push(fault(what, &titles));
+    }
+    if let Some(from) = &chapter.from
+        && !before.iter().any(|other| other.name == *from)
+    {
+        let what = format!("'{name}' builds on '{from}', which is no earlier chapter");
+        faults.push(fault(what, "correct its `from`"));
+    }
+    faults
+}
+
+/// The program, its folder, shaders, page, test and golden.
+fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
+    let name = &chapter.name;
+    let line = project.chapter_line(chapter);
+    let mut faults = Vec::new();
+    let mut missing = |what: String, remedy: String| {
+        faults.push(Fault::new("Cargo.toml", line, format!("'{name}' {what}"), remedy));
+    };
+    let main = format!("samples/{name}/main.rs");
+    let bin = project.bins.iter().any(|bin| bin.name == *name && bin.path == main);
+    if !bin {
+        missing(
+            "has no program".to_owned(),
+            format!("add [[bin]] name = \"{name}\", path = \"{main}\""),
+        );
+    }
+    if project.files(&format!("shaders/{name}")).is_empty() {
+        missing("has no shaders".to_owned(), format!("write them in shaders/{name}"));
+    }
+    if !project.has(&main) {
+        missing(format!("has no {main}"), "write it".to_owned());
+    }
+    if !project.has(&chapter.page()) {
+        missing(format!("has no page {}", chapter.page()), "write it".to_owned());
+    }
+    let (test, golden) = (module_file(chapter), format!("tests/golden/{name}.png"));
+    let own_package = project.has_own_package(chapter);
+    if !own_package && !project.has(&test) {
+        missing(format!("has no test {test}"), "write it".to_owned());
+    }
+    // Cargo builds a package's programs for the sake of its test programs alone.
+    if own_package && !own_manifest(project, name).contains("[[test]]") {
+        missing(
+            "is a package without a test program: `cargo test` would not build it".to_owned(),
+            format!("add [[test]] to samples/{name}/Cargo.toml"),
+        );
+    }
+    if !project.has(&golden) {
+        missing(
+            format!("has no golden {golden}"),
+            "run: UPDATE=1 cargo test --test samples".to_owned(),
+        );
+    }
+    faults.extend(opening(project, chapter, &main));
+    let modules = project.read("tests/samples/main.rs").unwrap_or_default();
+    let declared = format!("mod {};", chapter.module());
+    if project.has(&test) && !modules.lines().any(|line| line.trim() == declared) {
+        let what = format!("the tests of '{name}' never run");
+        faults.push(Fault::new("tests/samples/main.rs", 1, what, format!("add `{declared}`")));
+    }
+    faults
+}
+
+/// The line with which a chapter's program opens has its number and title.
+fn opening(project: &Project, chapter: &Chapter, main: &str) -> Option<Fault> {
+    let text = project.read(main).ok()?;
+    let opening = format!("//! {}: ", chapter.heading());
+    let what = "the first line does not name the chapter".to_owned();
+    let wrong = !text.starts_with(&opening);
+    wrong.then(|| Fault::new(main, 1, what, format!("begin it with `{}…`", opening)))
+}
+
+fn own_manifest(project: &Project, name: &str) -> String {
+    project.read(&format!("samples/{name}/Cargo.toml")).unwrap_or_default()
+}
+
+fn module_file(chapter: &Chapter) -> String {
+    format!("tests/samples/{}.rs", chapter.module())
+}
+
+fn bins(project: &Project) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for bin in project.bins.iter().chain(&project.tests) {
+        let line = project.manifest_line(&format!("name = \"{}\"", bin.name));
+        let numbered = bin.name.starts_with(|c: char| c.is_ascii_digit());
+        if !bin.path.is_empty() && !project.has(&bin.path) {
+            let what = format!("'{}' has no {}", bin.name, bin.path);
+            faults.push(Fault::new("Cargo.toml", line, what, "write it or remove the target"));
+        }
+        if numbered && !project.chapters.iter().any(|chapter| chapter.name == bin.name) {
+            let what = format!("the program '{}' is no chapter", bin.name);
+            let remedy = format!("add [package.metadata.chapters.{}]", bin.name);
+            faults.push(Fault::new("Cargo.toml", line, what, remedy));
+        }
+    }
+    faults
+}
+
+/// Folders with a number are a chapter's.
+fn folders(project: &Project) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for folder in ["samples", "shaders"] {
+        let files = project.files(folder);
+        let mut names: Vec<&str> = files.iter().filter_map(|path| path.split('/').nth(1)).collect();
+        names.dedup();
+        names.retain(|name| name.starts_with(|c: char| c.is_ascii_digit()));
+        names.retain(|name| !project.chapters.iter().any(|chapter| chapter.name == *name));
+        for name in names {
+            let what = format!("the folder {folder}/{name} belongs to no chapter");
+            let remedy = format!("add [package.metadata.chapters.{name}] or delete it");
+            faults.push(Fault::new(format!("{folder}/{name}"), 1, what, remedy));
+        }
+    }
+    faults
+}

@@ -1,0 +1,90 @@
+//! Every chapter at a glance: the README's gallery, and mdBook's table of contents.
+
+use manuscript::project::{Chapter, Project};
+
+/// Pictures side by side.
+const COLUMNS: usize = 3;
+
+/// Pages beside the chapters, with their titles: before them, and after.
+const BEFORE: &[(&str, &str)] =
+    &[("reading.md", "How to read this book"), ("from-raster.md", "From raster to rays")];
+const AFTER: &[(&str, &str)] = &[
+    ("shadow-start.md", "How high a shadow ray starts"),
+    ("measured.md", "Everything measured"),
+    ("compilers.md", "What a GPU's compiler says"),
+    ("arithmetic.md", "The worst arithmetic that conforms"),
+    ("needs.md", "What a device must offer"),
+    ("long-renders.md", "Long renders"),
+    ("limits.md", "Limits"),
+    ("wrong-pictures.md", "When the picture is wrong"),
+    ("devices.md", "What was tested"),
+    ("glossary.md", "Glossary"),
+];
+
+/// Whether a page of the book is no chapter's.
+pub fn is_other_page(file: &str) -> bool {
+    BEFORE.iter().chain(AFTER).any(|(name, _)| file == *name)
+}
+
+/// A table of pictures for each part, each with its chapter's title and what that teaches, all leading to
+/// the page.
+pub fn tables(project: &Project, page: &str) -> String {
+    let parts = project.parted().into_iter().map(|(heading, chapters)| match &heading[..] {
+        "" => table(&chapters, page),
+        _ => format!("### {heading}\n\n{}", table(&chapters, page)),
+    });
+    parts.collect::<Vec<_>>().join("\n")
+}
+
+fn table(chapters: &[&Chapter], page: &str) -> String {
+    // The links are written as they lead from the page that shows the table.
+    let up = "../".repeat(page.matches('/').count());
+    let mut text = String::new();
+    for (index, chapters) in chapters.chunks(COLUMNS).enumerate() {
+        let picture = |chapter: &Chapter| {
+            let title = chapter.heading();
+            format!("[![{title}]({up}{})]({up}{})", chapter.picture(), chapter.page())
+        };
+        let words = |chapter: &Chapter| {
+            format!("**[{}]({up}{})**<br>{}", chapter.heading(), chapter.page(), chapter.teaches)
+        };
+        text.push_str(&row(chapters, picture));
+        if index == 0 {
+            text.push_str(&format!("|{}\n", ":---:|".repeat(chapters.len())));
+        }
+        text.push_str(&row(chapters, words));
+    }
+    text
+}
+
+fn row(chapters: &[&Chapter], cell: impl Fn(&Chapter) -> String) -> String {
+    let cells: Vec<String> =
+        chapters.iter().map(|chapter| cell(chapter).replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// The whole of `docs/SUMMARY.md`.
+pub fn summary(project: &Project) -> String {
+    let other = |(file, title): (&str, &str)| match project.has(&format!("docs/{file}")) {
+        true => format!("[{title}]({file})\n"),
+        false => String::new(),
+    };
+    let listed = |pages: &[(&str, &str)]| -> Vec<String> {
+        pages.iter().copied().map(other).filter(|line| !line.is_empty()).collect()
+    };
+    let mut text = "# Summary\n\n".to_owned();
+    for before in listed(BEFORE) {
+        text.push_str(&format!("{before}\n"));
+    }
+    let parts = project.parted().into_iter().map(|(heading, chapters)| {
+        let heading = if heading.is_empty() { heading } else { format!("# {heading}\n\n") };
+        let lines = chapters.iter().map(|c| format!("- [{}]({}.md)\n", c.heading(), c.name));
+        heading + &lines.collect::<String>()
+    });
+    text.push_str(&parts.collect::<Vec<_>>().join("\n"));
+    let after = listed(AFTER);
+    if !after.is_empty() {
+        text.push_str(&format!("\n{}", after.join("\n")));
+    }
+    text
+}

@@ -1,0 +1,18 @@
+//! Pages: what stands in their generated blocks, and whether what they say is so.
+//!
+//! The room on top: it asks the others for their part of the [`book`], and none of them knows it.
+
+pub mod block;
+pub mod book;
+pub mod chapter_files;
+pub mod exercise_list;
+pub mod gallery;
+pub mod glossary;
+pub mod markdown;
+pub mod mention;
+pub mod placeholder;
+pub mod reference;
+pub mod shared_shader;
+pub mod shell;
+pub mod stray_file;
+pub mod text;

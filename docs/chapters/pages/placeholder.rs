@@ -1,0 +1,45 @@
+//! Words that hold a place for what is still to be written.
+
+use manuscript::fault::Fault;
+use manuscript::page::Page;
+
+/// What stands for a figure in a cell of a table.
+const CELLS: [&str; 3] = ["X", "TBD", "TODO"];
+
+/// Every placeholder: a line that is nothing but a word of capitals, or a cell that says it is empty.
+pub fn check(page: &Page) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (line, text) in page.prose() {
+        let text = text.trim();
+        let cell = || text.split('|').map(str::trim).find(|cell| CELLS.contains(cell));
+        let found = match text.starts_with('|') {
+            true => cell(),
+            false => Some(text).filter(|text| is_word_of_capitals(text)),
+        };
+        if let Some(word) = found {
+            let what = format!("'{word}' holds a place for something");
+            faults.push(Fault::new(&*page.path, line, what, "write what belongs here"));
+        }
+    }
+    faults
+}
+
+/// Whether a line says nothing but a word such as `ERRORTABLE`.
+fn is_word_of_capitals(line: &str) -> bool {
+    let word = line.trim_end_matches([':', '.', '…']);
+    word.len() > 1 && word.bytes().all(|byte| byte.is_ascii_uppercase() || byte == b'_')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_line_or_a_cell_of_its_own_is_a_placeholder() {
+        let text = "ERRORTABLE\n\n| a | X |\n\nA ULP is one.\n\nULP:\n\n```text\nTODO\n```\n\n| X-ray | NVIDIA |\n";
+        let faults = check(&Page::parse("p.md", text));
+        let lines: Vec<usize> = faults.iter().map(|fault| fault.line).collect();
+        assert_eq!(lines, [1, 3, 7]);
+        assert!(faults[0].to_string().starts_with("p.md:1: 'ERRORTABLE' holds a place for"));
+    }
+}

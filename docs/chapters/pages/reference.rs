@@ -1,0 +1,240 @@
+//! Files, lines and anchors that a page names: in code within a sentence, in a command, in a link.
+
+use std::collections::BTreeSet;
+
+use manuscript::anchor::anchors;
+use manuscript::fault::Fault;
+use manuscript::link::local;
+use manuscript::page::Page;
+use manuscript::project::{Chapter, Project};
+use manuscript::shader;
+
+use super::markdown::{Link, Markdown};
+use super::mention::{chapters, codes};
+
+/// The folders whose files a page may name.
+const FOLDERS: [&str; 5] = ["common", "docs", "samples", "shaders", "tests"];
+/// The files that a page may name without their folder, beside shaders.
+const EXTENSIONS: [&str; 5] = ["rs", "toml", "obj", "mtl", "md"];
+/// What says that the file named next is one that the reader writes.
+const WRITES: [&str; 3] = ["Write `", "write `", "` to `"];
+/// Arguments that name a file to be written.
+const OUTPUTS: [&str; 4] = ["--out", "--report", "--save", "--measure"];
+
+/// What the pages of a project may name.
+pub struct Files<'a> {
+    project: &'a Project,
+    all: Vec<String>,
+}
+
+impl<'a> Files<'a> {
+    /// Finds every file.
+    pub fn of(project: &'a Project) -> Self {
+        let all = FOLDERS.into_iter().flat_map(|folder| project.files(folder)).collect();
+        Self { project, all }
+    }
+
+    /// What is wrong with the files, lines and anchors that a page names.
+    pub fn check(&self, page: &Page, written: &Markdown) -> Vec<Fault> {
+        let fault = |line: usize, what: String| Fault::new(&*page.path, line, what, "correct it");
+        let mut faults = Vec::new();
+        let mut new = BTreeSet::new();
+        for (line, text) in page.prose() {
+            for (start, code) in codes(text) {
+                if WRITES.iter().any(|writes| text[..start].ends_with(writes)) {
+                    new.insert(code);
+                }
+                let wrong = (!new.contains(code)).then(|| self.wrong(page, text, code)).flatten();
+                faults.extend(wrong.map(|what| fault(line, what)));
+            }
+        }
+        let shell = |language: &str| ["sh", "bash", "console", "shell"].contains(&language);
+        for code in written.code.iter().filter(|code| shell(&code.language)) {
+            for (index, command) in code.text.lines().enumerate() {
+                let wrong = self.wrong_input(command);
+                faults.extend(wrong.map(|what| fault(code.line + index, what)));
+            }
+        }
+        let wrong = |link: &Link| Some(fault(link.line, self.wrong_fragment(page, link)?));
+        faults.extend(written.links.iter().filter_map(wrong));
+        faults
+    }
+
+    /// Why a piece of code is no name of a file, if it looks like one.
+    fn wrong(&self, page: &Page, text: &str, code: &str) -> Option<String> {
+        let (name, place) = split(code);
+        if code.contains(|c: char| c.is_whitespace() || "<>*…(){}\"'=|".contains(c)) {
+            return None;
+        }
+        if let Some(module) = code.strip_prefix("common::") {
+            let module = module.split("::").next().unwrap_or_default();
+            let mut paths =
+                [".rs", "/mod.rs"].map(|end| format!("common/src/{module}{end}")).into_iter();
+            let missing = !paths.any(|path| self.project.has(&path));
+            return missing.then(|| format!("there is no module `common::{module}`"));
+        }
+        let (folder, rest) = name.split_once('/').unwrap_or(("", name));
+        if FOLDERS.contains(&folder) {
+            // A shader includes files by their path below `shaders/`.
+            let found = [name.to_owned(), format!("shaders/{name}")]
+                .into_iter()
+                .find_map(|path| self.path(path.trim_end_matches('/')));
+            let Some(path) = found else { return Some(format!("there is no '{name}'")) };
+            return self.wrong_place(&path, place);
+        }
+        if self.project.chapters.iter().any(|chapter| chapter.name == folder) {
+            let mut paths =
+                ["shaders", "samples"].map(|above| format!("{above}/{name}")).into_iter();
+            let Some(path) = paths.find_map(|path| self.path(&path)) else {
+                return Some(format!("there is no '{name}' in shaders or samples"));
+            };
+            return self.wrong_place(&path, place);
+        }
+        let extension = rest.rsplit_once('.').filter(|(stem, _)| !stem.is_empty())?.1;
+        let known = EXTENSIONS.contains(&extension) || shader::EXTENSIONS.contains(&extension);
+        if !folder.is_empty() || name.contains('/') || !known {
+            return None;
+        }
+        let called = |path: &&String| path.rsplit('/').next() == Some(name);
+        let called: Vec<&String> = self.all.iter().filter(called).collect();
+        let near = called.iter().find(|path| self.is_near(page, text, path));
+        match (near, called.first()) {
+            (Some(path), _) => self.wrong_place(path, place),
+            (None, Some(far)) => {
+                Some(format!("'{name}' is none of this chapter's files, but {far}"))
+            }
+            (None, None) => Some(format!("there is no file '{name}'")),
+        }
+    }
+
+    /// The path of a file or folder that is there; where a name stands for any, of the first chapter.
+    fn path(&self, path: &str) -> Option<String> {
+        let for_chapter = |chapter: &Chapter| {
+            let module = format!("/{}.", chapter.module());
+            path.replace("NN_name", &chapter.name).replace("/name.", &module)
+        };
+        let there = |path: &String| self.project.root.join(path).exists();
+        let mut paths = self.project.chapters.iter().map(for_chapter);
+        Some(path.to_owned()).filter(there).or_else(|| paths.find(there))
+    }
+
+    /// Whether a page may name a file without its folder: it is of all chapters, of this one or of one
+    /// that this builds on, or the line names the file's chapter.
+    fn is_near(&self, page: &Page, text: &str, path: &str) -> bool {
+        let mut parts = path.split('/');
+        let (above, folder) = (parts.next(), parts.next().unwrap_or_default());
+        let chapters_of = &self.project.chapters;
+        let of = chapters_of.iter().find(|chapter| chapter.name == folder);
+        let Some(of) = of.filter(|_| matches!(above, Some("samples" | "shaders"))) else {
+            return true;
+        };
+        let mut own = chapters_of.iter().find(|chapter| chapter.page() == page.path);
+        if own.is_none() || chapters(text).iter().any(|mention| mention.number == of.number()) {
+            return true;
+        }
+        while let Some(chapter) = own {
+            if chapter.name == of.name {
+                return true;
+            }
+            let from = chapter.from.as_ref();
+            own = from.and_then(|from| chapters_of.iter().find(|chapter| chapter.name == *from));
+        }
+        false
+    }
+
+    /// Why a line or an anchor is not in a file, if it is not.
+    fn wrong_place(&self, path: &str, place: Place) -> Option<String> {
+        let text = || self.project.read(path).unwrap_or_default();
+        match place {
+            Place::Whole => None,
+            Place::Line(line) => {
+                let count = text().lines().count();
+                (line == 0 || line > count)
+                    .then(|| format!("'{path}' has no line {line}, but {count}"))
+            }
+            Place::Anchor(anchor) => {
+                let found = anchors(path, &text()).unwrap_or_default();
+                let missing = !found.iter().any(|found| found.name == anchor);
+                missing.then(|| format!("'{path}' has no anchor '{anchor}'"))
+            }
+        }
+    }
+
+    /// Why a file that a command reads is not there, if it is not.
+    fn wrong_input(&self, command: &str) -> Option<String> {
+        let mut words = command.split_whitespace().map(|word| word.trim_matches(['"', '\'', '\\']));
+        let mut last = "";
+        words.find_map(|word| {
+            let input = !OUTPUTS.contains(&std::mem::replace(&mut last, word));
+            let (folder, _) = word.split_once('/')?;
+            let missing =
+                FOLDERS.contains(&folder) && self.path(word.trim_end_matches('/')).is_none();
+            (input && missing).then(|| format!("there is no '{word}'"))
+        })
+    }
+
+    /// Why a link leads to no heading or line of a file that is there, if it does not.
+    fn wrong_fragment(&self, page: &Page, link: &Link) -> Option<String> {
+        let (file, fragment) = link.target.split_once('#')?;
+        let path = match file {
+            "" => page.path.clone(),
+            _ => local(&page.path, file).filter(|path| self.project.has(path))?,
+        };
+        let text = self.project.read(&path).ok()?;
+        let line = fragment.strip_prefix('L').and_then(|number| number.parse().ok());
+        if let Some(line) = line.filter(|_| !path.ends_with(".md")) {
+            return self.wrong_place(&path, Place::Line(line));
+        }
+        let found = slugs(&Markdown::parse(&Page::parse(&path, &text).written()).headings);
+        let missing = !found.iter().any(|slug| slug == fragment);
+        missing.then(|| format!("'{path}' has no heading '#{fragment}'"))
+    }
+}
+
+/// Where in a file.
+#[derive(Debug, PartialEq, Eq)]
+enum Place<'a> {
+    Whole,
+    Line(usize),
+    Anchor(&'a str),
+}
+
+/// A file's name, and the place in it that follows.
+fn split(code: &str) -> (&str, Place<'_>) {
+    if let Some((name, anchor)) = code.split_once('#') {
+        return (name, Place::Anchor(anchor));
+    }
+    let line = code.rsplit_once(':').and_then(|(name, line)| Some((name, line.parse().ok()?)));
+    line.map_or((code, Place::Whole), |(name, line)| (name, Place::Line(line)))
+}
+
+/// What headings are called in links, as mdBook and code hosts do it.
+fn slugs(headings: &[String]) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for heading in headings {
+        let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        let slug = kept.collect::<String>().to_lowercase().replace(' ', "-");
+        let again = headings[..found.len()].iter().filter(|other| *other == heading).count();
+        found.push(if again == 0 { slug } else { format!("{slug}-{again}") });
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_follows_the_name() {
+        assert_eq!(split("a/b.rs"), ("a/b.rs", Place::Whole));
+        assert_eq!(split("a/b.rs:12"), ("a/b.rs", Place::Line(12)));
+        assert_eq!(split("b.rs#c"), ("b.rs", Place::Anchor("c")));
+        assert_eq!(split("a::b"), ("a::b", Place::Whole));
+    }
+
+    #[test]
+    fn headings_are_called_as_in_links() {
+        let headings = ["O3 and O4: up by floats", "Notes", "Notes"].map(str::to_owned);
+        assert_eq!(slugs(&headings), ["o3-and-o4-up-by-floats", "notes", "notes-1"]);
+    }
+}

@@ -1,0 +1,63 @@
+//! What the text of a page, or of an exercise, names: chapters, files, commands, tests, links, formulas.
+
+use manuscript::fault::Fault;
+use manuscript::page::Page;
+use manuscript::project::{Chapter, Project};
+
+use super::markdown::{Markdown, check_formulas, check_links};
+use super::reference::Files;
+use super::{mention, placeholder, shell};
+use crate::exercises::exercise::{Exercise, Takes};
+use crate::programs::program::Programs;
+use crate::programs::test;
+
+/// What a page names and is not there, or is not as it says; `written` is what its author wrote.
+pub fn check(
+    project: &Project,
+    programs: &Programs,
+    files: &Files,
+    page: &Page,
+    written: &Markdown,
+) -> Vec<Fault> {
+    let path = &*page.path;
+    let mut faults = placeholder::check(page);
+    faults.extend(mention::check(project, page));
+    faults.extend(check_links(project, path, &written.links));
+    faults.extend(check_formulas(path, &written.formulas));
+    faults.extend(shell::check(project, programs, path, &written.code));
+    faults.extend(test::check(project, path, &written.code));
+    faults.extend(files.check(page, written));
+    faults
+}
+
+/// What is wrong with what the exercises name.
+pub fn check_exercises(project: &Project, programs: &Programs, files: &Files) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for exercise in Exercise::all(project).0 {
+        let texts = texts(project, &exercise);
+        let written = Markdown::parse(&texts.written());
+        let wrong = check(project, programs, files, &texts, &written).into_iter();
+        faults.extend(wrong.map(|fault| Fault { file: exercise.patch.file.clone(), ..fault }));
+    }
+    faults
+}
+
+/// The texts of an exercise as a page of its chapter has them, each on the line that it has in its file:
+/// what they name is held to what is there, as the text of a page is.
+fn texts(project: &Project, exercise: &Exercise) -> Page {
+    let shown = |line: &str| {
+        let (key, value) = line.split_once(": ")?;
+        match key {
+            "Text" | "Check" | "Hint" | "Why" => Some(value.to_owned()),
+            // Rust code may add what a program is set to.
+            "Run" if value.starts_with("--set ") && exercise.takes != Takes::Rust => {
+                Some(format!("`{value}`"))
+            }
+            _ => None,
+        }
+    };
+    let heading = exercise.patch.text.lines().take_while(|line| !line.starts_with("--- "));
+    let text: String = heading.map(|line| shown(line).unwrap_or_default() + "\n").collect();
+    let chapter = project.chapters.iter().find(|chapter| chapter.name == exercise.chapter);
+    Page::parse(&chapter.map(Chapter::page).unwrap_or_default(), &text)
+}

@@ -1,0 +1,87 @@
+//! Copies of the shaders, or of all code, in which some files hold something else.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use common::files::folder;
+use manuscript::project::Project;
+
+/// The folders of which a copy that can be built and tested is made, and the files beside them.
+const FOLDERS: [&str; 8] = [
+    "common",
+    "docs/chapters",
+    "docs/drawings",
+    "docs/manuscript",
+    "docs/site",
+    "samples",
+    "shaders",
+    "tests",
+];
+const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
+
+/// What some files of a copy hold in place of the project's, by their path from its root.
+pub type Changed = BTreeMap<String, String>;
+
+/// Makes a folder a copy of the shaders.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn copy_shaders(project: &Project, folder: &Path, changed: &Changed) -> Result<()> {
+    copy(project, folder, changed, (&["shaders"], &[]), "shaders/")
+}
+
+/// Makes a folder a copy of all that a build needs.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn copy_code(project: &Project, folder: &Path, changed: &Changed) -> Result<()> {
+    copy(project, folder, changed, (&FOLDERS, &FILES), "")
+}
+
+/// Makes a folder a copy of some folders and files, of which `changed` replaces some.
+///
+/// A file that is right already is left alone, so that Cargo builds only what has changed; one that the
+/// copy has too many is removed.
+fn copy(
+    project: &Project,
+    above: &Path,
+    changed: &Changed,
+    (folders, beside): (&[&str], &[&str]),
+    without: &str,
+) -> Result<()> {
+    let mut files: BTreeMap<String, Option<&String>> = BTreeMap::new();
+    let found = folders.iter().flat_map(|part| project.files(part));
+    let found = found.chain(beside.iter().map(|file| (*file).to_owned()));
+    files.extend(found.map(|file| (file, None)));
+    files.extend(changed.iter().map(|(file, text)| (file.clone(), Some(text))));
+    let place = |file: &str| above.join(file.trim_start_matches(without));
+    let kept: BTreeSet<PathBuf> = files.keys().map(|file| place(file)).collect();
+    for old in files_below(above).iter().filter(|old| !kept.contains(*old)) {
+        fs::remove_file(old).with_context(|| format!("cannot remove '{}'", old.display()))?;
+    }
+    for (file, text) in files {
+        let to = place(&file);
+        let bytes = match text {
+            Some(text) => text.clone().into_bytes(),
+            None => fs::read(project.root.join(&file))?,
+        };
+        if fs::read(&to).is_ok_and(|there| there == bytes) {
+            continue;
+        }
+        folder::write(&to, &bytes)?;
+    }
+    Ok(())
+}
+
+/// Every file below a folder.
+pub fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect()
+}
+
+/// The file that keeps a path from being a folder, itself or above it.
+pub fn file_on_the_way(folder: &Path) -> Option<&Path> {
+    folder.ancestors().find(|part| part.exists()).filter(|part| !part.is_dir())
+}

@@ -1,0 +1,204 @@
+//! An edition of the book's code that can be run: as it is, with other shaders, or a changed copy of it.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use common::files::Folder;
+use manuscript::project::Project;
+use patience::{ASLEEP, Limit};
+
+use super::patch::Patch;
+use crate::programs::child;
+use crate::programs::program::{BUILD, Programs};
+
+/// Where patched code is copied to and built, one patch after the other: Cargo builds only what differs from
+/// the one before, which takes minutes for the first.
+const COPY: &str = "target/mistakes/copy";
+const BUILT: &str = "target/mistakes/build";
+const LOCK: &str = "target/mistakes/lock";
+
+/// How long tests may take once they are built.
+const LIMIT: Limit = Limit::waited(ASLEEP);
+
+/// An edition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Edition {
+    /// The book's programs and shaders.
+    Book,
+    /// The book's programs with the shaders in a folder.
+    Shaders(PathBuf),
+    /// A copy of all code in a folder, built before it runs.
+    Copy(PathBuf),
+    /// The book's own files as a reader has edited them, built before they run.
+    Edited,
+}
+
+/// An edition with a patch, as long as it is held.
+pub struct Patched {
+    /// The edition.
+    pub edition: Edition,
+    _shaders: Option<Folder>,
+    _lock: Option<File>,
+}
+
+impl Patched {
+    /// Makes it. A patch of shaders gets a folder of its own; any other waits until the one copy of all code
+    /// is free.
+    ///
+    /// # Errors
+    /// If the patch does not fit, or the copy cannot be written.
+    pub fn of(project: &Project, patch: &Patch) -> Result<Self> {
+        if patch.is_in_shaders() {
+            let folder = Folder::temporary()?;
+            patch.copy_to(project, folder.path())?;
+            let edition = Edition::Shaders(folder.path().to_owned());
+            return Ok(Self { edition, _shaders: Some(folder), _lock: None });
+        }
+        let copy = project.root.join(COPY);
+        fs::create_dir_all(&copy).with_context(|| format!("cannot make '{}'", copy.display()))?;
+        let lock = File::create(project.root.join(LOCK)).context("cannot make a lock")?;
+        lock.lock().context("cannot wait for a lock")?;
+        patch.copy_to(project, &copy)?;
+        Ok(Self { edition: Edition::Copy(copy), _shaders: None, _lock: Some(lock) })
+    }
+}
+
+/// What tests said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tested {
+    /// How many passed.
+    pub passed: usize,
+    /// How many failed.
+    pub failed: usize,
+    /// All that was printed.
+    pub said: String,
+}
+
+impl Edition {
+    /// A command that runs a chapter's program.
+    ///
+    /// # Errors
+    /// If it is not built, or does not build; in one line.
+    pub fn command(
+        &self,
+        project: &Project,
+        programs: &Programs,
+        chapter: &str,
+    ) -> Result<Command> {
+        let book = || programs.command(chapter).map_err(|what| anyhow!("{what}; {BUILD}"));
+        match self {
+            Self::Book => book(),
+            Self::Shaders(folder) => {
+                let mut command = book()?;
+                command.env("SHADERS", folder);
+                Ok(command)
+            }
+            Self::Copy(_) | Self::Edited => {
+                let (mut cargo, target) = self.cargo("build", project, programs);
+                let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Limit::NONE)?;
+                ensure!(
+                    built.status.is_some_and(|status| status.success()),
+                    "{chapter} does not build: {}",
+                    first_error(&built.said)
+                );
+                if *self == Self::Edited {
+                    return book();
+                }
+                let profile = if programs.are_released() { "release" } else { "debug" };
+                let name = format!("{chapter}{}", std::env::consts::EXE_SUFFIX);
+                let mut command = Command::new(target.join(profile).join(name));
+                command.current_dir(&project.root).env("SHADERS", self.shaders(project));
+                Ok(command)
+            }
+        }
+    }
+
+    /// Runs the tests of a test program whose names hold `filter`.
+    ///
+    /// # Errors
+    /// If they do not build, or there is none; in one line.
+    pub fn test(
+        &self,
+        project: &Project,
+        programs: &Programs,
+        (program, filter): (&str, &str),
+    ) -> Result<Tested> {
+        // A build may take as long as it will, and only once.
+        let (mut build, _) = self.cargo("test", project, programs);
+        let built = child::run(build.args(["--no-run", "--test", program]), Limit::NONE)?;
+        ensure!(
+            built.status.is_some_and(|status| status.success()),
+            "the tests do not build: {}",
+            first_error(&built.said)
+        );
+        let (mut cargo, _) = self.cargo("test", project, programs);
+        cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
+        // What a reader changes gives other figures than the page's.
+        cargo.env("EXERCISE", "1");
+        let ended = child::run(&mut cargo, LIMIT)?;
+        if ended.status.is_none() {
+            bail!("the tests '{filter}' do not end");
+        }
+        let mut tested = Tested { passed: 0, failed: 0, said: ended.told };
+        let results = tested.said.lines().filter_map(|line| line.strip_prefix("test result: "));
+        let results: Vec<&str> = results.collect();
+        if results.is_empty() {
+            bail!("the tests do not run: {}", first_error(&ended.said));
+        }
+        let count = |word: &str| -> usize {
+            let found = results.iter().flat_map(|line| line.split([';', '.']));
+            let numbers = found.filter_map(|part| part.trim().strip_suffix(word));
+            numbers.filter_map(|number| number.trim().parse::<usize>().ok()).sum()
+        };
+        let (passed, failed) = (count("passed"), count("failed"));
+        (tested.passed, tested.failed) = (passed, failed);
+        ensure!(passed + failed > 0, "no test of '{program}' is called '{filter}'");
+        Ok(tested)
+    }
+
+    /// Where its shaders lie.
+    fn shaders(&self, project: &Project) -> PathBuf {
+        match self {
+            Self::Book | Self::Edited => project.root.join("shaders"),
+            Self::Shaders(folder) => folder.clone(),
+            Self::Copy(folder) => folder.join("shaders"),
+        }
+    }
+
+    /// Cargo in the edition's folder, and where what it builds goes.
+    fn cargo(&self, verb: &str, project: &Project, programs: &Programs) -> (Command, PathBuf) {
+        let (folder, target): (&Path, PathBuf) = match self {
+            Self::Copy(folder) => (folder, project.root.join(BUILT)),
+            _ => (&project.root, programs.target().to_owned()),
+        };
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args([verb, "--message-format", "short"]).current_dir(folder);
+        cargo.env("CARGO_TARGET_DIR", &target);
+        if programs.are_released() {
+            cargo.arg("--release");
+        }
+        (cargo, target)
+    }
+}
+
+/// The first error that Cargo tells, in one line.
+fn first_error(said: &str) -> String {
+    let mut lines = said.lines().filter(|line| line.contains("error"));
+    let line = lines.next().or_else(|| said.lines().last()).unwrap_or("Cargo does not say why");
+    line.trim().trim_start_matches("error: ").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_error_is_told() {
+        let said = "warning: x\nsamples/a.rs:3:1: error[E0425]: no `y`\nerror: could not compile\n";
+        assert_eq!(first_error(said), "samples/a.rs:3:1: error[E0425]: no `y`");
+        assert_eq!(first_error("error: no bin target named `x`\n"), "no bin target named `x`");
+        assert_eq!(first_error(""), "Cargo does not say why");
+    }
+}

@@ -1,0 +1,5 @@
+//! The pages' pictures: rendered by the commands that the pages print, and stamped with what made them.
+
+pub mod downscale;
+pub mod picture;
+pub mod render;

@@ -1,0 +1,117 @@
+//! A program that is run to its end, or to the end of our patience.
+
+use std::fs::File;
+use std::io::{Read, Seek};
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use patience::{GLANCE, Limit, Work};
+
+use super::interrupt;
+
+/// How a program ended.
+pub struct Ended {
+    /// `None` if it was stopped.
+    pub status: Option<ExitStatus>,
+    /// What it said on standard error.
+    pub said: String,
+    /// What it said on standard output.
+    pub told: String,
+    limit: Limit,
+}
+
+impl Ended {
+    /// In one line what was wrong with its arguments, if that is what it says: exit code 2.
+    pub fn refused(&self) -> Option<String> {
+        let code = self.status.and_then(|status| status.code());
+        self.failed().filter(|_| code == Some(2))
+    }
+
+    /// In one line why it failed; `None` if it did not.
+    pub fn failed(&self) -> Option<String> {
+        let Some(status) = self.status else {
+            return Some(format!("stopped after {} without an end", self.limit));
+        };
+        if status.success() {
+            return None;
+        }
+        if let Some(name) = crash(status) {
+            return Some(format!("crashed ({name})"));
+        }
+        let line = self.said.lines().find_map(|line| line.strip_prefix("error: "));
+        let line = line.or_else(|| self.said.lines().find(|line| !line.trim().is_empty()));
+        Some(line.map_or_else(|| status.to_string(), |line| line.trim().to_owned()))
+    }
+}
+
+/// Runs a command, and kills it if it takes more than it may.
+///
+/// # Errors
+/// If it does not start, or a signal asks for our end.
+pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
+    // Files and no pipes: nobody has to read them while the program runs.
+    let file = || tempfile::tempfile().context("cannot make a temporary file");
+    let (mut output, mut errors) = (file()?, file()?);
+    command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
+    let mut child = command.spawn().with_context(|| {
+        let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+        format!("{} does not start", program.display())
+    })?;
+    let status = wait(&mut child, limit)?;
+    let (told, said) = (read(&mut output)?, read(&mut errors)?);
+    Ok(Ended { status, said, told, limit })
+}
+
+/// Waits for its end; there is no status if it has taken more than it may and is killed.
+///
+/// # Errors
+/// If a signal asks for our end, for which the child is killed, or the system does not tell of the child's.
+pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
+    let (start, work) = (Instant::now(), Work::from(&*child));
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        let asked = interrupt::asked();
+        if limit.is_over(work, start) || asked.is_err() {
+            child.kill()?;
+            child.wait()?;
+            return asked.map(|()| None);
+        }
+        thread::sleep(GLANCE);
+    }
+}
+
+fn read(file: &mut File) -> Result<String> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// What the system calls a crash, if this is one.
+#[cfg(unix)]
+fn crash(status: ExitStatus) -> Option<String> {
+    use std::os::unix::process::ExitStatusExt;
+    let signal = status.signal()?;
+    let names = [
+        (4, "SIGILL"),
+        (6, "SIGABRT"),
+        (7, "SIGBUS"),
+        (8, "SIGFPE"),
+        (9, "SIGKILL"),
+        (11, "SIGSEGV"),
+    ];
+    let known = names.into_iter().find(|(number, _)| *number == signal);
+    Some(known.map_or_else(|| format!("signal {signal}"), |(_, name)| name.to_owned()))
+}
+
+/// What the system calls a crash, if this is one.
+#[cfg(not(unix))]
+fn crash(status: ExitStatus) -> Option<String> {
+    let code = status.code()? as u32;
+    (code >= 0xC000_0000).then(|| format!("{code:#010x}"))
+}

@@ -1,0 +1,10 @@
+//! Programs that the tool runs: the samples as they are built, Cargo, and how each ends.
+//!
+//! [`child`] starts every process and waits for its end; [`interrupt`] is the signal that asks for ours.
+
+pub mod child;
+pub mod interrupt;
+pub mod program;
+pub mod run_result;
+pub mod test;
+pub mod workers;

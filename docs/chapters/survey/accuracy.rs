@@ -1,0 +1,80 @@
+//! What a report card has of chapter 24: the hard cases, and a short measurement on random rays.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use manuscript::project::Project;
+use serde_json::Value;
+
+use super::card::{HardCases, Measured, Table};
+use super::command::{read, rows, told, words};
+
+/// The chapter.
+pub const NAME: &str = "24_accuracy";
+
+/// The tests that ask it, on whatever page their figures are.
+const TESTS: &str = "numerics";
+
+/// Its hard cases.
+const CASES: &str = "tests/data/hard_cases.json";
+
+/// Whether this chapter is the laboratory, and a test target asks it.
+pub fn is_asked(chapter: &str, target: Option<&str>) -> bool {
+    chapter == NAME && target == Some(TESTS)
+}
+
+/// What it is asked, where the project has it: hard cases, then random rays. Their answers go to a folder.
+pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
+    if !project.chapters.iter().any(|chapter| chapter.name == NAME) {
+        return Vec::new();
+    }
+    let mut cases = words(&["--headless", "--cases", CASES, "--report"]);
+    cases.push(folder.join(ANSWERS).to_string_lossy().into_owned());
+    let mut measure = words(&["--headless", "--rays", "256", "--rounds", "5"]);
+    measure.extend(words(&["--only", "sphere", "--only", "triangle", "--measure"]));
+    measure.push(folder.to_string_lossy().into_owned());
+    vec![("hard cases", cases), ("random rays", measure)]
+}
+
+/// What the answers to the hard cases are called.
+const ANSWERS: &str = "cases.json";
+
+/// How often each rung was right.
+pub fn hard_cases(failed: Option<String>, folder: &Path) -> Table<HardCases> {
+    table(failed, || Ok(rows(&read(&folder.join(ANSWERS))?["rungs"])))
+}
+
+/// How far each rung was off, and what it took.
+pub fn measured(failed: Option<String>, folder: &Path) -> Table<Measured> {
+    table(failed, || errors_and_times(&read(&folder.join("accuracy.json"))?))
+}
+
+/// The rows that a run has left, or why there are none.
+fn table<Row>(failed: Option<String>, rungs: impl FnOnce() -> Result<Vec<Row>>) -> Table<Row> {
+    match rungs() {
+        Ok(rungs) => Table { failed, rungs },
+        Err(error) => {
+            Table { failed: Some(failed.unwrap_or_else(|| told(&error))), rungs: Vec::new() }
+        }
+    }
+}
+
+fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
+    let rungs = report["rungs"].as_array().context("it has measured nothing")?;
+    let row = |rung: &Value| {
+        let text = |key: &str| rung[key].as_str().unwrap_or_default().to_owned();
+        let errors: Vec<&Value> = rung["errors"].as_array().into_iter().flatten().collect();
+        let number = |row: &Value, key: &str| row[key].as_f64().unwrap_or_default();
+        let wrong = ["false_hits", "false_misses", "never_offered", "not_finite"];
+        let wrong = errors.iter().flat_map(|row| wrong.map(|key| number(row, key))).sum::<f64>();
+        Measured {
+            primitive: text("primitive"),
+            rung: text("rung"),
+            name: text("name"),
+            worst_ulp: errors.iter().map(|row| number(row, "max")).fold(0.0, f64::max),
+            wrong: wrong as u64,
+            time_ratio: rung["time"]["ratio"]["median"].as_f64(),
+        }
+    };
+    Ok(rungs.iter().map(row).collect())
+}

@@ -1,0 +1,205 @@
+//! Report cards as Markdown: one alone, and all of them as a table.
+
+use std::fmt::Write as _;
+
+use super::card::{Card, Chapter, Device, HardCases, Table};
+
+/// The limits of a device in a line.
+fn limits(Device { limits, .. }: &Device) -> String {
+    let yes = |offered: bool| if offered { "yes" } else { "no" };
+    format!(
+        "recursion {}; rays a trace {}; push constants {} bytes; shader binding table in {} bytes; scratch \
+         in {} bytes; textures {}; buffer {} bytes; primitives {}; instances {}; image side {}; \
+         64-bit floats {}; rounding to nearest even {}; signed zeros, infinities and NaN {}; \
+         primitive culling {}; nanoseconds a tick {}",
+        limits.max_ray_recursion_depth,
+        limits.max_ray_dispatch_invocation_count,
+        limits.max_push_constants_size,
+        limits.shader_group_base_alignment,
+        limits.min_scratch_offset_alignment,
+        limits.max_textures,
+        limits.max_buffer_size,
+        limits.max_primitive_count,
+        limits.max_instance_count,
+        limits.max_image_dimension,
+        yes(limits.float64),
+        yes(limits.rounding_to_nearest_even),
+        yes(limits.signed_zero_inf_nan),
+        yes(limits.primitive_culling),
+        limits.timestamp_period,
+    )
+}
+
+fn vulkan(Device { limits, .. }: &Device) -> String {
+    limits.vulkan.map(|part| part.to_string()).join(".")
+}
+
+/// In a word or a line, what came of a chapter.
+fn result(chapter: &Chapter) -> String {
+    chapter.failed.as_deref().map_or("passes", |why| why).replace('|', "\\|")
+}
+
+/// One card.
+pub fn card(card: &Card) -> String {
+    let mut text = format!("# {}\n\n", card.device.as_ref().map_or("No device", |d| &d.name));
+    text.push_str("| | |\n|---|---|\n");
+    let mut line = |name: &str, what: &str| {
+        let _ = writeln!(text, "| {name} | {} |", what.replace('|', "\\|"));
+    };
+    if let Some(device) = &card.device {
+        let [vendor, id] = device.limits.vendor_and_device;
+        line("driver", &device.driver);
+        line("vendor and device", &format!("{vendor:#06x}, {id:#06x}"));
+        line("Vulkan", &vulkan(device));
+        line("limits", &limits(device));
+    }
+    line("system", &card.system);
+    line("date", &card.date);
+    line("commit", card.commit.as_deref().unwrap_or("unknown"));
+    let validation = match (&card.device, card.validated) {
+        (None, _) => "nothing ran",
+        (_, true) => "on",
+        (_, false) => "not installed",
+    };
+    line("validation", validation);
+    line("chapters that pass", &format!("{} of {}", card.passed(), card.chapters.len()));
+    line("hard cases", &top(&card.hard_cases));
+    let _ = writeln!(
+        text,
+        "\nA picture passes if its mean FLIP error against the golden one is at most {}. Times are of 480x300 \
+         pixels.\n\n| chapter | result | mean FLIP | GPU ms | messages | device's compiler | RADV, RDNA 3: \
+         instructions, registers, spilled |\n|---|---|--:|--:|--:|---|---|",
+        card.tolerance
+    );
+    for chapter in &card.chapters {
+        let number = |value: Option<f64>, digits: usize| {
+            value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
+        };
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {} |",
+            chapter.name,
+            result(chapter),
+            number(chapter.mean_flip.map(f64::from), 5),
+            number(chapter.milliseconds, 2),
+            chapter.validation_messages,
+            compiler(chapter),
+            radv(chapter),
+        );
+    }
+    text.push_str(&hard_cases(&card.hard_cases));
+    text.push_str(&measured(card));
+    text
+}
+
+/// What the device's compiler counts, summed over a chapter's programs.
+fn compiler(chapter: &Chapter) -> String {
+    let mut sums: Vec<(&str, f64)> = Vec::new();
+    for (name, value) in chapter.compiler.iter().flat_map(|program| &program.statistics) {
+        match sums.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += value,
+            None => sums.push((name, *value)),
+        }
+    }
+    let counted = sums.iter().map(|(name, sum)| format!("{name} {sum}"));
+    let words = counted.collect::<Vec<_>>().join("; ").replace('|', "\\|");
+    if words.is_empty() { "–".to_owned() } else { words }
+}
+
+/// What RADV counts: sums, and the most registers of a program.
+fn radv(chapter: &Chapter) -> String {
+    if chapter.radv.is_empty() {
+        return "–".to_owned();
+    }
+    let instructions: u64 = chapter.radv.iter().map(|program| program.instructions).sum();
+    let registers = chapter.radv.iter().map(|program| program.registers).max().unwrap_or(0);
+    let spilled: u64 = chapter.radv.iter().map(|program| program.spilled_registers).sum();
+    format!("{instructions}, {registers}, {spilled}")
+}
+
+/// How many of the answers that must be right are.
+fn top(table: &Table<HardCases>) -> String {
+    if let Some(why) = &table.failed {
+        return why.clone();
+    }
+    let (mut right, mut all, mut missing) = (0, 0, 0);
+    for rung in table.rungs.iter().filter(|rung| rung.top) {
+        match rung.unavailable {
+            Some(_) => missing += 1,
+            None => (right, all) = (right + rung.right, all + rung.cases),
+        }
+    }
+    match missing {
+        0 => format!("top rungs right {right} of {all}"),
+        _ => format!("top rungs right {right} of {all}, {missing} rungs not offered"),
+    }
+}
+
+fn hard_cases(table: &Table<HardCases>) -> String {
+    let mut text = "\n## Hard cases\n\n".to_owned();
+    if let Some(why) = &table.failed {
+        let _ = writeln!(text, "{why}\n");
+    }
+    if table.rungs.is_empty() {
+        return text;
+    }
+    text.push_str("| asked of | rung | way | right |\n|---|---|---|---|\n");
+    for HardCases { primitive, rung, name, way, top, cases, right, unavailable } in &table.rungs {
+        let mark = if *top { ", top" } else { "" };
+        let right = match unavailable {
+            Some(why) => why.replace('|', "\\|"),
+            None => format!("{right} of {cases}"),
+        };
+        let _ = writeln!(text, "| {primitive} | {rung} {name}{mark} | {way} | {right} |");
+    }
+    text
+}
+
+fn measured(card: &Card) -> String {
+    let mut text = "\n## Random rays\n\n".to_owned();
+    if let Some(why) = &card.measured.failed {
+        return text + why + "\n";
+    }
+    text.push_str(
+        "| asked of | rung | worst, ULP | wrong hits and misses | time, plain rung 1 |\n",
+    );
+    text.push_str("|---|---|--:|--:|--:|\n");
+    for row in &card.measured.rungs {
+        let ratio = row.time_ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
+        let _ = writeln!(
+            text,
+            "| {} | {} {} | {:.1} | {} | {ratio} |",
+            row.primitive, row.rung, row.name, row.worst_ulp, row.wrong
+        );
+    }
+    text
+}
+
+/// All cards, a row a device.
+pub fn devices(cards: &[Card]) -> String {
+    let mut text = "| device | driver | Vulkan | system | chapters that pass | hard cases | validation | date |\n\
+                    |---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    for card in cards {
+        let Some(device) = &card.device else { continue };
+        let failing = card.chapters.iter().filter(|chapter| chapter.failed.is_some());
+        let failing: Vec<String> =
+            failing.map(|chapter| format!("{}: {}", chapter.name, result(chapter))).collect();
+        let mut passed = format!("{} of {}", card.passed(), card.chapters.len());
+        if !failing.is_empty() {
+            passed += &format!("; {}", failing.join("; "));
+        }
+        let cells = [
+            device.name.clone(),
+            device.driver.clone(),
+            vulkan(device),
+            card.system.clone(),
+            passed,
+            top(&card.hard_cases),
+            if card.validated { "on" } else { "not installed" }.to_owned(),
+            card.date.clone(),
+        ];
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    text
+}

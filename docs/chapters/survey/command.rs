@@ -1,0 +1,347 @@
+//! `chapters survey`: every chapter on this device, each in a process of its own, and what came of it.
+//!
+//! A chapter that fails, crashes, loses the device or does not end is a line of the card; the others still
+//! run. Nothing is written before all have.
+
+use std::error::Error;
+use std::fmt::{Display, Formatter};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::{Instant, SystemTime};
+
+use anyhow::{Context, Result, bail};
+use common::files::Folder;
+use common::gpu::Limits;
+use common::usage::Usage;
+use manuscript::project::{Chapter, Project};
+use patience::Limit;
+use serde_json::Value;
+
+use super::accuracy;
+use super::card::{self, Card, Device};
+use super::card_page;
+use crate::programs::child::{self, Ended};
+use crate::programs::interrupt;
+use crate::programs::program::Programs;
+
+/// The size of the picture whose time is taken.
+pub const TIMED: &str = "480x300";
+
+/// How a program says that there is no device at all.
+const NO_DRIVER: &str = "no Vulkan driver";
+
+/// A device that executes nothing, as a stand-in for a card does: whatever its card would say were false.
+#[derive(Debug)]
+struct Idle {
+    device: String,
+    chapter: String,
+}
+
+impl Display for Idle {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { device, chapter } = self;
+        write!(
+            f,
+            "{device} executes nothing: {chapter} took no time and every pixel is zero; there is nothing to judge"
+        )
+    }
+}
+
+impl Error for Idle {}
+
+/// A survey of one device.
+pub struct Survey<'a> {
+    /// Whose chapters run.
+    pub project: &'a Project,
+    /// Their programs.
+    pub programs: &'a Programs,
+    /// The device, as `--device` names it.
+    pub device: Option<&'a str>,
+    /// How long a program may take.
+    pub limit: Limit,
+}
+
+impl Survey<'_> {
+    /// What would be run, a line a program.
+    pub fn list(&self) -> String {
+        let line = |chapter: &Chapter| {
+            let arguments: String =
+                chapter.golden.iter().map(|argument| format!(" {argument}")).collect();
+            format!(
+                "{}: --headless --validate{arguments}, against {}\n",
+                chapter.name,
+                golden(chapter)
+            )
+        };
+        let mut text: String = self.project.chapters.iter().map(line).collect();
+        for (what, arguments) in accuracy::runs(self.project, Path::new("FOLDER")) {
+            text.push_str(&format!("{}: {} ({what})\n", accuracy::NAME, arguments.join(" ")));
+        }
+        text
+    }
+
+    /// Runs everything, says so a line a chapter, and writes the card to a folder.
+    ///
+    /// # Errors
+    /// If there is no device, it executes nothing, the card cannot be written, a signal asks for the end, or a
+    /// chapter fails: then the line says where the card is.
+    pub fn run(&self, out: &Path) -> Result<()> {
+        interrupt::on_signal();
+        let cannot = || format!("cannot write to '{}'", out.display());
+        fs::create_dir_all(out).with_context(cannot)?;
+        common::files::check_writable(&out.join("card.md"))?;
+        self.build()?;
+        self.check_device()?;
+        let folder = Folder::temporary()?;
+        let laboratory = accuracy::runs(self.project, folder.path());
+        let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
+        let limit = self.limit;
+        crate::print(&format!(
+            "{} lines to come; a program is stopped after {limit}\n",
+            steps.all
+        ))?;
+        let mut card = Card {
+            date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
+            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            commit: self.commit(),
+            validated: true,
+            tolerance: flip::TOLERANCE,
+            ..Card::default()
+        };
+        for chapter in &self.project.chapters {
+            let line = self.chapter(chapter, folder.path(), &mut card)?;
+            interrupt::asked()?;
+            let told = match (&line.failed, line.milliseconds) {
+                (Some(why), _) => why.clone(),
+                (None, milliseconds) => {
+                    format!("passes, {:.2} ms", milliseconds.unwrap_or_default())
+                }
+            };
+            steps.told(&chapter.name, &told)?;
+            card.chapters.push(line);
+        }
+        for (index, (what, arguments)) in laboratory.iter().enumerate() {
+            let failed = self.ask(accuracy::NAME, arguments).err().map(|error| told(&error));
+            interrupt::asked()?;
+            steps.told(what, failed.as_deref().unwrap_or("done"))?;
+            match index {
+                0 => card.hard_cases = accuracy::hard_cases(failed, folder.path()),
+                _ => card.measured = accuracy::measured(failed, folder.path()),
+            }
+        }
+        let stem = card.stem();
+        let json = serde_json::to_string_pretty(&card)? + "\n";
+        common::files::write_whole(&out.join(format!("{stem}.json")), json.as_bytes())?;
+        common::files::write_whole(
+            &out.join(format!("{stem}.md")),
+            card_page::card(&card).as_bytes(),
+        )?;
+        let files = format!("{stem}.md and {stem}.json in {}", out.display());
+        let (passed, all) = (card.passed(), card.chapters.len());
+        if card.fails() {
+            bail!(
+                "{passed} of {all} chapters pass, hard cases and measurements apart; the card is {files}"
+            );
+        }
+        crate::print(&format!("{all} chapters pass; the card is {files}\n"))
+    }
+
+    /// What is surveyed: the commit, and whether code or shaders differ from it.
+    fn commit(&self) -> Option<String> {
+        let git = |arguments: &[&str]| {
+            let output =
+                Command::new("git").args(arguments).current_dir(&self.project.root).output();
+            let output = output.ok().filter(|output| output.status.success())?;
+            Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        };
+        let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+        let changed = git(&["status", "--porcelain", "--", "samples", "common", "shaders"])?;
+        Some(if changed.is_empty() { commit } else { commit + "+" })
+    }
+
+    /// Builds the programs if one is missing or older than its sources.
+    fn build(&self) -> Result<()> {
+        let names = self.project.chapters.iter().map(|chapter| &*chapter.name);
+        let mut stale = names.filter_map(|name| self.programs.command(name).err());
+        let Some(why) = stale.next() else { return Ok(()) };
+        crate::print(&format!("{why}: cargo build --bins, some minutes the first time\n"))?;
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args(["build", "--quiet", "--bins"]).current_dir(&self.project.root);
+        if self.programs.are_released() {
+            cargo.arg("--release");
+        }
+        // What does not build is told chapter by chapter.
+        cargo.status().map(drop).context("cargo does not start")
+    }
+
+    /// Fails if there is no device, or `--device` names none, before anything is run for a card.
+    fn check_device(&self) -> Result<()> {
+        let Some(chapter) = self.project.chapters.last() else { return Ok(()) };
+        let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
+        if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
+            return Err(Usage(line).into());
+        }
+        // What else keeps a program from running is a line of the card.
+        match ended.failed().filter(|line| line.starts_with(NO_DRIVER)) {
+            Some(line) => bail!("{line}"),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs a program to its end.
+    ///
+    /// # Errors
+    /// If it cannot be run, or fails: in one line, why.
+    fn ask(&self, name: &str, arguments: &[String]) -> Result<()> {
+        match self.end_of(name, arguments)?.failed() {
+            Some(why) => bail!("{why}"),
+            None => Ok(()),
+        }
+    }
+
+    fn end_of(&self, name: &str, arguments: &[String]) -> Result<Ended> {
+        let mut command = self.programs.command(name).map_err(anyhow::Error::msg)?;
+        if let Some(shaders) = std::env::var_os("SHADERS") {
+            command.env("SHADERS", shaders);
+        }
+        if let Some(device) = self.device {
+            command.args(["--device", device]);
+        }
+        child::run(command.args(arguments), self.limit)
+    }
+
+    /// One chapter: its golden picture under validation, its time, and what compilers say.
+    ///
+    /// # Errors
+    /// If the device executes nothing.
+    fn chapter(&self, chapter: &Chapter, folder: &Path, card: &mut Card) -> Result<card::Chapter> {
+        let mut line = card::Chapter { name: chapter.name.clone(), ..card::Chapter::default() };
+        if let Err(error) = self.try_chapter(chapter, folder, card, &mut line) {
+            if error.is::<Idle>() {
+                return Err(error);
+            }
+            line.failed = Some(told(&error));
+        }
+        Ok(line)
+    }
+
+    fn try_chapter(
+        &self,
+        chapter: &Chapter,
+        folder: &Path,
+        card: &mut Card,
+        line: &mut card::Chapter,
+    ) -> Result<()> {
+        let (picture, report) = (folder.join("picture.png"), folder.join("report.json"));
+        for file in [&picture, &report] {
+            let _ = fs::remove_file(file);
+        }
+        let golden = self.project.root.join(golden(chapter));
+        let golden = image::open(&golden)
+            .map_err(|_| anyhow::Error::msg("its golden picture is missing"))?;
+        let golden = golden.to_rgb8();
+        let (width, height) = golden.dimensions();
+        let run = |validate: bool, more: &[&str], size: &str| {
+            let mut arguments = words(&["--headless", "--size", size, "--report"]);
+            arguments.push(report.to_string_lossy().into_owned());
+            arguments.extend(validate.then(|| "--validate".to_owned()));
+            arguments.extend(words(more));
+            self.ask(&chapter.name, &arguments)
+        };
+        let out = picture.to_string_lossy();
+        let mut drawn = vec!["--out", &*out];
+        drawn.extend(chapter.golden.iter().map(String::as_str));
+        let size = format!("{width}x{height}");
+        let mut result = run(card.validated, &drawn, &size);
+        // A machine without the layer can still show whether its pictures are right.
+        if card.validated
+            && result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
+        {
+            card.validated = false;
+            result = run(false, &drawn, &size);
+        }
+        let said = read(&report).unwrap_or_default();
+        // 01, which keeps everything in one file, tells no limits.
+        let known = card.device.as_ref().is_some_and(|device| device.limits != Limits::default());
+        card.device = if known { card.device.take() } else { device(&said) };
+        line.validation_messages = said["validation_messages"].as_array().map_or(0, Vec::len);
+        result?;
+        let shown = image::open(&picture).context("it has written no picture")?.to_rgb8();
+        if shown.iter().all(|channel| *channel == 0) && said["gpu_milliseconds"]["max"] == 0.0 {
+            let device = said["device"].as_str().unwrap_or("this device").to_owned();
+            bail!(Idle { device, chapter: chapter.name.clone() });
+        }
+        let mean = flip::mean((width, height), &golden, &shown);
+        line.mean_flip = Some(mean);
+        run(false, &["--frames", "9", "--compiler-figures"], TIMED)
+            .context("without validation")?;
+        let said = read(&report)?;
+        line.milliseconds = said["gpu_milliseconds"]["median"].as_f64();
+        line.compiler = rows(&said["executables"]);
+        // Where RADV is not installed, or refuses, there are no figures of it.
+        if run(false, &["--compile-for", "navi31"], "8x8").is_ok() {
+            line.radv = rows(&read(&report)?["compiled_for"]);
+        }
+        if mean > flip::TOLERANCE {
+            bail!("its picture differs: mean FLIP {mean:.4}, above {}", flip::TOLERANCE);
+        }
+        Ok(())
+    }
+}
+
+/// Says what has been done and how long the rest may take.
+struct Steps {
+    all: usize,
+    done: usize,
+    start: Instant,
+}
+
+impl Steps {
+    fn new(all: usize) -> Self {
+        Self { all, done: 0, start: Instant::now() }
+    }
+
+    fn told(&mut self, name: &str, what: &str) -> Result<()> {
+        self.done += 1;
+        let left =
+            self.start.elapsed().as_secs_f64() / self.done as f64 * (self.all - self.done) as f64;
+        let left =
+            if self.done < self.all { format!("; about {left:.0} s left") } else { String::new() };
+        crate::print(&format!("[{}/{}] {name}: {what}{left}\n", self.done, self.all))
+    }
+}
+
+/// A chapter's golden picture.
+fn golden(chapter: &Chapter) -> String {
+    format!("tests/golden/{}.png", chapter.name)
+}
+
+/// Arguments of a program.
+pub fn words(words: &[&str]) -> Vec<String> {
+    words.iter().map(|word| (*word).to_owned()).collect()
+}
+
+/// An error as the card has it: one line, and no path of this machine.
+pub fn told(error: &anyhow::Error) -> String {
+    card::without_paths(&format!("{error:#}").replace('\n', " "))
+}
+
+/// What a program has reported.
+pub fn read(report: &Path) -> Result<Value> {
+    let text = fs::read_to_string(report).context("it has written no report")?;
+    serde_json::from_str(&text).context("its report is no JSON")
+}
+
+/// The device of a report that has its limits.
+fn device(report: &Value) -> Option<Device> {
+    let text = |key: &str| report[key].as_str().map(str::to_owned);
+    let limits = serde_json::from_value(report["limits"].clone()).ok()?;
+    Some(Device { name: text("device")?, driver: text("driver")?, limits })
+}
+
+/// The rows of a list, those of another shape left out.
+pub fn rows<T: serde::de::DeserializeOwned>(list: &Value) -> Vec<T> {
+    let rows = list.as_array().into_iter().flatten();
+    rows.filter_map(|row| serde_json::from_value(row.clone()).ok()).collect()
+}
