@@ -1,9 +1,11 @@
 //! A comparison of two chapters, for a terminal: coloured where one looks, plain where it is piped.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::ops::Range;
 
 use anstyle::{AnsiColor, Effects, Style};
+use anyhow::{Context, Result};
 use manuscript::diff::{FileDiff, Line};
 use manuscript::project::Chapter;
 use similar::{Algorithm, DiffOp, capture_diff_slices_by_key, group_diff_ops};
@@ -29,6 +31,18 @@ fn paint(style: Style, text: &str) -> String {
 
 /// A word that counts as the same on both sides: a chapter's name.
 type Names<'a> = [&'a str; 2];
+
+/// Prints to standard output, without colours where nobody would see them.
+///
+/// # Errors
+/// If it cannot be written; a reader that has closed it has seen enough.
+pub fn print(text: &str) -> Result<()> {
+    match anstream::stdout().write_all(text.as_bytes()) {
+        // A reader that has seen enough, as `head` has.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => result.context("cannot write to standard output"),
+    }
+}
 
 /// Which two chapters these are, and what the newer one teaches.
 pub fn heading(old: &Chapter, new: &Chapter) -> String {

@@ -12,13 +12,13 @@ use manuscript::shader;
 const NAME_LETTERS: usize = 40;
 
 /// A chapter that is to be made.
-pub struct New<'a> {
+pub struct NewChapter<'a> {
     project: &'a Project,
     from: &'a Chapter,
     chapter: Chapter,
 }
 
-impl<'a> New<'a> {
+impl<'a> NewChapter<'a> {
     /// A chapter with this number and name, a copy of `from`.
     ///
     /// # Errors

@@ -9,7 +9,6 @@
 //! - `run by NAME`: by another test.
 
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
@@ -17,7 +16,6 @@ use common::output::print;
 use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
-use patience::Limit;
 
 use crate::programs::child;
 use crate::programs::interrupt;
@@ -43,7 +41,7 @@ pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
     if list {
         return print(&groups.iter().map(Group::list).collect::<String>());
     }
-    interrupt::on_signal();
+    interrupt::listen();
     let mut failed = Vec::new();
     for group in &groups {
         if !group.pass(&project.root)? {
@@ -77,13 +75,11 @@ impl Group {
 
     /// Runs its tests, which print as they go, and tells how long they took; whether all passed.
     fn pass(&self, root: &Path) -> Result<bool> {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let mut command = Command::new(cargo);
-        command.current_dir(root).args(["test", "--test", &self.program, "--"]);
-        command.args(["--ignored", "--exact"]).args(self.tests.iter().map(|test| &test.name));
+        let mut cargo = child::cargo(root);
+        cargo.args(["test", "--test", &self.program, "--"]);
+        cargo.args(["--ignored", "--exact"]).args(self.tests.iter().map(|test| &test.name));
         let start = Instant::now();
-        let status = child::wait(&mut command.spawn()?, Limit::NONE)?;
-        let passed = status.is_some_and(|status| status.success());
+        let passed = child::show(&mut cargo)?.success();
         let (count, seconds) = (self.tests.len(), start.elapsed().as_secs());
         let word = if passed { "passed" } else { "FAILED" };
         print(&format!("{}: {count} tests, {seconds} s: {word}\n", self.program))?;

@@ -158,9 +158,18 @@ impl Project {
         })
     }
 
+    /// The chapter of this whole name.
+    pub fn named(&self, name: &str) -> Option<&Chapter> {
+        self.chapters.iter().find(|chapter| chapter.name == name)
+    }
+
+    /// The chapter whose page this is.
+    pub fn of_page(&self, path: &str) -> Option<&Chapter> {
+        self.chapters.iter().find(|chapter| chapter.page() == path)
+    }
+
     /// Whether a chapter builds on another, directly or not.
     pub fn descends(&self, chapter: &Chapter, other: &Chapter) -> bool {
-        let named = |name: &str| self.chapters.iter().find(|known| known.name == name);
         let mut parent = chapter.from.as_deref();
         // No line of parents is longer than the list of chapters, unless it is a circle.
         for _ in &self.chapters {
@@ -168,7 +177,7 @@ impl Project {
             if name == other.name {
                 return true;
             }
-            parent = named(name).and_then(|chapter| chapter.from.as_deref());
+            parent = self.named(name).and_then(|chapter| chapter.from.as_deref());
         }
         false
     }

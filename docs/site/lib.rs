@@ -170,7 +170,7 @@ fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> St
     let at = entries.iter().position(|other| other == entry).unwrap_or(0);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
     if code {
-        let title = match project.chapters.iter().any(|chapter| chapter.page() == entry.file) {
+        let title = match project.of_page(&entry.file).is_some() {
             true => "The whole code, beside that of the chapter before",
             false => "The files that this page shows",
         };

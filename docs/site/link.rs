@@ -91,7 +91,7 @@ pub fn id(file: &str) -> String {
 
 /// The title of the page with a page's code.
 pub fn code_title(project: &Project, entry: &Entry) -> String {
-    match project.chapters.iter().find(|chapter| chapter.page() == entry.file) {
+    match project.of_page(&entry.file) {
         Some(chapter) => format!("Code of {}", chapter.number()),
         None if entry.file == README => "Files of the first page".to_owned(),
         None => format!("Files of {}", entry.title),

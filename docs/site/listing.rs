@@ -24,7 +24,7 @@ pub fn compose(
     entry: &Entry,
     files: &BTreeSet<String>,
 ) -> Result<Option<String>> {
-    let chapter = project.chapters.iter().find(|chapter| chapter.page() == entry.file);
+    let chapter = project.of_page(&entry.file);
     if chapter.is_none() && files.is_empty() {
         return Ok(None);
     }
@@ -82,7 +82,7 @@ impl Shown<'_> {
     fn chapter(&mut self, chapter: &Chapter, page: &str) -> Result<()> {
         let project = self.project;
         let from = chapter.from.as_deref();
-        let parent = project.chapters.iter().find(|other| Some(&*other.name) == from);
+        let parent = from.and_then(|from| project.named(from));
         let mut own = project.files(&format!("samples/{}", chapter.name));
         own.sort_by_key(|file| !file.ends_with("/main.rs"));
         own.extend(shader::own(project, chapter));

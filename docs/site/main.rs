@@ -21,8 +21,7 @@ struct Arguments {
 fn main() -> ExitCode {
     let Arguments { out, root } = Arguments::parse();
     let out = out.unwrap_or_else(|| root.join("book"));
-    // Where a signal is ignored, as `nohup` has it, all stays as it is.
-    let _ = ctrlc::try_set_handler(|| {
+    signals::watch(|_| {
         site::output::abandon();
         eprintln!("error: stopped by a signal");
         std::process::exit(1)

@@ -13,11 +13,11 @@ use patience::Limit;
 
 use super::exercise::{Exercise, Takes};
 use super::expectation::{Expectation, Other};
-use super::mismatch::Missed;
+use super::mismatch::Mismatch;
 use super::proof::{Run, Step, sized};
 use crate::patches::edition::{Edition, Patched};
 use crate::programs::program::Programs;
-use crate::programs::run_result::{Seen, is_software};
+use crate::programs::run_result::{RunResult, is_software};
 use crate::sources::hash::hash;
 
 /// How long a program may take.
@@ -65,7 +65,7 @@ impl<'a> Originals<'a> {
     /// The chapter and the arguments that make the picture to compare with.
     fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
         let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
-        let named = |word: &String| self.project.chapters.iter().any(|known| known.name == *word);
+        let named = |word: &String| self.project.named(word).is_some();
         let chapter = match arguments.first().is_some_and(named) {
             true => arguments.remove(0),
             false => exercise.chapter.clone(),
@@ -85,7 +85,7 @@ impl<'a> Originals<'a> {
             return Ok(picture.clone());
         }
         let command = Edition::Book.command(self.project, self.programs, chapter)?;
-        let seen = Seen::of(command, arguments, LIMIT)?;
+        let seen = RunResult::of(command, arguments, LIMIT)?;
         let picture =
             seen.picture.with_context(|| format!("{chapter} fails as it is: {}", seen.said))?;
         known().insert(key, picture.clone());
@@ -107,7 +107,7 @@ fn name(chapter: &str, arguments: &[String]) -> String {
 /// What an edition makes of an exercise.
 pub struct Verdict {
     /// What is not as it should be; `None` if the exercise is solved.
-    pub missed: Option<Missed>,
+    pub missed: Option<Mismatch>,
     /// The picture of the run that showed it, else the first.
     pub picture: Option<Picture>,
 }
@@ -136,7 +136,7 @@ impl Attempt<'_> {
                 Run::Program(arguments) => {
                     let (programs, chapter) = (self.programs, &self.exercise.chapter);
                     let command = edition.command(self.project, programs, chapter)?;
-                    let seen = Seen::of(command, arguments, LIMIT)?;
+                    let seen = RunResult::of(command, arguments, LIMIT)?;
                     let missed = self.missed(edition, step, arguments, &seen)?;
                     if let Some(missed) = missed {
                         let picture = seen.picture;
@@ -167,8 +167,8 @@ impl Attempt<'_> {
         edition: &Edition,
         step: &Step,
         arguments: &[String],
-        seen: &Seen,
-    ) -> Result<Option<Missed>> {
+        seen: &RunResult,
+    ) -> Result<Option<Mismatch>> {
         let (mut refused, mut heard) = (false, false);
         for expectation in &step.expectations {
             refused |= matches!(expectation, Expectation::Refused(_));
@@ -190,7 +190,7 @@ impl Attempt<'_> {
                 let command =
                     edition.command(self.project, self.programs, &self.exercise.chapter)?;
                 let arguments = sized(other.arguments.clone().unwrap_or_default());
-                let seen = Seen::of(command, &arguments, LIMIT)?;
+                let seen = RunResult::of(command, &arguments, LIMIT)?;
                 seen.picture.with_context(|| format!("no picture: {}", seen.said))
             }
             false => {
@@ -206,7 +206,7 @@ impl Attempt<'_> {
             let near = || self.near(seen.device());
             if let Some(what) = expectation.missed(seen, picture, &near)? {
                 let arguments = Some(arguments.to_vec());
-                return Ok(Some(Missed { what, arguments, compared }));
+                return Ok(Some(Mismatch { what, arguments, compared }));
             }
         }
         Ok(None)

@@ -19,7 +19,7 @@ use crate::programs::workers;
 
 /// What is asked.
 #[derive(Debug, Args)]
-pub struct Practice {
+pub struct ExerciseArguments {
     /// An exercise, such as 05.2, or a chapter
     #[arg(value_name = "NN.k")]
     names: Vec<String>,
@@ -52,13 +52,13 @@ pub struct Practice {
     prove: bool,
 }
 
-impl Practice {
+impl ExerciseArguments {
     /// Does what is asked.
     ///
     /// # Errors
     /// If it cannot be done, or the exercise is not solved yet where that is asked.
     pub fn run(&self, project: &Project) -> Result<()> {
-        interrupt::on_signal();
+        interrupt::listen();
         if self.prove {
             return self.prove(project);
         }

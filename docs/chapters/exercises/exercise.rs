@@ -11,7 +11,7 @@ use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project};
 
-use super::interval::{Amount, number};
+use super::interval::{Interval, number};
 use super::proof::{Run, Step, steps};
 use crate::patches::patch::{Field, Patch};
 
@@ -210,7 +210,7 @@ impl Exercise {
     pub fn accepts(&self, answer: &str) -> bool {
         let given = plain(answer);
         self.answers.iter().map(|right| plain(right)).any(|right| {
-            match Amount::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
+            match Interval::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
                 Some(amount) => told(&given).is_some_and(|given| amount.holds(given)),
                 None => given == right,
             }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::interval::Amount;
-use crate::pages::shell::quoted;
+use super::interval::Interval;
+use crate::programs::command_line::quoted;
 
 /// The forms of an expectation, as an error tells them to the author.
 pub const FORMS: &str = "write differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
@@ -35,19 +35,19 @@ impl fmt::Display for Other {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
     /// The mean difference of the pictures over all channels in sRGB, of 1.
-    DiffersBy(Amount, Other),
+    DiffersBy(Interval, Other),
     /// The number of pixels that differ in 8 bits.
-    DiffersIn(Amount, Other),
+    DiffersIn(Interval, Other),
     /// The pictures are the same: to the bit on a software driver, elsewhere but for its arithmetic.
     Same(Other),
     /// The 8-bit colour of a pixel, from the upper left.
-    Pixel([u32; 2], [Amount; 3]),
+    Pixel([u32; 2], [Interval; 3]),
     /// How many pixels have an 8-bit colour.
-    Pixels([u8; 3], Amount),
+    Pixels([u8; 3], Interval),
     /// The largest float in a channel.
-    Largest(usize, Amount),
+    Largest(usize, Interval),
     /// The number at a dotted key of the report.
-    Number(String, Amount),
+    Number(String, Interval),
     /// The text at a dotted key of the report.
     Text(String, String),
     /// A line that is printed holds this.
@@ -63,11 +63,11 @@ pub enum Expectation {
 }
 
 /// Three values, each a number or `A to B`.
-fn channels(words: &[&str]) -> Option<[Amount; 3]> {
+fn channels(words: &[&str]) -> Option<[Interval; 3]> {
     let (mut rest, mut found) = (words, Vec::new());
     while !rest.is_empty() {
         let count = if rest.get(1) == Some(&"to") { 3 } else { 1 };
-        found.push(Amount::exactly(rest.get(..count)?)?);
+        found.push(Interval::exactly(rest.get(..count)?)?);
         rest = &rest[count..];
     }
     found.try_into().ok()
@@ -103,7 +103,7 @@ impl Expectation {
         if let Some(rest) = after("report ") {
             let (key, value) = rest.split_once(' ')?;
             let words: Vec<&str> = value.split_whitespace().collect();
-            return Some(match Amount::exactly(&words) {
+            return Some(match Interval::exactly(&words) {
                 Some(amount) => Self::Number(key.to_owned(), amount),
                 None => Self::Text(key.to_owned(), value.trim().to_owned()),
             });
@@ -118,9 +118,9 @@ impl Expectation {
             };
             let words: Vec<&str> = amount.split_whitespace().collect();
             return match &words[..] {
-                ["by", amount @ ..] => Some(Self::DiffersBy(Amount::at_least(amount)?, from)),
+                ["by", amount @ ..] => Some(Self::DiffersBy(Interval::at_least(amount)?, from)),
                 ["in", amount @ .., "pixels" | "pixel"] => {
-                    Some(Self::DiffersIn(Amount::exactly(amount)?, from))
+                    Some(Self::DiffersIn(Interval::exactly(amount)?, from))
                 }
                 _ => None,
             };
@@ -136,11 +136,11 @@ impl Expectation {
             ["pixels", r, g, b, count @ ..] => {
                 let blue = b.strip_suffix(':')?;
                 let color = [r.parse().ok()?, g.parse().ok()?, blue.parse().ok()?];
-                Some(Self::Pixels(color, Amount::exactly(count)?))
+                Some(Self::Pixels(color, Interval::exactly(count)?))
             }
             ["largest", channel, "is", amount @ ..] => {
                 let channel = ["r", "g", "b", "a"].iter().position(|name| name == channel)?;
-                Some(Self::Largest(channel, Amount::exactly(amount)?))
+                Some(Self::Largest(channel, Interval::exactly(amount)?))
             }
             _ => None,
         }

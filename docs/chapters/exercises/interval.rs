@@ -4,12 +4,12 @@ use std::fmt;
 
 /// Numbers from `low` to `high`, both included.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Amount {
+pub struct Interval {
     low: f64,
     high: f64,
 }
 
-impl Amount {
+impl Interval {
     /// `A`, that number alone, or `A to B`; `None` if the words are neither.
     pub fn exactly(words: &[&str]) -> Option<Self> {
         let (low, high) = match words {
@@ -32,7 +32,7 @@ impl Amount {
     }
 }
 
-impl fmt::Display for Amount {
+impl fmt::Display for Interval {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match *self {
             Self { low, high } if low == high => write!(f, "{low}"),
@@ -59,15 +59,15 @@ mod tests {
     #[test]
     fn one_number_or_two_ends() {
         let [one, range] =
-            ["1,582", "-1 to 2.5"].map(|text| Amount::exactly(&words(text)).unwrap());
+            ["1,582", "-1 to 2.5"].map(|text| Interval::exactly(&words(text)).unwrap());
         assert_eq!([1582.0, 1583.0].map(|number| one.holds(number)), [true, false]);
         assert_eq!([-1.0, 2.5, 2.6].map(|number| range.holds(number)), [true, true, false]);
-        let least = Amount::at_least(&["3"]).unwrap();
+        let least = Interval::at_least(&["3"]).unwrap();
         assert_eq!([2.0, 3.0, 9.0].map(|number| least.holds(number)), [false, true, true]);
         let shown = [one, range, least].map(|amount| amount.to_string());
         assert_eq!(shown, ["1582", "-1 to 2.5", "at least 3"]);
         for text in ["", "x", "NaN", "1 or 2", "1 to", "2 to 1"] {
-            assert_eq!(Amount::exactly(&words(text)), None, "{text}");
+            assert_eq!(Interval::exactly(&words(text)), None, "{text}");
         }
     }
 }

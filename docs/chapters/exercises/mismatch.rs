@@ -9,14 +9,15 @@ use flip::near::Near;
 use serde_json::Value;
 
 use super::expectation::{Expectation, Other};
-use super::interval::Amount;
-use crate::pages::shell::quoted;
+use super::interval::Interval;
 use crate::patches::edition::Tested;
-use crate::programs::run_result::{Seen, mean_difference, pixels_apart, same_bits};
+use crate::pictures::difference::{mean_difference, pixels_apart, same_bits};
+use crate::programs::command_line::quoted;
+use crate::programs::run_result::RunResult;
 
 /// What was seen instead of what an exercise expects.
 #[derive(Default)]
-pub struct Missed {
+pub struct Mismatch {
     /// In a line.
     pub what: String,
     /// The arguments of the run that showed it; `None` if it was no run of a program.
@@ -25,7 +26,7 @@ pub struct Missed {
     pub compared: Option<(Other, Picture)>,
 }
 
-impl fmt::Display for Missed {
+impl fmt::Display for Mismatch {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.what)?;
         match &self.arguments {
@@ -35,13 +36,13 @@ impl fmt::Display for Missed {
     }
 }
 
-impl From<String> for Missed {
+impl From<String> for Mismatch {
     fn from(what: String) -> Self {
         Self { what, ..Self::default() }
     }
 }
 
-impl Missed {
+impl Mismatch {
     /// The line for a reader, with where the pictures lie: the run's own, and what it was compared with.
     pub fn told(&self, own: &str, other: &str) -> String {
         match &self.compared {
@@ -60,7 +61,7 @@ impl Expectation {
     /// If there is no picture, or the other is of another size.
     pub fn missed(
         &self,
-        seen: &Seen,
+        seen: &RunResult,
         other: Option<&Picture>,
         near: &dyn Fn() -> Result<Option<Near>>,
     ) -> Result<Option<String>> {
@@ -105,7 +106,7 @@ impl Expectation {
                 let color = &picture.srgb()[at..at + 3];
                 let holds =
                     amounts.iter().zip(color).all(|(amount, c)| amount.holds(f64::from(*c)));
-                let wanted: Vec<String> = amounts.iter().map(Amount::to_string).collect();
+                let wanted: Vec<String> = amounts.iter().map(Interval::to_string).collect();
                 held(holds, format!("pixel {x} {y} is {color:?}, not [{}]", wanted.join(", ")))
             }
             Self::Pixels(color, amount) => {
@@ -185,7 +186,7 @@ mod tests {
         Picture { width: 2, height: 1, pixels: vec![[0.5, 0.5, 0.5, 3.0], [1.0, 0.0, 0.0, -1.0]] }
     }
 
-    fn seen(code: i32) -> Seen {
+    fn seen(code: i32) -> RunResult {
         #[cfg(unix)]
         let status = std::os::unix::process::ExitStatusExt::from_raw(code << 8);
         #[cfg(windows)]
@@ -194,7 +195,7 @@ mod tests {
             "groups": 3, "chapter": { "rows": [{ "name": "a b" }] }, "validation_messages": ["VUID-x: y"],
         });
         let (said, told) = ("no such control".to_owned(), "2 rays\n".to_owned());
-        Seen { picture: Some(picture()), status: Some(status), said, told, report }
+        RunResult { picture: Some(picture()), status: Some(status), said, told, report }
     }
 
     /// Whether it holds against a picture of which one pixel is black.
@@ -249,7 +250,7 @@ mod tests {
         let is_met = |flipped: usize, near: Option<Near>| {
             let mut own = plain.clone();
             own.pixels.iter_mut().step_by(101).take(flipped).for_each(|pixel| *pixel = [1.0; 4]);
-            let seen = Seen { picture: Some(own), ..seen(0) };
+            let seen = RunResult { picture: Some(own), ..seen(0) };
             same.missed(&seen, Some(&plain), &|| Ok(near)).unwrap().is_none()
         };
         let near = Some(Near::of("16_ray_query").both());

@@ -19,14 +19,14 @@ const DEBOUNCE: Duration = Duration::from_millis(100);
 const GLANCE: Duration = Duration::from_millis(500);
 
 /// Folders that are watched.
-pub struct Watch {
+pub struct FolderWatcher {
     folders: Vec<PathBuf>,
     saved: Receiver<()>,
     last: Option<u64>,
     _watcher: Box<dyn Watcher>,
 }
 
-impl Watch {
+impl FolderWatcher {
     /// Watches some folders and all below them.
     ///
     /// # Errors

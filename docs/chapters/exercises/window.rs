@@ -17,7 +17,7 @@ impl Window {
     /// # Errors
     /// If it does not start.
     pub fn open(command: &mut Command) -> Result<Self> {
-        let child = command.stdin(Stdio::null()).stdout(Stdio::null()).spawn();
+        let child = child::start(command.stdin(Stdio::null()).stdout(Stdio::null()));
         Ok(Self(child.context("the window does not open")?))
     }
 

@@ -13,13 +13,13 @@ use super::attempt::{Attempt, Originals, Verdict};
 use super::exercise::{Exercise, Takes};
 use super::progress::Progress;
 use super::proof::Run;
-use super::watcher::Watch;
+use super::watcher::FolderWatcher;
 use super::window::Window;
-use crate::pages::shell::quoted;
 use crate::patches::copy::{Changed, copy_shaders, file_on_the_way};
 use crate::patches::edition::Edition;
+use crate::programs::command_line::quoted;
 use crate::programs::interrupt;
-use crate::programs::program::{BUILD, Programs};
+use crate::programs::program::Programs;
 
 /// The place of an exercise.
 pub struct Workbench<'a> {
@@ -68,16 +68,16 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If it cannot be made, holds something else, or the chapter's program is not built.
     pub fn set_up(&self) -> Result<bool> {
-        let built = || self.programs.command(&self.exercise.chapter);
+        let built = || self.programs.built(&self.exercise.chapter);
         match self.exercise.takes {
             Takes::Look => {
-                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                built()?;
                 // Where the command that is told writes its picture.
                 fs::create_dir_all(self.project.root.join("target/exercises"))?;
                 Ok(true)
             }
             Takes::Shader => {
-                built().map_err(|what| anyhow!("{what}; {BUILD}"))?;
+                built()?;
                 let book = self.project.root.join("shaders");
                 let is_book =
                     |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
@@ -233,7 +233,7 @@ impl<'a> Workbench<'a> {
                 .to_vec(),
             _ => vec![self.folder.clone()],
         };
-        let mut watch = Watch::of(folders)?;
+        let mut watch = FolderWatcher::of(folders)?;
         let originals = self.originals();
         let mut window = with_window.then(|| self.window()).transpose()?;
         loop {

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use manuscript::page::Page;
 
 use super::passage::{Mark, Passage};
-use super::record::Stored;
+use super::record::Record;
 
 /// The measurements that are stored, by page and name.
-pub type All = BTreeMap<String, Stored>;
+pub type Records = BTreeMap<String, Record>;
 
 /// The measurement and the value for each number of a passage.
-pub fn names(page: &Page, passage: &Passage, stored: &All) -> Vec<(String, String)> {
+pub fn names(page: &Page, passage: &Passage, stored: &Records) -> Vec<(String, String)> {
     let mut found = Vec::new();
     for (_, mark) in &passage.marks {
         let Mark::Figures(groups) = mark else { continue };
@@ -39,7 +39,7 @@ pub fn names(page: &Page, passage: &Passage, stored: &All) -> Vec<(String, Strin
 }
 
 /// The values of a table's row: those that are named for it, and are there.
-fn of_row(row: &str, groups: &[(String, &Vec<String>)], stored: &All) -> Vec<(String, String)> {
+fn of_row(row: &str, groups: &[(String, &Vec<String>)], stored: &Records) -> Vec<(String, String)> {
     let row = row.trim().replace(' ', "-");
     let named = groups.iter().flat_map(|(name, keys)| keys.iter().map(move |key| (name, key)));
     let own = named.map(|(name, key)| (name.clone(), key.replace('*', &row)));

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::record::Stored;
+use super::record::Record;
 
 /// How long `2026-11-22` is.
 pub const DAY: usize = 10;
@@ -42,12 +42,12 @@ fn day(text: &str) -> Option<usize> {
 }
 
 /// What a note should say at most.
-pub fn told(stored: &Stored) -> String {
+pub fn told(stored: &Record) -> String {
     format!("{}, {}, {}", stored.device, stored.driver, stored.date)
 }
 
 /// The first word of a note that is neither the device's nor the driver's nor the day.
-pub fn unknown_word<'a>(note: &'a str, stored: &Stored) -> Option<&'a str> {
+pub fn unknown_word<'a>(note: &'a str, stored: &Record) -> Option<&'a str> {
     let told = told(stored);
     let known: Vec<&str> = words(&told).collect();
     // A driver's version is that of its package: 25.0.7-2 is Mesa 25.0.7.
@@ -83,7 +83,7 @@ mod tests {
         let text = r#"{ "command": "", "timed": false, "device": "llvmpipe (LLVM 15.0.6, 256 bits)",
             "driver": "llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)", "date": "2026-11-22",
             "sources": "", "values": {} }"#;
-        let stored: Stored = serde_json::from_str(text).unwrap();
+        let stored: Record = serde_json::from_str(text).unwrap();
         assert_eq!(unknown_word(NOTE, &stored), None);
         let cases = [("25.0.7", "25.0.8"), ("11-22", "11-21"), ("256", "128"), ("LLVM", "AVX")];
         for (from, to) in cases {

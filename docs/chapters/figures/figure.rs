@@ -32,11 +32,11 @@ use std::ops::Range;
 use manuscript::fault::{Fault, SYNC};
 use manuscript::page::Page;
 
-use super::binding::{All, names};
+use super::binding::{Records, names};
 use super::device_note;
 use super::number::Number;
 use super::passage::{self, Mark, Passage, line};
-use super::record::{self, Stored};
+use super::record::{self, Record};
 
 /// How the fault of a figure without a measurement ends.
 const NO_MEASUREMENT: &str = "bound to no measurement";
@@ -72,7 +72,7 @@ struct Found {
 }
 
 /// What is wrong with a page's figures; `unbound` are the pages that may have figures without measurement.
-pub fn check(page: &Page, stored: &All, unbound: &[String]) -> Vec<Fault> {
+pub fn check(page: &Page, stored: &Records, unbound: &[String]) -> Vec<Fault> {
     let text = page.written();
     let mut found = Found::of(page, &text, stored);
     let fault = |at: usize, what: String, remedy: &str| {
@@ -97,7 +97,7 @@ pub fn check(page: &Page, stored: &All, unbound: &[String]) -> Vec<Fault> {
             continue;
         };
         for name in names {
-            let of_day = Stored { date: day.to_owned(), ..stored[name].clone() };
+            let of_day = Record { date: day.to_owned(), ..stored[name].clone() };
             let Some(word) = device_note::unknown_word(note, &of_day) else { continue };
             let told = device_note::told(&of_day);
             let what = format!("this note says {word}, {} is of {told}", record::file(name));
@@ -124,7 +124,7 @@ pub fn check(page: &Page, stored: &All, unbound: &[String]) -> Vec<Fault> {
 }
 
 /// The page with every bound figure, and the day in every note, as they are stored.
-pub fn filled(page: &Page, stored: &All) -> Page {
+pub fn filled(page: &Page, stored: &Records) -> Page {
     let text = page.written();
     let found = Found::of(page, &text, stored);
     let figure = |bound: &Bound| (bound.number.span.clone(), bound.number.like(bound.value));
@@ -145,7 +145,7 @@ pub fn filled(page: &Page, stored: &All) -> Page {
 }
 
 impl Found {
-    fn of(page: &Page, text: &str, stored: &All) -> Self {
+    fn of(page: &Page, text: &str, stored: &Records) -> Self {
         let mut found = Self::default();
         let devices = stored.values().filter(|stored| stored.device != record::HOST);
         let devices: BTreeSet<&str> =
@@ -173,7 +173,7 @@ impl Found {
     }
 
     /// Takes the open measurements that a note is of: its first word is their device's.
-    fn open_of(&mut self, note: &str, stored: &All) -> BTreeSet<String> {
+    fn open_of(&mut self, note: &str, stored: &Records) -> BTreeSet<String> {
         let device = |device: &str| device.split(' ').next().unwrap_or_default().to_owned();
         let is_of = |name: &String| note.starts_with(&device(&stored[name].device));
         let (names, open) = std::mem::take(&mut self.open).into_iter().partition(is_of);
@@ -216,7 +216,7 @@ impl Found {
         passage: &Passage,
         numbers: Vec<Number>,
         names: &[(String, String)],
-        stored: &All,
+        stored: &Records,
     ) {
         let mut fault = |at: usize, what: String, remedy: &str| {
             self.faults.push(Fault::new(&*page.path, line(text, at), what, remedy));
@@ -269,7 +269,7 @@ impl Found {
 
 /// The day for a note of these measurements. If there are times among them, it is their day, which must be
 /// the same for all. Else it is the last day: a figure that is no time comes out the same on any day.
-fn day<'a>(names: &BTreeSet<String>, stored: &'a All) -> Option<&'a str> {
+fn day<'a>(names: &BTreeSet<String>, stored: &'a Records) -> Option<&'a str> {
     let days = |timed: bool| -> BTreeSet<&'a str> {
         let of = names.iter().filter_map(|name| stored.get(name));
         of.filter(|stored| stored.timed == timed).map(|stored| &*stored.date).collect()

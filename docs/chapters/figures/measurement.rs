@@ -13,8 +13,9 @@ use manuscript::page::Page;
 use manuscript::project::{Chapter, Project};
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag};
 
-use super::record::{self, Stored};
-use super::values::{self, Given};
+use super::record::{self, Record};
+use super::values::{self, Values};
+use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
 use crate::sources::hash::{self, Sources};
 use crate::survey::accuracy;
@@ -95,8 +96,8 @@ pub fn of(page: &Page) -> (Vec<Measurement>, Vec<Fault>) {
 /// The commands of a shell text, each in one line.
 fn lines(text: &str) -> Vec<String> {
     let joined = text.replace("\\\n", " ");
-    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
-    joined.lines().map(words).filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
+    let lines = joined.lines().map(in_a_line);
+    lines.filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
 }
 
 impl Measurement {
@@ -151,7 +152,7 @@ impl Measurement {
     pub fn stale(
         &self,
         project: &Project,
-        stored: Option<&Stored>,
+        stored: Option<&Record>,
         sources: &mut Sources,
     ) -> Option<Fault> {
         let file = self.file();
@@ -170,7 +171,7 @@ impl Measurement {
 }
 
 /// Files that no page makes.
-pub fn strays(measurements: &[Measurement], stored: &BTreeMap<String, Stored>) -> Vec<Fault> {
+pub fn strays(measurements: &[Measurement], stored: &BTreeMap<String, Record>) -> Vec<Fault> {
     let made = |name: &&String| measurements.iter().any(|measurement| measurement.name == **name);
     let stray = |name: &String| {
         let what = "stray file: no page makes this measurement";
@@ -187,11 +188,11 @@ pub fn renew(
     project: &Project,
     programs: &Programs,
     measurements: &[&Measurement],
-    before: &BTreeMap<String, Stored>,
+    before: &BTreeMap<String, Record>,
     mut done: impl FnMut(&str),
 ) -> Result<Vec<Fault>> {
     let (mut faults, mut sources) = (Vec::new(), Sources::default());
-    let mut given: BTreeMap<&str, Result<Given, String>> = BTreeMap::new();
+    let mut given: BTreeMap<&str, Result<Values, String>> = BTreeMap::new();
     for measurement in measurements {
         let run = || {
             values::run(project, programs, &measurement.command)
@@ -203,7 +204,7 @@ pub fn renew(
             given.get(&measurement.name).or(given.get("")).ok_or_else(missing)
         });
         let new = match values {
-            Ok(values) => Stored {
+            Ok(values) => Record {
                 command: measurement.command.clone(),
                 sources: measurement.sources(project, &mut sources),
                 date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10]
@@ -220,7 +221,7 @@ pub fn renew(
         // What comes out again as it was is still of the day on which it first did.
         let same = before.get(&measurement.name).filter(|old| !new.timed && old.agrees(&new));
         let date = same.map_or(new.date.clone(), |old| old.date.clone());
-        Stored { date, ..new }.write(project, &measurement.name)?;
+        Record { date, ..new }.write(project, &measurement.name)?;
         done(&format!(
             "{}: {}",
             measurement.file(),

@@ -22,7 +22,7 @@ pub const HOST: &str = "host";
 /// What is known of a measurement.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct Stored {
+pub struct Record {
     /// The command that made it.
     pub command: String,
     /// Whether its values are times: they differ from run to run.
@@ -55,7 +55,7 @@ pub fn renew(name: &str) -> String {
     format!("run: cargo chapters measure {name}")
 }
 
-impl Stored {
+impl Record {
     /// Every measurement, by page and name, and what is wrong with the files.
     pub fn all(project: &Project) -> (BTreeMap<String, Self>, Vec<Fault>) {
         let (mut found, mut faults) = (BTreeMap::new(), Vec::new());
@@ -122,7 +122,7 @@ mod tests {
     fn a_damaged_file_is_told_with_its_line() {
         let whole = "{\n\"command\": \"c\", \"timed\": false, \"device\": \"d\", \"driver\": \"e\",\n\
                      \"date\": \"2026-11-22\", \"sources\": \"0\",\n\"values\": { \"a\": 1.5 } }\n";
-        assert_eq!(Stored::parse(whole).unwrap().value("a"), Some(1.5));
+        assert_eq!(Record::parse(whole).unwrap().value("a"), Some(1.5));
         let cases = [
             (&whole[..whole.len() - 4], 4, "EOF while parsing an object"),
             (&whole.replace("timed", "time"), 2, "unknown field `time`, expected one of"),
@@ -130,7 +130,7 @@ mod tests {
             ("", 1, "EOF while parsing a value"),
         ];
         for (text, line, start) in cases {
-            let (at, what) = Stored::parse(text).unwrap_err();
+            let (at, what) = Record::parse(text).unwrap_err();
             assert!(at == line && what.starts_with(start), "{at}: {what}");
         }
     }

@@ -9,36 +9,37 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, bail};
 use common::files::Folder;
 use manuscript::project::Project;
+use patience::Limit;
 use serde_json::{Map, Value, json};
 
-use super::record::Stored;
-use crate::pages::shell;
-use crate::programs::program::{BUILD, Programs};
+use super::record::Record;
+use crate::programs::program::Programs;
+use crate::programs::{child, command_line};
 
 /// What a command gave: measurements by name, or a single one without.
-pub type Given = BTreeMap<String, Stored>;
+pub type Values = BTreeMap<String, Record>;
 
 /// Runs a command: `NAME=value … cargo run …` or `cargo test …`.
 ///
 /// # Errors
 /// If it is neither, cannot be run, or fails; in one line.
-pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Given> {
+pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Values> {
     let folder = Folder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
     // What stands before is the environment, `NAME=value`.
     let start = words.iter().take_while(|word| word.contains('=')).count();
     let (environment, words) = words.split_at(start);
     if words.iter().map(String::as_str).take(2).eq(["cargo", "test"]) {
-        let mut test = Command::new("cargo");
-        test.args(&words[1..]).current_dir(&project.root).env("FIGURES", folder.path());
+        let mut test = child::cargo(&project.root);
+        test.args(&words[1..]).env("FIGURES", folder.path());
         test.envs(environment.iter().filter_map(|word| word.split_once('=')));
         finish(&mut test)?;
         return held(folder.path());
     }
-    let runs = shell::runs(command);
+    let runs = command_line::runs(command);
     let [(_, run)] = &runs[..] else { bail!("it is neither a `cargo run` nor a `cargo test`") };
     let program = run.program(project).context("it runs no program")?;
     let file = folder.path().join("report.json");
@@ -50,28 +51,23 @@ pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Give
         let own = own.map(|name| folder.path().join(name).to_string_lossy().into_owned());
         arguments.extend(own.into_iter().flat_map(|file| [option.to_owned(), file]));
     }
-    let mut sample = programs.command(program).map_err(|what| anyhow!("{what}; {BUILD}"))?;
-    finish(sample.args(&arguments).arg("--report").arg(&file))?;
+    finish(programs.built(program)?.args(&arguments).arg("--report").arg(&file))?;
     let report: Value = serde_json::from_slice(&fs::read(&file)?)?;
     Ok(BTreeMap::from([(String::new(), reported(&report)?)]))
 }
 
 fn finish(command: &mut Command) -> Result<()> {
-    let output = command.output().context("it does not start")?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let told = String::from_utf8_lossy(&output.stdout).into_owned();
-    let line = |text: &str| {
-        text.lines()
-            .find(|line| line.contains("error") || line.contains("panicked"))
-            .map(str::to_owned)
-    };
-    let why = line(&said).or_else(|| line(&told)).unwrap_or_else(|| output.status.to_string());
-    ensure!(output.status.success(), "{why}");
-    Ok(())
+    let ended = child::run(command, Limit::NONE)?;
+    let is_why = |line: &&str| line.contains("error") || line.contains("panicked");
+    let why = ended.said.lines().chain(ended.told.lines()).find(is_why).map(str::to_owned);
+    match ended.failed() {
+        Some(failed) => bail!("{}", why.unwrap_or(failed)),
+        None => Ok(()),
+    }
 }
 
 /// What a test has left in a folder: `PAGE/NAME.json` each.
-fn held(folder: &Path) -> Result<Given> {
+fn held(folder: &Path) -> Result<Values> {
     let mut found = BTreeMap::new();
     for page in fs::read_dir(folder)?.flatten() {
         for file in fs::read_dir(page.path())?.flatten() {
@@ -90,14 +86,14 @@ fn held(folder: &Path) -> Result<Given> {
     Ok(found)
 }
 
-fn measured(timed: bool, (device, driver): (String, String), values: Map<String, Value>) -> Stored {
+fn measured(timed: bool, (device, driver): (String, String), values: Map<String, Value>) -> Record {
     let [command, date, sources] = [const { String::new() }; 3];
-    Stored { command, timed, device, driver, date, sources, values }
+    Record { command, timed, device, driver, date, sources, values }
 }
 
 /// What a sample's report has: of `--compare`, of `--compile-for`, else its times, its memory and the numbers
 /// of its chapter.
-fn reported(report: &Value) -> Result<Stored> {
+fn reported(report: &Value) -> Result<Record> {
     let text = |key: &str| report[key].as_str().unwrap_or_default().to_owned();
     let device = (text("device"), text("driver"));
     let mut values = Map::new();

@@ -14,7 +14,7 @@ use manuscript::project::Project;
 
 use crate::patches::copy::file_on_the_way;
 use crate::patches::patch::{Field, Patch};
-use crate::pictures::picture;
+use crate::pictures::stamp;
 use crate::sources::hash;
 
 /// Where the mistakes lie.
@@ -124,7 +124,7 @@ impl Mistake {
         };
         let mut patch = Patch::parse(file, text, FORM)?;
         let Field { line, value: chapter, .. } = patch.field("Chapter")?;
-        if !project.chapters.iter().any(|known| known.name == chapter) {
+        if project.named(&chapter).is_none() {
             let what = format!("there is no chapter '{chapter}'");
             return Err(wrong(line, what, "name one of `chapters list`"));
         }
@@ -237,7 +237,7 @@ impl Mistake {
     /// What is out of date about its picture, if anything is.
     pub fn stale(&self, project: &Project) -> Option<Fault> {
         let hash = self.sources(project);
-        let what = picture::stale(project, &self.picture(), &self.command(), &hash, "its patch")?;
+        let what = stamp::stale(project, &self.picture(), &self.command(), &hash, "its patch")?;
         let remedy = format!("run: cargo chapters sync --pictures {}", self.name);
         Some(Fault::new(self.file(), 1, what, remedy))
     }

@@ -1,4 +1,5 @@
 //! Classic mistakes: patches that make a chapter wrong, reproduced and held to what their files claim.
 
+pub mod command;
 pub mod mistake;
 pub mod reproduction;

@@ -1,13 +1,10 @@
 //! A mistake held to its word: the chapter is run as it is and patched, and both are compared.
 
 use std::fs;
-use std::path::Path;
 use std::process::ExitStatus;
 
 use anyhow::{Context, Result, bail, ensure};
 use common::files::Folder;
-use common::output::print;
-use common::usage::Usage;
 use image::RgbImage;
 use manuscript::project::Project;
 use panels::{Panel, sheet};
@@ -15,10 +12,10 @@ use patience::Limit;
 
 use super::mistake::{Mistake, Outcome};
 use crate::patches::edition::{Edition, Patched};
-use crate::pictures::picture;
+use crate::pictures::difference::mean_difference;
+use crate::pictures::stamp;
 use crate::programs::program::Programs;
-use crate::programs::run_result::{Seen, is_software, mean_difference};
-use crate::programs::workers;
+use crate::programs::run_result::{RunResult, is_software};
 
 /// How large a mistake is shown.
 const SHOWN: (u32, u32) = (320, 200);
@@ -31,13 +28,13 @@ const LIMIT: Limit = Limit::worked(40);
 const UNTIL_CRASHED: Limit = Limit::worked(10);
 
 /// A mistake, and the runs that show it.
-pub struct Trial<'a> {
+pub struct Reproduction<'a> {
     project: &'a Project,
     programs: &'a Programs,
     mistake: &'a Mistake,
 }
 
-impl<'a> Trial<'a> {
+impl<'a> Reproduction<'a> {
     /// A trial of a mistake by built programs; a patch of Rust code is built here.
     pub fn new(project: &'a Project, programs: &'a Programs, mistake: &'a Mistake) -> Self {
         Self { project, programs, mistake }
@@ -67,22 +64,26 @@ impl<'a> Trial<'a> {
         }
         let wrong = self.wrong(SHOWN)?;
         self.compare(&right, &wrong)?;
-        let label = |word: &str, seen: &Seen| match (&self.mistake.outcome, &seen.messages()[..]) {
-            (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds()),
-            // The pictures are the same: all that differs is what validation says.
-            (Outcome::Forgiven, [_, ..]) => {
-                format!("{word}: {}", self.mistake.validation.as_deref().unwrap_or_default())
-            }
-            _ => word.to_owned(),
-        };
+        let label =
+            |word: &str, seen: &RunResult| match (&self.mistake.outcome, &seen.messages()[..]) {
+                (Outcome::Slower(_), _) => format!("{word}: {:.0} ms", seen.milliseconds()),
+                // The pictures are the same: all that differs is what validation says.
+                (Outcome::Forgiven, [_, ..]) => {
+                    format!("{word}: {}", self.mistake.validation.as_deref().unwrap_or_default())
+                }
+                _ => word.to_owned(),
+            };
         let labels = [label("right", &right), label("wrong", &wrong)];
         let device = right.device().to_owned();
-        let panel = |seen: &Seen| match (&seen.picture, self.mistake.outcome == Outcome::Crashes) {
-            (Some(picture), _) => RgbImage::from_raw(picture.width, picture.height, picture.srgb())
-                .map_or(Panel::Words("No picture".to_owned()), Panel::Picture),
-            (None, true) => Panel::Words(format!("No picture: {}", end(seen.status))),
-            (None, false) => Panel::Words(format!("No picture: {}", seen.said)),
-        };
+        let panel =
+            |seen: &RunResult| match (&seen.picture, self.mistake.outcome == Outcome::Crashes) {
+                (Some(picture), _) => {
+                    RgbImage::from_raw(picture.width, picture.height, picture.srgb())
+                        .map_or(Panel::Words("No picture".to_owned()), Panel::Picture)
+                }
+                (None, true) => Panel::Words(format!("No picture: {}", end(seen.status))),
+                (None, false) => Panel::Words(format!("No picture: {}", seen.said)),
+            };
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
@@ -90,25 +91,20 @@ impl<'a> Trial<'a> {
         let folder = Folder::temporary()?;
         let plain = folder.path().join("sheet.png");
         sheet.save(&plain)?;
-        let bytes = picture::stamped(&plain, &self.mistake.command(), &hash, &device)?;
+        let bytes = stamp::stamped(&plain, &self.mistake.command(), &hash, &device)?;
         let file = self.project.root.join(self.mistake.picture());
         fs::create_dir_all(file.parent().context("a picture lies in a folder")?)?;
         common::files::write_whole(&file, &bytes)?;
         Ok(device)
     }
 
-    fn right(&self, size: (u32, u32)) -> Result<Seen> {
+    fn right(&self, size: (u32, u32)) -> Result<RunResult> {
         let right = self.run(&Edition::Book, size)?;
-        ensure!(
-            right.status.is_some_and(|status| status.success()),
-            "{} fails as it is: {}",
-            self.mistake.chapter,
-            right.said
-        );
+        ensure!(right.succeeded(), "{} fails as it is: {}", self.mistake.chapter, right.said);
         Ok(right)
     }
 
-    fn wrong(&self, size: (u32, u32)) -> Result<Seen> {
+    fn wrong(&self, size: (u32, u32)) -> Result<RunResult> {
         let wrong = Patched::of(self.project, &self.mistake.patch)?;
         self.run(&wrong.edition, size)
     }
@@ -123,17 +119,17 @@ impl<'a> Trial<'a> {
         Ok((!is_software).then_some(why))
     }
 
-    fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<Seen> {
+    fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<RunResult> {
         let command = edition.command(self.project, self.programs, &self.mistake.chapter)?;
         let own = shlex::split(&self.mistake.arguments).context("the arguments do not end")?;
         let mut arguments = vec!["--size".to_owned(), format!("{width}x{height}")];
         arguments.extend(own);
         let may_hang = matches!(self.mistake.outcome, Outcome::Crashes);
-        Seen::of(command, &arguments, if may_hang { UNTIL_CRASHED } else { LIMIT })
+        RunResult::of(command, &arguments, if may_hang { UNTIL_CRASHED } else { LIMIT })
     }
 
     /// Holds two runs to what the mistake claims; the line says what was seen.
-    fn compare(&self, right: &Seen, wrong: &Seen) -> Result<String> {
+    fn compare(&self, right: &RunResult, wrong: &RunResult) -> Result<String> {
         let Mistake { name, outcome, validation, .. } = self.mistake;
         let file = self.mistake.file();
         let heard = match (validation, &wrong.messages()[..]) {
@@ -164,7 +160,7 @@ impl<'a> Trial<'a> {
                 end(wrong.status)
             }
             Outcome::Differs(_) | Outcome::Slower(_) | Outcome::Forgiven => {
-                let picture = |seen: &Seen| {
+                let picture = |seen: &RunResult| {
                     let picture = seen.picture.clone();
                     picture.with_context(|| format!("{file}: no picture: {}", seen.said))
                 };
@@ -196,52 +192,5 @@ fn end(status: Option<ExitStatus>) -> String {
     match status {
         Some(status) => format!("the program ends by {status}"),
         None => "the program does not end".to_owned(),
-    }
-}
-
-/// `cargo chapters mistake`: lists mistakes, makes a patched copy, or checks them.
-///
-/// # Errors
-/// If there is none of the name, the copy cannot be made, or one is not what its file says.
-pub fn mistake(
-    project: &Project,
-    name: Option<&str>,
-    list: bool,
-    out: Option<&Path>,
-    check: bool,
-) -> Result<()> {
-    let mistakes = match name {
-        Some(name) => vec![Mistake::named(project, name)?],
-        None => Mistake::whole(project)?,
-    };
-    if list {
-        let line = |m: &Mistake| format!("{:24} {:20} {}\n", m.name, m.chapter, m.title);
-        return print(&mistakes.iter().map(line).collect::<String>());
-    }
-    if check {
-        let programs = Programs::beside_this(&project.root)?;
-        let wanted = |mistake: &Mistake| name.is_some() || mistake.is_in_shaders();
-        let mistakes: Vec<Mistake> = mistakes.into_iter().filter(wanted).collect();
-        return check_mistakes(project, &programs, &mistakes);
-    }
-    let (Some(name), [mistake]) = (name, &mistakes[..]) else {
-        let names: Vec<String> = mistakes.into_iter().map(|mistake| mistake.name).collect();
-        return Err(Usage(format!("no mistake is named; there is {}", names.join(", "))).into());
-    };
-    let folder = out.map_or_else(|| format!("target/mistakes/{name}").into(), Path::to_owned);
-    mistake.copy_to(project, &std::path::absolute(&folder)?)?;
-    print(&format!("{}: {}\n{}\n", mistake.title, mistake.cause, mistake.run(&folder)))
-}
-
-fn check_mistakes(project: &Project, programs: &Programs, mistakes: &[Mistake]) -> Result<()> {
-    let mut failed = 0;
-    let check = |mistake: &Mistake| Trial::new(project, programs, mistake).check();
-    for line in workers::each(mistakes, check) {
-        failed += usize::from(line.is_err());
-        print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))?;
-    }
-    match failed {
-        0 => Ok(()),
-        _ => bail!("{failed} of {} mistakes are not what their files say", mistakes.len()),
     }
 }

@@ -40,7 +40,7 @@ pub fn body(
             Ok((text.map_err(|wrong| wrong.at(page, block))?, words.join(" ")))
         }
         (Kind::Controls | Kind::Exercises, [name]) => {
-            let known = project.chapters.iter().find(|chapter| chapter.name == *name);
+            let known = project.named(name);
             let Some(chapter) = known else {
                 return Err(wrong(format!("no chapter '{name}'"), "name one of `chapters list`"));
             };
@@ -150,7 +150,7 @@ fn diff_block(
     file: Option<&str>,
 ) -> Result<String, Wrong> {
     let chapter = |name: &str| {
-        let found = project.chapters.iter().find(|chapter| chapter.name == name);
+        let found = project.named(name);
         found.ok_or_else(|| {
             Wrong::new(format!("no chapter '{name}'"), "name one of `chapters list`")
         })

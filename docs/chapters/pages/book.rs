@@ -18,9 +18,9 @@ use super::{chapter_files, exercise_list, gallery, shared_shader, stray_file, te
 use crate::exercises::exercise;
 use crate::figures::figure;
 use crate::figures::measurement::{self, Measurement};
-use crate::figures::record::{self, Stored};
+use crate::figures::record::{self, Record};
 use crate::mistakes::mistake::Mistake;
-use crate::mistakes::reproduction::Trial;
+use crate::mistakes::reproduction::Reproduction;
 use crate::nightly;
 use crate::pictures::picture::Picture;
 use crate::programs::program::Programs;
@@ -117,7 +117,7 @@ impl<'a> Book<'a> {
             anyhow::Ok(())
         };
         self.ask_programs();
-        let (stored, _) = Stored::all(self.project);
+        let (stored, _) = Record::all(self.project);
         let glossary = Glossary::of(self.project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
@@ -169,7 +169,7 @@ impl<'a> Book<'a> {
 
     /// Figures that are not what was measured, and measurements that are out of date.
     fn wrong_figures(&self, sources: &mut Sources) -> Vec<Fault> {
-        let (stored, mut faults) = Stored::all(self.project);
+        let (stored, mut faults) = Record::all(self.project);
         // If a page's stored file is damaged, its figures cannot be checked.
         let is_known = |page: &&Page| {
             let folder = format!("{}/{}/", record::FOLDER, page.stem());
@@ -220,7 +220,7 @@ impl<'a> Book<'a> {
     /// # Errors
     /// If a name is unknown.
     pub fn measure(&self, names: &[String], done: impl FnMut(&str)) -> Result<Vec<Fault>> {
-        let (stored, _) = Stored::all(self.project);
+        let (stored, _) = Record::all(self.project);
         let (measurements, mut faults) = self.measurements();
         let mut sources = Sources::default();
         let names: Vec<&str> = names
@@ -277,7 +277,7 @@ impl<'a> Book<'a> {
 
     /// A chapter's page is headed by its number and title.
     fn title(&self, page: &Page, written: &Markdown) -> Option<Fault> {
-        let chapter = self.project.chapters.iter().find(|chapter| chapter.page() == page.path)?;
+        let chapter = self.project.of_page(&page.path)?;
         let (line, title) = written.title.clone().unwrap_or((1, String::new()));
         let what = "the heading does not name the chapter";
         let remedy = format!("write `# {}`", chapter.heading());
@@ -365,7 +365,7 @@ impl<'a> Book<'a> {
                 _ => names.contains(&mistake.name),
             };
             if wanted {
-                match Trial::new(self.project, self.programs, mistake).render() {
+                match Reproduction::new(self.project, self.programs, mistake).render() {
                     Ok(device) => done(&mistake.picture(), &device),
                     Err(error) => faults.push(Fault::new(
                         mistake.file(),

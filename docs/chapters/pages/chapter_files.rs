@@ -131,7 +131,7 @@ fn bins(project: &Project) -> Vec<Fault> {
             let what = format!("'{}' has no {}", bin.name, bin.path);
             faults.push(Fault::new("Cargo.toml", line, what, "write it or remove the target"));
         }
-        if numbered && !project.chapters.iter().any(|chapter| chapter.name == bin.name) {
+        if numbered && project.named(&bin.name).is_none() {
             let what = format!("the program '{}' is no chapter", bin.name);
             let remedy = format!("add [package.metadata.chapters.{}]", bin.name);
             faults.push(Fault::new("Cargo.toml", line, what, remedy));
@@ -148,7 +148,7 @@ fn folders(project: &Project) -> Vec<Fault> {
         let mut names: Vec<&str> = files.iter().filter_map(|path| path.split('/').nth(1)).collect();
         names.dedup();
         names.retain(|name| name.starts_with(|c: char| c.is_ascii_digit()));
-        names.retain(|name| !project.chapters.iter().any(|chapter| chapter.name == *name));
+        names.retain(|name| project.named(name).is_none());
         for name in names {
             let what = format!("the folder {folder}/{name} belongs to no chapter");
             let remedy = format!("add [package.metadata.chapters.{name}] or delete it");

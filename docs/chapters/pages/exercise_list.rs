@@ -17,7 +17,7 @@ pub fn count(project: &Project, page: &Page) -> usize {
 }
 
 fn chapter<'a>(project: &'a Project, page: &Page) -> Option<&'a Chapter> {
-    project.chapters.iter().find(|chapter| chapter.page() == page.path)
+    project.of_page(&page.path)
 }
 
 /// What is wrong with the section; a chapter's page must have it.

@@ -25,6 +25,13 @@ pub struct Code {
     pub text: String,
 }
 
+impl Code {
+    /// Whether it may hold commands: in a sentence, too.
+    pub fn is_shell(&self) -> bool {
+        ["sh", "bash", "console", "shell", ""].contains(&&*self.language)
+    }
+}
+
 /// A formula in TeX.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {

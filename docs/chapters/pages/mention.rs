@@ -25,7 +25,7 @@ pub struct Mention {
 /// What is wrong with the chapters and exercises that a page names.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let own = project.chapters.iter().any(|chapter| chapter.page() == page.path);
+    let own = project.of_page(&page.path).is_some();
     let count = exercise_list::count(project, page);
     let mut sources = false;
     for (line, text) in page.prose() {
@@ -48,7 +48,7 @@ pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
             }
         }
         for name in names(text) {
-            if !project.chapters.iter().any(|chapter| chapter.name == name) {
+            if project.named(&name).is_none() {
                 faults.push(fault(format!("there is no chapter '{name}'"), "correct its name"));
             }
         }

@@ -9,7 +9,7 @@ use manuscript::page::Page;
 use manuscript::project::{Chapter, Project};
 use manuscript::shader;
 
-use super::markdown::{Link, Markdown};
+use super::markdown::{Code, Link, Markdown};
 use super::mention::{chapters, codes};
 
 /// The folders whose files a page may name.
@@ -48,8 +48,8 @@ impl<'a> Files<'a> {
                 faults.extend(wrong.map(|what| fault(line, what)));
             }
         }
-        let shell = |language: &str| ["sh", "bash", "console", "shell"].contains(&language);
-        for code in written.code.iter().filter(|code| shell(&code.language)) {
+        let block = |code: &&Code| code.is_shell() && !code.language.is_empty();
+        for code in written.code.iter().filter(block) {
             for (index, command) in code.text.lines().enumerate() {
                 let wrong = self.wrong_input(command);
                 faults.extend(wrong.map(|what| fault(code.line + index, what)));
@@ -82,7 +82,7 @@ impl<'a> Files<'a> {
             let Some(path) = found else { return Some(format!("there is no '{name}'")) };
             return self.wrong_place(&path, place);
         }
-        if self.project.chapters.iter().any(|chapter| chapter.name == folder) {
+        if self.project.named(folder).is_some() {
             let mut paths =
                 ["shaders", "samples"].map(|above| format!("{above}/{name}")).into_iter();
             let Some(path) = paths.find_map(|path| self.path(&path)) else {
@@ -122,24 +122,15 @@ impl<'a> Files<'a> {
     /// that this builds on, or the line names the file's chapter.
     fn is_near(&self, page: &Page, text: &str, path: &str) -> bool {
         let mut parts = path.split('/');
-        let (above, folder) = (parts.next(), parts.next().unwrap_or_default());
-        let chapters_of = &self.project.chapters;
-        let of = chapters_of.iter().find(|chapter| chapter.name == folder);
+        let above = parts.next();
+        let of = parts.next().and_then(|folder| self.project.named(folder));
         let Some(of) = of.filter(|_| matches!(above, Some("samples" | "shaders"))) else {
             return true;
         };
-        let mut own = chapters_of.iter().find(|chapter| chapter.page() == page.path);
-        if own.is_none() || chapters(text).iter().any(|mention| mention.number == of.number()) {
-            return true;
-        }
-        while let Some(chapter) = own {
-            if chapter.name == of.name {
-                return true;
-            }
-            let from = chapter.from.as_ref();
-            own = from.and_then(|from| chapters_of.iter().find(|chapter| chapter.name == *from));
-        }
-        false
+        let Some(own) = self.project.of_page(&page.path) else { return true };
+        own.name == of.name
+            || self.project.descends(own, of)
+            || chapters(text).iter().any(|mention| mention.number == of.number())
     }
 
     /// Why a line or an anchor is not in a file, if it is not.

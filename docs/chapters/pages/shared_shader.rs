@@ -29,7 +29,7 @@ fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
         return None;
     }
     let fault = |what: String, remedy: &str| Some(Fault::new(file, 1, what, remedy));
-    let chapter = |name: &str| project.chapters.iter().find(|chapter| chapter.name == name);
+    let chapter = |name: &str| project.named(name);
     let no_chapter = |name: &str| fault(format!("there is no chapter '{name}'"), FORMS);
     if let Some(rest) = first.strip_prefix("// Like ") {
         let like = rest.split_once(" in ").map(|(_, rest)| rest);

@@ -42,7 +42,7 @@ fn why(
             (root || sources.declares(folder, stem), "no [[bin]] and no `mod` names it")
         }
         "md" if folder == "docs" => {
-            let page = project.chapters.iter().any(|chapter| chapter.page() == file);
+            let page = project.of_page(file).is_some();
             (page || file == SUMMARY || is_other_page(name), "it is no chapter's page")
         }
         "png" | "svg" if folder == "docs/images" => (linked.contains(file), "no page shows it"),

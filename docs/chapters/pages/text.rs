@@ -6,10 +6,9 @@ use manuscript::project::{Chapter, Project};
 
 use super::markdown::{Markdown, check_formulas, check_links};
 use super::reference::Files;
-use super::{mention, placeholder, shell};
+use super::{mention, placeholder, run_command, test_command};
 use crate::exercises::exercise::{Exercise, Takes};
 use crate::programs::program::Programs;
-use crate::programs::test;
 
 /// What a page names and is not there, or is not as it says; `written` is what its author wrote.
 pub fn check(
@@ -24,8 +23,8 @@ pub fn check(
     faults.extend(mention::check(project, page));
     faults.extend(check_links(project, path, &written.links));
     faults.extend(check_formulas(path, &written.formulas));
-    faults.extend(shell::check(project, programs, path, &written.code));
-    faults.extend(test::check(project, path, &written.code));
+    faults.extend(run_command::check(project, programs, path, &written.code));
+    faults.extend(test_command::check(project, path, &written.code));
     faults.extend(files.check(page, written));
     faults
 }
@@ -58,6 +57,6 @@ fn texts(project: &Project, exercise: &Exercise) -> Page {
     };
     let heading = exercise.patch.text.lines().take_while(|line| !line.starts_with("--- "));
     let text: String = heading.map(|line| shown(line).unwrap_or_default() + "\n").collect();
-    let chapter = project.chapters.iter().find(|chapter| chapter.name == exercise.chapter);
+    let chapter = project.named(&exercise.chapter);
     Page::parse(&chapter.map(Chapter::page).unwrap_or_default(), &text)
 }

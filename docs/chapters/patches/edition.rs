@@ -4,14 +4,14 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use common::files::Folder;
 use manuscript::project::Project;
 use patience::{ASLEEP, Limit};
 
 use super::patch::Patch;
 use crate::programs::child;
-use crate::programs::program::{BUILD, Programs};
+use crate::programs::program::Programs;
 
 /// Where patched code is copied to and built, one patch after the other: Cargo builds only what differs from
 /// the one before, which takes minutes for the first.
@@ -87,7 +87,7 @@ impl Edition {
         programs: &Programs,
         chapter: &str,
     ) -> Result<Command> {
-        let book = || programs.command(chapter).map_err(|what| anyhow!("{what}; {BUILD}"));
+        let book = || programs.built(chapter);
         match self {
             Self::Book => book(),
             Self::Shaders(folder) => {
@@ -98,11 +98,8 @@ impl Edition {
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", project, programs);
                 let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Limit::NONE)?;
-                ensure!(
-                    built.status.is_some_and(|status| status.success()),
-                    "{chapter} does not build: {}",
-                    first_error(&built.said)
-                );
+                let why = || first_error(&built.said);
+                ensure!(built.succeeded(), "{chapter} does not build: {}", why());
                 if *self == Self::Edited {
                     return book();
                 }
@@ -128,34 +125,24 @@ impl Edition {
         // A build may take as long as it will, and only once.
         let (mut build, _) = self.cargo("test", project, programs);
         let built = child::run(build.args(["--no-run", "--test", program]), Limit::NONE)?;
-        ensure!(
-            built.status.is_some_and(|status| status.success()),
-            "the tests do not build: {}",
-            first_error(&built.said)
-        );
+        ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let (mut cargo, _) = self.cargo("test", project, programs);
         cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
         // What a reader changes gives other figures than the page's.
         cargo.env("EXERCISE", "1");
         let ended = child::run(&mut cargo, LIMIT)?;
-        if ended.status.is_none() {
-            bail!("the tests '{filter}' do not end");
-        }
-        let mut tested = Tested { passed: 0, failed: 0, said: ended.told };
-        let results = tested.said.lines().filter_map(|line| line.strip_prefix("test result: "));
+        ensure!(ended.status.is_some(), "the tests '{filter}' do not end");
+        let results = ended.told.lines().filter_map(|line| line.strip_prefix("test result: "));
         let results: Vec<&str> = results.collect();
-        if results.is_empty() {
-            bail!("the tests do not run: {}", first_error(&ended.said));
-        }
+        ensure!(!results.is_empty(), "the tests do not run: {}", first_error(&ended.said));
         let count = |word: &str| -> usize {
             let found = results.iter().flat_map(|line| line.split([';', '.']));
             let numbers = found.filter_map(|part| part.trim().strip_suffix(word));
             numbers.filter_map(|number| number.trim().parse::<usize>().ok()).sum()
         };
         let (passed, failed) = (count("passed"), count("failed"));
-        (tested.passed, tested.failed) = (passed, failed);
         ensure!(passed + failed > 0, "no test of '{program}' is called '{filter}'");
-        Ok(tested)
+        Ok(Tested { passed, failed, said: ended.told })
     }
 
     /// Where its shaders lie.
@@ -173,9 +160,8 @@ impl Edition {
             Self::Copy(folder) => (folder, project.root.join(BUILT)),
             _ => (&project.root, programs.target().to_owned()),
         };
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args([verb, "--message-format", "short"]).current_dir(folder);
-        cargo.env("CARGO_TARGET_DIR", &target);
+        let mut cargo = child::cargo(folder);
+        cargo.args([verb, "--message-format", "short"]).env("CARGO_TARGET_DIR", &target);
         if programs.are_released() {
             cargo.arg("--release");
         }

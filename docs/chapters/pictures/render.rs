@@ -3,16 +3,18 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, ensure};
 use common::app::Picture as Large;
 use manuscript::project::Project;
+use patience::Limit;
 
 use super::downscale;
-use crate::pages::shell::{Run, runs};
-use crate::programs::program::{BUILD, Programs};
+use crate::programs::child;
+use crate::programs::command_line::{CommandLine, runs};
+use crate::programs::program::Programs;
 
 /// A run that writes a picture.
-pub struct Shot {
+pub struct Render {
     /// What stands over it where it is a panel: the line `# LABEL` above the command.
     pub label: Option<String>,
     /// The chapter whose program runs.
@@ -21,7 +23,7 @@ pub struct Shot {
     arguments: Vec<String>,
 }
 
-impl Shot {
+impl Render {
     /// The runs in a shell text.
     ///
     /// # Errors
@@ -34,10 +36,10 @@ impl Shot {
         project: &Project,
         text: &str,
         line: usize,
-        run: &Run,
+        run: &CommandLine,
     ) -> Result<Self, (String, &'static str)> {
         let chapter = run.program(project).unwrap_or_default().to_owned();
-        if !project.chapters.iter().any(|known| known.name == chapter) {
+        if project.named(&chapter).is_none() {
             return Err((format!("'{chapter}' is no chapter"), "name one with --bin"));
         }
         if out(&run.arguments).is_none_or(|index| run.arguments.len() <= index + 1) {
@@ -59,14 +61,10 @@ impl Shot {
         let index = out(&arguments).context("the command writes no picture")?;
         let written = if times > 1 { &large } else { picture };
         arguments[index + 1] = written.to_string_lossy().into_owned();
-        let mut command =
-            programs.command(&self.chapter).map_err(|what| anyhow!("{what}; {BUILD}"))?;
+        let mut command = programs.built(&self.chapter)?;
         command.args(&arguments).arg("--report").arg(&report);
-        let output =
-            command.output().with_context(|| format!("'{}' does not run", self.chapter))?;
-        if !output.status.success() {
-            bail!("{}", String::from_utf8_lossy(&output.stderr).trim().replace('\n', " "));
-        }
+        let ended = child::run(&mut command, Limit::NONE)?;
+        ensure!(ended.succeeded(), "{}", ended.said_in_a_line());
         if times > 1 {
             downscale::shrunk(&Large::open_exr(&large)?, times).save(picture)?;
         }

@@ -1,4 +1,4 @@
-//! A program that is run to its end, or to the end of our patience.
+//! A child process, run to its end, or to the end of our patience.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -24,6 +24,16 @@ pub struct Ended {
 }
 
 impl Ended {
+    /// Whether it has done what it was asked.
+    pub fn succeeded(&self) -> bool {
+        self.status.is_some_and(|status| status.success())
+    }
+
+    /// What it said on standard error, in one line.
+    pub fn said_in_a_line(&self) -> String {
+        self.said.trim().replace('\n', " ")
+    }
+
     /// In one line what was wrong with its arguments, if that is what it says: exit code 2.
     pub fn refused(&self) -> Option<String> {
         let code = self.status.and_then(|status| status.code());
@@ -47,6 +57,24 @@ impl Ended {
     }
 }
 
+/// Cargo, in a folder: the one that runs us, if one does.
+pub fn cargo(folder: &Path) -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(folder);
+    cargo
+}
+
+/// Starts a command.
+///
+/// # Errors
+/// If it does not start; the line names the program.
+pub fn start(command: &mut Command) -> Result<Child> {
+    command.spawn().with_context(|| {
+        let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+        format!("{} does not start", program.display())
+    })
+}
+
 /// Runs a command, and kills it if it takes more than it may.
 ///
 /// # Errors
@@ -56,13 +84,17 @@ pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
     let file = || tempfile::tempfile().context("cannot make a temporary file");
     let (mut output, mut errors) = (file()?, file()?);
     command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
-    let mut child = command.spawn().with_context(|| {
-        let program = Path::new(command.get_program()).file_name().unwrap_or_default();
-        format!("{} does not start", program.display())
-    })?;
-    let status = wait(&mut child, limit)?;
+    let status = wait(&mut start(command)?, limit)?;
     let (told, said) = (read(&mut output)?, read(&mut errors)?);
     Ok(Ended { status, said, told, limit })
+}
+
+/// Runs a command that prints as it goes, however long it takes.
+///
+/// # Errors
+/// As [`run`].
+pub fn show(command: &mut Command) -> Result<ExitStatus> {
+    wait(&mut start(command)?, Limit::NONE)?.context("it was stopped")
 }
 
 /// Waits for its end; there is no status if it has taken more than it may and is killed.

@@ -1,17 +1,16 @@
 //! The end that a signal asks for: Ctrl-C, a closed terminal, `kill`. What waits asks [`asked`] and gives up, so
 //! that windows are closed and temporary folders removed on the way out.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
+use instruments::guard::Interrupt;
 
-static ASKED: AtomicBool = AtomicBool::new(false);
+static INTERRUPT: OnceLock<Interrupt> = OnceLock::new();
 
-/// From here on a signal ends what waits, and not the whole process at once.
-///
-/// Where a signal is handled or ignored already, as `nohup` has it, all stays as it is.
-pub fn on_signal() {
-    let _ = ctrlc::try_set_handler(|| ASKED.store(true, Ordering::Relaxed));
+/// From here on the first signal ends what waits, and not the whole process at once.
+pub fn listen() {
+    INTERRUPT.get_or_init(Interrupt::listen);
 }
 
 /// Fails if a signal has asked for the end.
@@ -19,7 +18,7 @@ pub fn on_signal() {
 /// # Errors
 /// In one line.
 pub fn asked() -> Result<()> {
-    if ASKED.load(Ordering::Relaxed) {
+    if INTERRUPT.get().is_some_and(Interrupt::came) {
         bail!("stopped by a signal");
     }
     Ok(())

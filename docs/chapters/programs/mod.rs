@@ -3,6 +3,8 @@
 //! [`child`] starts every process and waits for its end; [`interrupt`] is the signal that asks for ours.
 
 pub mod child;
+pub mod command_line;
+pub mod controls;
 pub mod interrupt;
 pub mod program;
 pub mod run_result;

@@ -5,75 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
-use std::thread;
 use std::time::SystemTime;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
+use patience::Limit;
 
-/// A control, as `--list-controls` prints it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Control {
-    /// Its name.
-    pub name: String,
-    /// Its kind, such as `number`.
-    pub kind: String,
-    /// What it may be.
-    pub possible: String,
-    /// What it is at the start.
-    pub value: String,
-}
-
-/// A sample's controls.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Controls(pub Vec<Control>);
-
-impl Controls {
-    /// Reads what `--list-controls` printed.
-    pub fn parse(printed: &str) -> Self {
-        let control = |line: &str| {
-            let fields: Vec<&str> = line.trim_end_matches('\r').split('\t').collect();
-            let [name, kind, possible, value] = fields[..] else { return None };
-            let [name, kind, possible, value] = [name, kind, possible, value].map(str::to_owned);
-            Some(Control { name, kind, possible, value })
-        };
-        Self(printed.lines().filter_map(control).collect())
-    }
-
-    /// The table on the page.
-    pub fn table(&self) -> String {
-        if self.0.is_empty() {
-            return "This chapter has no controls.\n".to_owned();
-        }
-        let mut table = "| Name | Kind | Values | Default |\n|---|---|---|---|\n".to_owned();
-        for Control { name, kind, possible, value } in &self.0 {
-            let [name, kind, possible, value] =
-                [name, kind, possible, value].map(|text| text.replace('|', "\\|"));
-            table.push_str(&format!("| `{name}` | {kind} | {possible} | `{value}` |\n"));
-        }
-        table
-    }
-
-    /// Why a control cannot be set to a value, if it cannot.
-    pub fn refuse(&self, name: &str, value: &str) -> Option<String> {
-        let Some(control) = self.0.iter().find(|control| control.name == name) else {
-            let names: Vec<&str> = self.0.iter().map(|control| &*control.name).collect();
-            return Some(format!("there is no control '{name}', only {}", names.join(", ")));
-        };
-        let possible = match &*control.kind {
-            "choice" => control.possible.split(", ").any(|option| option == value),
-            "number" | "whole number" => {
-                let ends = control.possible.split_once(" to ");
-                let number = |text: &str| text.parse::<f64>().ok();
-                let ends = ends.and_then(|(low, high)| Some(number(low)?..=number(high)?));
-                ends.is_none_or(|range| number(value).is_some_and(|value| range.contains(&value)))
-            }
-            _ => true,
-        };
-        let kind = if control.kind == "whole number" { "a whole number from " } else { "" };
-        let what = || format!("'{name}' cannot be '{value}': it takes {kind}{}", control.possible);
-        (!possible).then(what)
-    }
-}
+use super::child;
+use super::controls::Controls;
+use super::workers;
 
 /// The samples' programs.
 pub struct Programs {
@@ -125,15 +64,17 @@ impl Programs {
         self.folder.ends_with("release")
     }
 
+    /// As [`Programs::command`]; the error says what to do, too.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn built(&self, name: &str) -> Result<Command> {
+        self.command(name).map_err(|what| anyhow!("{what}; {BUILD}"))
+    }
+
     /// Asks several programs for their controls at once; [`Programs::controls`] then answers from memory.
     pub fn ask(&self, names: &[&str]) {
-        let workers = thread::available_parallelism().map_or(1, usize::from);
-        let share = names.len().div_ceil(workers).max(1);
-        thread::scope(|scope| {
-            for names in names.chunks(share) {
-                scope.spawn(move || names.iter().for_each(|name| drop(self.controls(name))));
-            }
-        });
+        workers::each(names, |name| drop(self.controls(name)));
     }
 
     /// A sample's controls.
@@ -153,19 +94,17 @@ impl Programs {
     /// Whether a sample itself takes these arguments, which may be its own or depend on one another.
     pub fn takes(&self, name: &str, arguments: &[String]) -> bool {
         let Ok(mut command) = self.command(name) else { return false };
-        let output = command.args(arguments).arg("--list-controls").output();
-        output.is_ok_and(|output| output.status.success())
+        let ended = child::run(command.args(arguments).arg("--list-controls"), Limit::NONE);
+        ended.is_ok_and(|ended| ended.succeeded())
     }
 
     fn list_controls(&self, name: &str) -> Result<Controls, String> {
-        let output = self.command(name)?.arg("--list-controls").output();
-        let output =
-            output.map_err(|error| format!("the program '{name}' does not run: {error}"))?;
-        if !output.status.success() {
-            let said = String::from_utf8_lossy(&output.stderr).trim().replace('\n', " ");
-            return Err(format!("{name} --list-controls failed: {said}"));
+        let ended = child::run(self.command(name)?.arg("--list-controls"), Limit::NONE)
+            .map_err(|error| format!("the program '{name}' does not run: {error:#}"))?;
+        match ended.succeeded() {
+            true => Ok(Controls::parse(&ended.told)),
+            false => Err(format!("{name} --list-controls failed: {}", ended.said_in_a_line())),
         }
-        Ok(Controls::parse(&String::from_utf8_lossy(&output.stdout)))
     }
 }
 
@@ -186,25 +125,6 @@ fn sources(rule: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_table_has_a_row_a_control() {
-        let controls = Controls::parse("sun\tnumber\t0 to 90\t42\nshow\tchoice\ta, b|c\ta\n");
-        let table = controls.table();
-        assert!(table.contains("| `sun` | number | 0 to 90 | `42` |\n"), "{table}");
-        assert!(table.contains("| a, b\\|c |"), "{table}");
-        assert_eq!(Controls::parse("").table(), "This chapter has no controls.\n");
-    }
-
-    #[test]
-    fn settings_are_held_to_what_is_possible() {
-        let controls = Controls::parse("sun\tnumber\t0 to 90\t42\nshow\tchoice\ta, b\ta\n");
-        assert_eq!(controls.refuse("sun", "90"), None);
-        assert_eq!(controls.refuse("show", "b"), None);
-        for (name, value) in [("sun", "91"), ("sun", "x"), ("show", "c"), ("moon", "1")] {
-            assert!(controls.refuse(name, value).is_some(), "{name}={value}");
-        }
-    }
 
     #[test]
     fn a_rule_lists_its_sources() {

@@ -1,4 +1,4 @@
-//! What a run of a chapter's program gave, and how far two pictures are apart.
+//! What a run of a chapter's program gave.
 
 use std::fs;
 use std::process::{Command, ExitStatus};
@@ -13,7 +13,7 @@ use super::child;
 
 /// What a run gave.
 #[derive(Default)]
-pub struct Seen {
+pub struct RunResult {
     /// The floats that the shader wrote; `None` if there is no picture.
     pub picture: Option<Picture>,
     /// `None` if it did not end.
@@ -26,7 +26,7 @@ pub struct Seen {
     pub report: Value,
 }
 
-impl Seen {
+impl RunResult {
     /// Runs a program headless and under validation, and no longer than it may take.
     ///
     /// # Errors
@@ -37,7 +37,7 @@ impl Seen {
         command.args(["--headless", "--validate"]).args(arguments);
         command.arg("--out").arg(&out).arg("--report").arg(&report);
         let ended = child::run(&mut command, limit)?;
-        let said = ended.said.trim().replace('\n', " ");
+        let said = ended.said_in_a_line();
         Ok(Self {
             picture: Picture::open_exr(&out).ok(),
             status: ended.status,
@@ -48,6 +48,11 @@ impl Seen {
                 .and_then(|text| serde_json::from_slice(&text).ok())
                 .unwrap_or_default(),
         })
+    }
+
+    /// Whether the program has done what it was asked.
+    pub fn succeeded(&self) -> bool {
+        self.status.is_some_and(|status| status.success())
     }
 
     /// What validation said.
@@ -75,44 +80,4 @@ pub fn is_software(mut program: Command, device: &str, limit: Limit) -> Result<b
     let listed = child::run(program.arg("--list-devices"), limit)?.told;
     let line = format!(": {device} (software;");
     Ok(listed.lines().any(|listed| listed.contains(&line)))
-}
-
-/// The mean difference of all channels as a PNG would have them, of 1.
-pub fn mean_difference(a: &Picture, b: &Picture) -> f64 {
-    let (a, b) = (a.srgb(), b.srgb());
-    let sum: u64 = a.iter().zip(&b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
-    sum as f64 / 255.0 / a.len().max(1) as f64
-}
-
-/// How many pixels differ as a PNG would have them.
-pub fn pixels_apart(a: &Picture, b: &Picture) -> usize {
-    let (a, b) = (a.srgb(), b.srgb());
-    a.chunks(3).zip(b.chunks(3)).filter(|(a, b)| a != b).count()
-}
-
-/// Whether two pictures are the same to the bit.
-pub fn same_bits(a: &Picture, b: &Picture) -> bool {
-    let bits = |picture: &Picture| -> Vec<[u32; 4]> {
-        picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
-    };
-    (a.width, a.height) == (b.width, b.height) && bits(a) == bits(b)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn black_and_white_are_one_apart() {
-        let plain = |value| Picture { width: 3, height: 2, pixels: vec![[value; 4]; 6] };
-        assert_eq!(mean_difference(&plain(0.0), &plain(1.0)), 1.0);
-        assert_eq!(mean_difference(&plain(0.3), &plain(0.3)), 0.0);
-        let mut spot = plain(0.3);
-        spot.pixels[4][1] = 0.7;
-        assert_eq!(pixels_apart(&plain(0.3), &spot), 1);
-        // Less than a step of 255: another float, the same pixel of a PNG.
-        spot.pixels[4][1] = 0.300_000_1;
-        assert_eq!(pixels_apart(&plain(0.3), &spot), 0);
-        assert!(!same_bits(&plain(0.3), &spot) && same_bits(&spot, &spot));
-    }
 }

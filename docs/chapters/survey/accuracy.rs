@@ -25,7 +25,7 @@ pub fn is_asked(chapter: &str, target: Option<&str>) -> bool {
 
 /// What it is asked, where the project has it: hard cases, then random rays. Their answers go to a folder.
 pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
-    if !project.chapters.iter().any(|chapter| chapter.name == NAME) {
+    if project.named(NAME).is_none() {
         return Vec::new();
     }
     let mut cases = words(&["--headless", "--cases", CASES, "--report"]);

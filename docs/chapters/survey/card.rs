@@ -174,7 +174,7 @@ impl Card {
         }
         for (index, chapter) in self.chapters.iter().enumerate() {
             let name = &chapter.name;
-            if !project.chapters.iter().any(|known| known.name == *name) {
+            if project.named(name).is_none() {
                 wrong.push(format!("there is no chapter '{name}'"));
             }
             if self.chapters[..index].iter().any(|other| other.name == *name) {

@@ -13,6 +13,7 @@ use std::time::{Instant, SystemTime};
 use anyhow::{Context, Result, bail};
 use common::files::Folder;
 use common::gpu::Limits;
+use common::output::print;
 use common::usage::Usage;
 use manuscript::project::{Chapter, Project};
 use patience::Limit;
@@ -87,7 +88,7 @@ impl Survey<'_> {
     /// If there is no device, it executes nothing, the card cannot be written, a signal asks for the end, or a
     /// chapter fails: then the line says where the card is.
     pub fn run(&self, out: &Path) -> Result<()> {
-        interrupt::on_signal();
+        interrupt::listen();
         let cannot = || format!("cannot write to '{}'", out.display());
         fs::create_dir_all(out).with_context(cannot)?;
         common::files::check_writable(&out.join("card.md"))?;
@@ -97,10 +98,7 @@ impl Survey<'_> {
         let laboratory = accuracy::runs(self.project, folder.path());
         let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
         let limit = self.limit;
-        crate::print(&format!(
-            "{} lines to come; a program is stopped after {limit}\n",
-            steps.all
-        ))?;
+        print(&format!("{} lines to come; a program is stopped after {limit}\n", steps.all))?;
         let mut card = Card {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
@@ -144,16 +142,16 @@ impl Survey<'_> {
                 "{passed} of {all} chapters pass, hard cases and measurements apart; the card is {files}"
             );
         }
-        crate::print(&format!("{all} chapters pass; the card is {files}\n"))
+        print(&format!("{all} chapters pass; the card is {files}\n"))
     }
 
     /// What is surveyed: the commit, and whether code or shaders differ from it.
     fn commit(&self) -> Option<String> {
         let git = |arguments: &[&str]| {
-            let output =
-                Command::new("git").args(arguments).current_dir(&self.project.root).output();
-            let output = output.ok().filter(|output| output.status.success())?;
-            Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+            let mut git = Command::new("git");
+            let ended = git.args(arguments).current_dir(&self.project.root);
+            let ended = child::run(ended, Limit::NONE).ok().filter(Ended::succeeded)?;
+            Some(ended.told.trim().to_owned())
         };
         let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
         let changed = git(&["status", "--porcelain", "--", "samples", "common", "shaders"])?;
@@ -165,14 +163,14 @@ impl Survey<'_> {
         let names = self.project.chapters.iter().map(|chapter| &*chapter.name);
         let mut stale = names.filter_map(|name| self.programs.command(name).err());
         let Some(why) = stale.next() else { return Ok(()) };
-        crate::print(&format!("{why}: cargo build --bins, some minutes the first time\n"))?;
-        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--quiet", "--bins"]).current_dir(&self.project.root);
+        print(&format!("{why}: cargo build --bins, some minutes the first time\n"))?;
+        let mut cargo = child::cargo(&self.project.root);
+        cargo.args(["build", "--quiet", "--bins"]);
         if self.programs.are_released() {
             cargo.arg("--release");
         }
         // What does not build is told chapter by chapter.
-        cargo.status().map(drop).context("cargo does not start")
+        child::show(&mut cargo).map(drop)
     }
 
     /// Fails if there is no device, or `--device` names none, before anything is run for a card.
@@ -308,7 +306,7 @@ impl Steps {
             self.start.elapsed().as_secs_f64() / self.done as f64 * (self.all - self.done) as f64;
         let left =
             if self.done < self.all { format!("; about {left:.0} s left") } else { String::new() };
-        crate::print(&format!("[{}/{}] {name}: {what}{left}\n", self.done, self.all))
+        print(&format!("[{}/{}] {name}: {what}{left}\n", self.done, self.all))
     }
 }
 

@@ -17,7 +17,7 @@ use common::gpu::shader::are_others;
 use common::output;
 use common::usage::Usage;
 
-pub use signals::{Interrupt, Stopped, watch};
+pub use self::signals::{Interrupt, Stopped, watch};
 
 /// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
 /// half-written file. Shaders of a folder that is not the project's are compiled in a process of their own.

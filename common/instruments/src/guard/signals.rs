@@ -4,7 +4,6 @@
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-#[cfg(unix)]
 use common::files;
 
 /// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
@@ -33,41 +32,17 @@ impl Drop for Interrupt {
     }
 }
 
-/// Takes up signals for as long as the process lives. Where that cannot be done they end it, as ever.
-#[cfg(unix)]
+/// Takes up signals for as long as the process lives.
 pub fn watch() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use signal_hook::iterator::Signals;
-    // What started this process may have asked it to live on: `nohup`, or a shell's `&`.
-    let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-    // Here, not in the thread, which may begin only after the first file has.
-    let Ok(mut signals) = Signals::new(heeded) else { return };
-    let watch = move || {
-        for signal in signals.forever() {
-            let first = !CAME.swap(true, Ordering::Relaxed);
-            if first && LISTENING.load(Ordering::Relaxed) {
-                continue;
-            }
-            files::abandon();
-            let _ = signal_hook::low_level::emulate_default_handler(signal);
+    signals::watch(|signal| {
+        let first = !CAME.swap(true, Ordering::Relaxed);
+        if first && LISTENING.load(Ordering::Relaxed) {
+            return;
         }
-    };
-    let _ = std::thread::Builder::new().name("signals".to_owned()).spawn(watch);
+        files::abandon();
+        signal.end();
+    });
 }
-
-#[cfg(unix)]
-fn is_ignored(signal: i32) -> bool {
-    let mut now = std::mem::MaybeUninit::<libc::sigaction>::uninit();
-    // SAFETY: no new action is given, and the present one is read only if it was written.
-    unsafe {
-        libc::sigaction(signal, std::ptr::null(), now.as_mut_ptr()) == 0
-            && now.assume_init().sa_sigaction == libc::SIG_IGN
-    }
-}
-
-/// Elsewhere the system ends a process as ever.
-#[cfg(not(unix))]
-pub fn watch() {}
 
 /// The error that means "asked to stop, and what was done is saved": a program ends with exit code 3.
 #[derive(Debug)]

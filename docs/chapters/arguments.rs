@@ -1,0 +1,163 @@
+//! What is asked of the tool: its commands and their arguments.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+use common::usage::Usage;
+
+use crate::exercises::command::ExerciseArguments;
+
+/// Shows any two chapters side by side, and keeps the book's pages true to the code
+#[derive(Debug, Parser)]
+#[command(name = "chapters", disable_version_flag = true)]
+pub struct Arguments {
+    /// What is asked
+    #[command(subcommand)]
+    pub command: Command,
+
+    /// The project's root
+    #[arg(long, value_name = "DIR", global = true, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), hide_default_value = true)]
+    pub root: PathBuf,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List the chapters: what each teaches, builds on, and needs of the device
+    List {
+        /// As JSON, for scripts
+        #[arg(long)]
+        json: bool,
+    },
+    /// Show what a chapter changes in another, such as `diff 02 03`; coloured unless piped or NO_COLOR
+    ///
+    /// Its code and its shaders, unless a part is named. Of a chapter and one that builds on it, the other
+    /// is the newer, whichever is named first.
+    Diff {
+        /// The older chapter: its number or name
+        old: String,
+        /// The newer chapter
+        new: String,
+        /// Only count lines
+        #[arg(long)]
+        stat: bool,
+        /// Compare the Rust code
+        #[arg(long)]
+        code: bool,
+        /// Compare the shaders
+        #[arg(long)]
+        shaders: bool,
+        /// Compare the pages
+        #[arg(long)]
+        page: bool,
+        /// Lines around each change
+        #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16))]
+        context: u16,
+    },
+    /// Make a chapter as a copy of another, such as `new 13 callable_shader --from 05`
+    New {
+        /// Its number
+        number: u32,
+        /// Its name
+        name: String,
+        /// The chapter it builds on: its number or name
+        #[arg(long)]
+        from: String,
+    },
+    /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
+    Sync {
+        /// Also render the pictures of these names, or all that are out of date
+        #[arg(long, value_name = "NAME", num_args = 0..)]
+        pictures: Option<Vec<String>>,
+    },
+    /// Run the commands that gave the figures of these pages or measurements, such as `05` or
+    /// `05_shadow_miss/acne`, or of all that are out of date, and fill the figures in
+    Measure {
+        /// Chapters, pages, measurements; a time is measured again only if it is named
+        names: Vec<String>,
+    },
+    /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
+    /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer
+    Survey {
+        /// Use this device: a number of --list-devices or a part of its name
+        #[arg(long, value_name = "N|NAME")]
+        device: Option<String>,
+        /// Where the card goes, as Markdown and as JSON
+        #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
+        out: PathBuf,
+        /// Stop a program after so many whole seconds, 1 to 86400
+        #[arg(long, value_name = "SECONDS", default_value_t = 180,
+            value_parser = clap::value_parser!(u64).range(1..=86400))]
+        limit: u64,
+        /// Only print what would be run
+        #[arg(long)]
+        list: bool,
+    },
+    /// Make a copy of the shaders, or of all code, with a classic mistake in it, and say how to run it
+    Mistake {
+        /// Its name, as --list shows it
+        name: Option<String>,
+        /// List the mistakes
+        #[arg(long)]
+        list: bool,
+        /// Where the copy goes [default: target/mistakes/NAME]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+        /// Run it and hold it to what its file claims; without a name, every one that is in shaders alone
+        #[arg(long)]
+        check: bool,
+    },
+    /// Do an exercise of a page: `exercise 05.2` sets it up and checks it on each save until it is solved
+    Exercise(ExerciseArguments),
+    /// Add the files that --save has written: OUT is the picture (.png or .exr), or such a file again
+    Merge {
+        /// The picture or file to write
+        out: PathBuf,
+        /// The files; no sample may be in two of them
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Fail if one of these samples is missing
+        #[arg(long, value_name = "A..B", value_parser = instruments::sums::range)]
+        samples: Option<Range<u32>>,
+    },
+    /// Make a website of the book with mdBook, to be read from a file or from any folder of a server
+    Book {
+        /// Where it goes: a folder that this command made before, or that is empty or new [default: book]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+    },
+    /// Run the tests that plain `cargo test` leaves out, a test program after the other, with their times
+    Nightly {
+        /// Test programs, such as `samples`; all of them if none is named
+        names: Vec<String>,
+        /// Only list the tests, each with why it is left out
+        #[arg(long)]
+        list: bool,
+    },
+    /// Name everything that is stale, missing or stray; exit code 1 if anything is
+    Check,
+}
+
+/// Reads the arguments.
+///
+/// # Errors
+/// What is wrong with them, in one line.
+pub fn parse() -> Result<Arguments> {
+    Arguments::try_parse().map_err(|error| {
+        if !error.use_stderr() {
+            common::output::print_and_exit(&error.to_string());
+        }
+        let text = error.to_string();
+        // Without a command clap's error is the help, in which no line says what is missing.
+        // What is required is listed in lines of its own below it.
+        let mut lines = text.lines().skip_while(|line| !line.starts_with("error: "));
+        let first = lines.next().map(|line| line.trim_start_matches("error: ").to_owned());
+        let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
+        let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
+        let line = line.as_deref().unwrap_or(
+            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, nightly, check",
+        );
+        Usage(format!("{line}; --help lists the commands")).into()
+    })
+}

@@ -1,0 +1,43 @@
+//! How far two pictures are apart.
+
+use common::app::Picture;
+
+/// The mean difference of all channels as a PNG would have them, of 1.
+pub fn mean_difference(a: &Picture, b: &Picture) -> f64 {
+    let (a, b) = (a.srgb(), b.srgb());
+    let sum: u64 = a.iter().zip(&b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / 255.0 / a.len().max(1) as f64
+}
+
+/// How many pixels differ as a PNG would have them.
+pub fn pixels_apart(a: &Picture, b: &Picture) -> usize {
+    let (a, b) = (a.srgb(), b.srgb());
+    a.chunks(3).zip(b.chunks(3)).filter(|(a, b)| a != b).count()
+}
+
+/// Whether two pictures are the same to the bit.
+pub fn same_bits(a: &Picture, b: &Picture) -> bool {
+    let bits = |picture: &Picture| -> Vec<[u32; 4]> {
+        picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
+    };
+    (a.width, a.height) == (b.width, b.height) && bits(a) == bits(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn black_and_white_are_one_apart() {
+        let plain = |value| Picture { width: 3, height: 2, pixels: vec![[value; 4]; 6] };
+        assert_eq!(mean_difference(&plain(0.0), &plain(1.0)), 1.0);
+        assert_eq!(mean_difference(&plain(0.3), &plain(0.3)), 0.0);
+        let mut spot = plain(0.3);
+        spot.pixels[4][1] = 0.7;
+        assert_eq!(pixels_apart(&plain(0.3), &spot), 1);
+        // Less than a step of 255: another float, the same pixel of a PNG.
+        spot.pixels[4][1] = 0.300_000_1;
+        assert_eq!(pixels_apart(&plain(0.3), &spot), 0);
+        assert!(!same_bits(&plain(0.3), &spot) && same_bits(&spot, &spot));
+    }
+}
