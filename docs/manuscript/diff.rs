@@ -94,7 +94,8 @@ impl FileDiff {
         self.new.path.as_ref().or(self.old.path.as_ref()).map_or("", String::as_str)
     }
 
-    fn changes(&self) -> impl Iterator<Item = &DiffOp> {
+    /// What is not the same in both.
+    pub(crate) fn changes(&self) -> impl Iterator<Item = &DiffOp> {
         self.ops.iter().filter(|op| !matches!(op, DiffOp::Equal { .. }))
     }
 

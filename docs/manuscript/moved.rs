@@ -37,8 +37,7 @@ pub fn mark(diffs: &mut [FileDiff]) {
 
 /// The places of lines that are on one side only.
 fn places(diff: &FileDiff, side: impl Fn(&DiffOp) -> std::ops::Range<usize>) -> Vec<usize> {
-    let changes = diff.ops.iter().filter(|op| !matches!(op, DiffOp::Equal { .. }));
-    changes.flat_map(side).collect()
+    diff.changes().flat_map(side).collect()
 }
 
 /// The longest block at the start of `added` that was removed somewhere as it stands; empty if it says
@@ -73,8 +72,7 @@ fn longest(
 
 /// Whether a line of the older file is not in the newer one.
 fn gone(diff: &FileDiff, at: usize) -> bool {
-    let mut changes = diff.ops.iter().filter(|op| !matches!(op, DiffOp::Equal { .. }));
-    changes.any(|op| op.old_range().contains(&at))
+    diff.changes().any(|op| op.old_range().contains(&at))
 }
 
 fn key(line: &Line) -> String {

@@ -204,6 +204,21 @@ impl Page {
         ended(&self.lines).enumerate().map(line).collect()
     }
 
+    /// The page with other words in some places of what its author wrote, none of which is in two lines.
+    pub fn edited(&self, mut changes: Vec<(Range<usize>, String)>) -> Self {
+        let text = self.written();
+        let mut lines = self.lines.clone();
+        changes.sort_by_key(|(span, _)| span.start);
+        // From the end: a change moves only text behind it, which is done.
+        for (span, new) in changes.into_iter().rev() {
+            let before = &text[..span.start];
+            let start = before.rfind('\n').map_or(0, |at| at + 1);
+            let line = before.matches('\n').count();
+            lines[line].replace_range(span.start - start..span.end - start, &new);
+        }
+        Self::parse(&self.path, &ended(&lines).collect::<String>())
+    }
+
     /// The page's text, each line with its number from 1: without what is generated, markers and fenced blocks.
     pub fn prose(&self) -> Vec<(usize, &str)> {
         let mut found = Vec::new();

@@ -77,3 +77,28 @@ pub fn shared(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> 
     }
     found
 }
+
+/// The language of a file, as fenced blocks call it.
+pub fn language(path: &str) -> &'static str {
+    match path.rsplit_once('.').map_or("", |(_, extension)| extension) {
+        "rs" => "rust",
+        "yml" => "yaml",
+        "diff" => "diff",
+        "toml" => "toml",
+        "sbatch" | "sh" => "sh",
+        "json" => "json",
+        extension if EXTENSIONS.contains(&extension) => "glsl",
+        _ => "text",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn languages_follow_extensions() {
+        let files = ["a/main.rs", "a/x.rahit", "a/push.glsl", "Cargo.toml", "a/chess.obj"];
+        assert_eq!(files.map(language), ["rust", "glsl", "glsl", "toml", "text"]);
+    }
+}

@@ -118,7 +118,7 @@ impl Shown<'_> {
     fn alone(&mut self, file: &str, open: bool) -> Result<()> {
         let text = self.project.read(file)?;
         let named = named(file, &text)?;
-        let painted = color::lines(color::language(file), &text);
+        let painted = color::lines(shader::language(file), &text);
         let mut html = String::from("<div class=\"alone\"><div class=\"new\">");
         for (index, line) in text.lines().enumerate() {
             let class = if anchor::is_mark(line) { " mark" } else { "" };
@@ -196,7 +196,7 @@ impl<'a> Painted<'a> {
             return Ok(Self { side, lines: Vec::new(), named: BTreeMap::new() });
         };
         let text = project.read(file)?;
-        let lines = color::lines(color::language(file), &text);
+        let lines = color::lines(shader::language(file), &text);
         Ok(Self { side, lines, named: named(file, &text)? })
     }
 
@@ -253,7 +253,7 @@ fn kept(text: &str) -> impl Iterator<Item = (usize, &str)> {
 fn named(file: &str, text: &str) -> Result<BTreeMap<usize, Vec<String>>> {
     let mut found: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     // A patch has of a part's marks what lies near its changes.
-    if color::language(file) == "diff" {
+    if shader::language(file) == "diff" {
         return Ok(found);
     }
     for part in anchor::anchors(file, text).map_err(|fault| fault.error())? {

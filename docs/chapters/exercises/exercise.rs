@@ -13,7 +13,7 @@ use manuscript::project::{Chapter, Project};
 
 use super::interval::{Interval, number};
 use super::proof::{Run, Step, steps};
-use crate::patches::patch::{Field, Patch};
+use crate::patches::patch::{self, Field, Patch};
 
 /// Where the exercises lie.
 pub const FOLDER: &str = "docs/exercises";
@@ -33,6 +33,16 @@ pub enum Takes {
     File,
     /// Edits of Rust code, and a build.
     Rust,
+}
+
+impl Takes {
+    /// The words in its file.
+    const WORDS: [(Self, &str); 4] = [
+        (Self::Look, "look"),
+        (Self::Shader, "shader"),
+        (Self::File, "file"),
+        (Self::Rust, "Rust"),
+    ];
 }
 
 /// An exercise.
@@ -63,14 +73,8 @@ pub struct Exercise {
 impl Exercise {
     /// Every exercise, by chapter and number, and what is wrong with the files.
     pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
-        let (mut exercises, mut faults) = (Vec::new(), Vec::new());
-        for file in project.files(FOLDER) {
-            let text = project.read(&file).unwrap_or_default();
-            match Self::parse(project, &file, &text) {
-                Ok(exercise) => exercises.push(exercise),
-                Err(fault) => faults.push(fault),
-            }
-        }
+        let (mut exercises, faults): (Vec<Self>, _) =
+            patch::all(project, FOLDER, |file, text| Self::parse(project, file, text));
         exercises.sort_by(|a, b| (&a.chapter, a.number).cmp(&(&b.chapter, b.number)));
         (exercises, faults)
     }
@@ -80,8 +84,7 @@ impl Exercise {
     /// # Errors
     /// If a file is wrong.
     pub fn whole(project: &Project) -> Result<Vec<Self>> {
-        let (exercises, faults) = Self::all(project);
-        faults.into_iter().next().map_or(Ok(exercises), |fault| Err(fault.error()))
+        patch::whole(Self::all(project))
     }
 
     /// The exercises that `05.2` or, all of a chapter, `05` means.
@@ -126,18 +129,10 @@ impl Exercise {
         };
         let mut patch = Patch::parse(file, text, FORM)?;
         let Field { line, value: takes, .. } = patch.field("Takes")?;
-        let takes = match takes.trim_end_matches(", test") {
-            "look" => Takes::Look,
-            "shader" => Takes::Shader,
-            "file" => Takes::File,
-            "Rust" => Takes::Rust,
-            _ => {
-                return wrong(
-                    line,
-                    &format!("an exercise takes no '{takes}'"),
-                    "write look, shader, file or Rust",
-                );
-            }
+        let word = takes.trim_end_matches(", test");
+        let Some(&(takes, _)) = Takes::WORDS.iter().find(|(_, known)| *known == word) else {
+            let what = format!("an exercise takes no '{takes}'");
+            return wrong(line, &what, "write look, shader, file or Rust");
         };
         let mut text_of = |key| patch.field(key).map(|field| field.value);
         let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
@@ -190,12 +185,8 @@ impl Exercise {
 
     /// What it takes, in words.
     pub fn takes(&self) -> String {
-        let word = match self.takes {
-            Takes::Look => "look",
-            Takes::Shader => "shader",
-            Takes::File => "file",
-            Takes::Rust => "Rust",
-        };
+        let word = Takes::WORDS.iter().find(|(takes, _)| *takes == self.takes);
+        let word = word.map_or("", |(_, word)| word);
         let test = if self.runs_tests() { ", test" } else { "" };
         format!("{word}{test}")
     }

@@ -38,9 +38,6 @@ use super::number::Number;
 use super::passage::{self, Mark, Passage, line};
 use super::record::{self, Record};
 
-/// How the fault of a figure without a measurement ends.
-const NO_MEASUREMENT: &str = "bound to no measurement";
-
 /// A number on a page and what it should be.
 struct Bound {
     number: Number,
@@ -71,8 +68,8 @@ struct Found {
     told: BTreeSet<String>,
 }
 
-/// What is wrong with a page's figures; `unbound` are the pages that may have figures without measurement.
-pub fn check(page: &Page, stored: &Records, unbound: &[String]) -> Vec<Fault> {
+/// What is wrong with a page's figures.
+pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
     let text = page.written();
     let mut found = Found::of(page, &text, stored);
     let fault = |at: usize, what: String, remedy: &str| {
@@ -112,14 +109,6 @@ pub fn check(page: &Page, stored: &Records, unbound: &[String]) -> Vec<Fault> {
             found.faults.push(fault(number.span.start, what, &remedy));
         }
     }
-    let is_unbound = |fault: &Fault| fault.what.ends_with(NO_MEASUREMENT);
-    if unbound.contains(&page.path) {
-        if !found.faults.iter().any(is_unbound) {
-            let what = "every figure of this page is bound".to_owned();
-            found.faults.push(fault(0, what, &format!("take it out of {}", record::UNBOUND)));
-        }
-        found.faults.retain(|fault| !is_unbound(fault));
-    }
     found.faults
 }
 
@@ -133,15 +122,7 @@ pub fn filled(page: &Page, stored: &Records) -> Page {
         let day = day(names, stored).filter(|_| !names.is_empty())?;
         Some((span.end - device_note::DAY..span.end, day.to_owned()))
     }));
-    changes.sort_by_key(|(span, _)| span.start);
-    let mut lines = page.lines.clone();
-    // From the end: a change moves only text behind it, which is done.
-    for (span, new) in changes.into_iter().rev() {
-        let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
-        let of_line = span.start - start..span.end - start;
-        lines[line(&text, span.start) - 1].replace_range(of_line, &new);
-    }
-    Page::parse(&page.path, &lines.iter().map(|line| format!("{line}\n")).collect::<String>())
+    page.edited(changes)
 }
 
 impl Found {
@@ -238,7 +219,7 @@ impl Found {
                 let verb = if count == 1 { "is" } else { "are" };
                 let remedy = "add <!-- figures NAME: VALUE … --> below, or <!-- explains NUMBER … --> \
                               for what no run gave";
-                fault(at, format!("{list} {verb} {NO_MEASUREMENT}"), remedy);
+                fault(at, format!("{list} {verb} bound to no measurement"), remedy);
             }
             (at, names) if names.len() != count => {
                 let at = at.or(passage.text.first().map(|part| part.start)).unwrap_or(0);

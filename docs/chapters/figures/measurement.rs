@@ -35,8 +35,27 @@ pub struct Measurement {
     pub command: String,
 }
 
+/// Every measurement that a page makes, and what is wrong with their markers.
+pub fn all(pages: &[Page]) -> (Vec<Measurement>, Vec<Fault>) {
+    let (mut measurements, mut faults) = (BTreeMap::<String, Measurement>::new(), Vec::new());
+    for page in pages {
+        let (found, wrong) = of(page);
+        faults.extend(wrong);
+        for measurement in found {
+            let Measurement { name, line, .. } = &measurement;
+            if let Some(other) = measurements.get(name) {
+                let what = format!("{name} is already made in line {}", other.line);
+                faults.push(Fault::new(&*page.path, *line, what, "rename one"));
+            } else {
+                measurements.insert(name.clone(), measurement);
+            }
+        }
+    }
+    (measurements.into_values().collect(), faults)
+}
+
 /// The measurements of a page, and what is wrong with its markers.
-pub fn of(page: &Page) -> (Vec<Measurement>, Vec<Fault>) {
+fn of(page: &Page) -> (Vec<Measurement>, Vec<Fault>) {
     let text = page.written();
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     let mut open: Option<(usize, Vec<String>)> = None;

@@ -64,8 +64,8 @@ enum Scale {
 /// Every number in a part of a text that is not the name or the number of something.
 pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
     let captures = TEXT.captures_iter(&text[part.clone()]);
-    let groups = captures
-        .filter_map(|found| ["power", "decimal", "plain"].iter().find_map(|name| found.name(name)));
+    let groups =
+        captures.filter_map(|found| ["power", "plain"].iter().find_map(|name| found.name(name)));
     let number = |found: regex_lite::Match| {
         let span = part.start + found.start()..part.start + found.end();
         let (before, after) = (&text[..span.start], text[span.end..].trim_start_matches(' '));

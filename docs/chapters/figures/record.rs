@@ -13,9 +13,6 @@ use serde_json::{Map, Value};
 /// Where the measurements lie.
 pub const FOLDER: &str = "docs/figures";
 
-/// The list of the pages whose figures are not all bound yet, a page a line.
-pub const UNBOUND: &str = "docs/figures/unbound.txt";
-
 /// The device of what a test computes by itself.
 pub const HOST: &str = "host";
 
@@ -39,12 +36,6 @@ pub struct Record {
     pub values: Map<String, Value>,
 }
 
-/// The pages whose figures are not all bound yet.
-pub fn unbound(project: &Project) -> Vec<String> {
-    let text = project.read(UNBOUND).unwrap_or_default();
-    text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
-}
-
 /// The file of a measurement, from the project's root.
 pub fn file(name: &str) -> String {
     format!("{FOLDER}/{name}.json")
@@ -59,7 +50,7 @@ impl Record {
     /// Every measurement, by page and name, and what is wrong with the files.
     pub fn all(project: &Project) -> (BTreeMap<String, Self>, Vec<Fault>) {
         let (mut found, mut faults) = (BTreeMap::new(), Vec::new());
-        for file in project.files(FOLDER).into_iter().filter(|file| file != UNBOUND) {
+        for file in project.files(FOLDER) {
             let name = file.strip_prefix(FOLDER).and_then(|rest| rest.strip_suffix(".json"));
             let Some(name) = name.map(|name| name.trim_start_matches('/').to_owned()) else {
                 faults.push(Fault::new(file, 1, "a measurement is a file NAME.json", "rename it"));

@@ -13,7 +13,7 @@ use manuscript::fault::Fault;
 use manuscript::project::Project;
 
 use crate::patches::copy::file_on_the_way;
-use crate::patches::patch::{Field, Patch};
+use crate::patches::patch::{self, Field, Patch};
 use crate::pictures::stamp;
 use crate::sources::hash;
 
@@ -84,15 +84,7 @@ pub struct Mistake {
 impl Mistake {
     /// Every mistake, by name, and what is wrong with the files.
     pub fn all(project: &Project) -> (Vec<Self>, Vec<Fault>) {
-        let (mut mistakes, mut faults) = (Vec::new(), Vec::new());
-        for file in project.files(FOLDER) {
-            let text = project.read(&file).unwrap_or_default();
-            match Self::parse(project, &file, &text) {
-                Ok(mistake) => mistakes.push(mistake),
-                Err(fault) => faults.push(fault),
-            }
-        }
-        (mistakes, faults)
+        patch::all(project, FOLDER, |file, text| Self::parse(project, file, text))
     }
 
     /// Every mistake, by name.
@@ -100,8 +92,7 @@ impl Mistake {
     /// # Errors
     /// If a file is wrong.
     pub fn whole(project: &Project) -> Result<Vec<Self>> {
-        let (mistakes, faults) = Self::all(project);
-        faults.into_iter().next().map_or(Ok(mistakes), |fault| Err(fault.error()))
+        patch::whole(Self::all(project))
     }
 
     /// The mistake of this name.

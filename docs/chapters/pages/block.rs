@@ -117,21 +117,11 @@ fn snippet(project: &Project, source: &str) -> Result<String, Wrong> {
     if shown.is_empty() {
         return Err(Wrong::new(format!("'{source}' is empty"), "name a part that says something"));
     }
-    Ok(fenced(language(file), &shown))
+    Ok(fenced(shader::language(file), &shown))
 }
 
 fn split(source: &str) -> (&str, Option<&str>) {
     source.split_once('#').map_or((source, None), |(file, anchor)| (file, Some(anchor)))
-}
-
-fn language(file: &str) -> &str {
-    match file.rsplit_once('.').map_or("", |(_, extension)| extension) {
-        "rs" => "rust",
-        extension if shader::EXTENSIONS.contains(&extension) => "glsl",
-        "yml" => "yaml",
-        extension @ ("toml" | "json" | "sh") => extension,
-        _ => "text",
-    }
 }
 
 /// A fenced block, whatever its text holds.
@@ -236,11 +226,5 @@ mod tests {
     fn a_fence_is_longer_than_what_it_holds() {
         assert_eq!(fenced("rust", "x\n"), "```rust\nx\n```\n");
         assert_eq!(fenced("text", "```\nx\n```\n"), "````text\n```\nx\n```\n````\n");
-    }
-
-    #[test]
-    fn languages_follow_extensions() {
-        let files = ["a/main.rs", "a/x.rahit", "a/push.glsl", "Cargo.toml", "a/chess.obj"];
-        assert_eq!(files.map(language), ["rust", "glsl", "glsl", "toml", "text"]);
     }
 }

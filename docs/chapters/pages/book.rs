@@ -1,6 +1,6 @@
 //! The whole book: what its generated parts should say, what is wrong, and mending what can be mended.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use anyhow::Result;
 use common::usage::Usage;
@@ -16,9 +16,9 @@ use super::markdown::Markdown;
 use super::reference::Files;
 use super::{chapter_files, exercise_list, gallery, shared_shader, stray_file, text};
 use crate::exercises::exercise;
-use crate::figures::figure;
 use crate::figures::measurement::{self, Measurement};
-use crate::figures::record::{self, Record};
+use crate::figures::record::Record;
+use crate::figures::{self, figure};
 use crate::mistakes::mistake::Mistake;
 use crate::mistakes::reproduction::Reproduction;
 use crate::nightly;
@@ -64,7 +64,7 @@ impl<'a> Book<'a> {
             faults.extend(glossary.check(page));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }
-        let (pictures, wrong) = self.pictures();
+        let (pictures, wrong) = Picture::all(self.project, &self.pages);
         faults.extend(wrong);
         let mut sources = Sources::default();
         for picture in &pictures {
@@ -81,7 +81,7 @@ impl<'a> Book<'a> {
         }
         faults.extend(exercise::check(self.project));
         faults.extend(text::check_exercises(self.project, self.programs, &files));
-        faults.extend(self.wrong_figures(&mut sources));
+        faults.extend(figures::check(self.project, &self.pages, &mut sources));
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
         let summary = gallery::summary(self.project);
@@ -145,83 +145,13 @@ impl<'a> Book<'a> {
         Ok((changed, faults))
     }
 
-    /// Every picture that a page makes, and what is wrong with their markers.
-    pub fn pictures(&self) -> (Vec<Picture>, Vec<Fault>) {
-        let (mut pictures, mut faults) = (Vec::<Picture>::new(), Vec::new());
-        for page in &self.pages {
-            for mark in &page.pictures {
-                match Picture::of(self.project, page, mark) {
-                    Ok(picture) => match pictures.iter().find(|other| other.name == picture.name) {
-                        Some(other) => {
-                            let first = format!("{}:{}", other.page, other.line);
-                            let what = format!("{} is already made at {first}", picture.file());
-                            let remedy = "give this one a name: <!-- picture NAME -->";
-                            faults.push(Fault::new(picture.page, picture.line, what, remedy));
-                        }
-                        None => pictures.push(picture),
-                    },
-                    Err(fault) => faults.push(fault),
-                }
-            }
-        }
-        (pictures, faults)
-    }
-
-    /// Figures that are not what was measured, and measurements that are out of date.
-    fn wrong_figures(&self, sources: &mut Sources) -> Vec<Fault> {
-        let (stored, mut faults) = Record::all(self.project);
-        // If a page's stored file is damaged, its figures cannot be checked.
-        let is_known = |page: &&Page| {
-            let folder = format!("{}/{}/", record::FOLDER, page.stem());
-            !faults.iter().any(|fault| fault.file.starts_with(&folder))
-        };
-        let pages: Vec<&Page> = self.pages.iter().filter(is_known).collect();
-        let (measurements, wrong) = self.measurements();
-        faults.extend(wrong);
-        for measurement in &measurements {
-            let known = stored.get(&measurement.name);
-            // A file that is damaged has been told as that.
-            if known.is_some() || !self.project.has(&measurement.file()) {
-                faults.extend(measurement.stale(self.project, known, sources));
-            }
-        }
-        faults.extend(measurement::strays(&measurements, &stored));
-        let unbound = record::unbound(self.project);
-        for path in unbound.iter().filter(|path| !self.pages.iter().any(|page| page.path == **path))
-        {
-            let what = format!("there is no page '{path}'");
-            faults.push(Fault::new(record::UNBOUND, 1, what, "take it out"));
-        }
-        faults.extend(pages.into_iter().flat_map(|page| figure::check(page, &stored, &unbound)));
-        faults
-    }
-
-    /// Every measurement that a page makes, and what is wrong with their markers.
-    fn measurements(&self) -> (Vec<Measurement>, Vec<Fault>) {
-        let (mut measurements, mut faults) = (BTreeMap::<String, Measurement>::new(), Vec::new());
-        for page in &self.pages {
-            let (found, wrong) = measurement::of(page);
-            faults.extend(wrong);
-            for measurement in found {
-                if let Some(other) = measurements.get(&measurement.name) {
-                    let what =
-                        format!("{} is already made in line {}", measurement.name, other.line);
-                    faults.push(Fault::new(&*page.path, measurement.line, what, "rename one"));
-                } else {
-                    measurements.insert(measurement.name.clone(), measurement);
-                }
-            }
-        }
-        (measurements.into_values().collect(), faults)
-    }
-
     /// Renews the measurements of these pages and names, or with none those that are out of date.
     ///
     /// # Errors
     /// If a name is unknown.
     pub fn measure(&self, names: &[String], done: impl FnMut(&str)) -> Result<Vec<Fault>> {
         let (stored, _) = Record::all(self.project);
-        let (measurements, mut faults) = self.measurements();
+        let (measurements, mut faults) = measurement::all(&self.pages);
         let mut sources = Sources::default();
         let names: Vec<&str> = names
             .iter()
@@ -320,7 +250,8 @@ impl<'a> Book<'a> {
     /// # Errors
     /// With its name.
     pub fn check_pictures(&self, names: &[String]) -> Result<(), Usage> {
-        let pictures = self.pictures().0.into_iter().map(|picture| picture.name);
+        let pictures =
+            Picture::all(self.project, &self.pages).0.into_iter().map(|picture| picture.name);
         let mistakes = Mistake::all(self.project).0.into_iter().map(|mistake| mistake.name);
         let there: Vec<String> = pictures.chain(mistakes).collect();
         match names.iter().find(|name| !there.contains(name)) {
@@ -338,9 +269,16 @@ impl<'a> Book<'a> {
     /// If a name is unknown, or a command fails.
     pub fn render(&self, names: &[String], mut done: impl FnMut(&str, &str)) -> Result<Vec<Fault>> {
         self.check_pictures(names)?;
-        let (pictures, mut faults) = self.pictures();
+        let (pictures, mut faults) = Picture::all(self.project, &self.pages);
         let (mistakes, wrong) = Mistake::all(self.project);
         faults.extend(wrong);
+        let mut rendered = |file: String, made: Result<String>, place: (String, usize), remedy| {
+            let fault = |error| {
+                let what = format!("{file} cannot be rendered: {error:#}");
+                Fault::new(place.0, place.1, what, remedy)
+            };
+            faults.extend(made.map(|device| done(&file, &device)).map_err(fault).err());
+        };
         let mut sources = Sources::default();
         for picture in &pictures {
             let wanted = match names {
@@ -348,15 +286,9 @@ impl<'a> Book<'a> {
                 _ => names.contains(&picture.name),
             };
             if wanted {
-                match picture.render(self.project, self.programs, &mut sources) {
-                    Ok(device) => done(&picture.file(), &device),
-                    Err(error) => faults.push(Fault::new(
-                        &*picture.page,
-                        picture.line,
-                        format!("{} cannot be rendered: {error:#}", picture.file()),
-                        "correct the command or the sample",
-                    )),
-                }
+                let made = picture.render(self.project, self.programs, &mut sources);
+                let place = (picture.page.clone(), picture.line);
+                rendered(picture.file(), made, place, "correct the command or the sample");
             }
         }
         for mistake in &mistakes {
@@ -365,15 +297,9 @@ impl<'a> Book<'a> {
                 _ => names.contains(&mistake.name),
             };
             if wanted {
-                match Reproduction::new(self.project, self.programs, mistake).render() {
-                    Ok(device) => done(&mistake.picture(), &device),
-                    Err(error) => faults.push(Fault::new(
-                        mistake.file(),
-                        1,
-                        format!("{} cannot be rendered: {error:#}", mistake.picture()),
-                        "correct the patch or what it claims",
-                    )),
-                }
+                let made = Reproduction::new(self.project, self.programs, mistake).render();
+                let place = (mistake.file(), 1);
+                rendered(mistake.picture(), made, place, "correct the patch or what it claims");
             }
         }
         Ok(faults)

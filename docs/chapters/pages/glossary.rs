@@ -13,6 +13,7 @@ use manuscript::page::Page;
 use manuscript::project::Project;
 
 use super::markdown::Markdown;
+use super::reference::slug;
 use crate::figures::passage::{self, line};
 
 /// The page.
@@ -91,15 +92,11 @@ impl Glossary {
     /// The page, with every term linked where it is first used.
     pub fn linked(&self, page: &Page) -> Page {
         let text = page.written();
-        let mut lines = page.lines.clone();
-        // From the end: a change moves only text behind it, which is done.
-        for Use { term, span } in self.unlinked(page, &text).into_iter().rev() {
-            let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
-            let link = format!("[{}](glossary.md#{})", &text[span.clone()], anchor(&term.name));
-            lines[line(&text, span.start) - 1]
-                .replace_range(span.start - start..span.end - start, &link);
-        }
-        Page::parse(&page.path, &lines.iter().map(|line| format!("{line}\n")).collect::<String>())
+        let linked = |Use { term, span }: Use| {
+            let link = format!("[{}](glossary.md#{})", &text[span.clone()], slug(&term.name));
+            (span, link)
+        };
+        page.edited(self.unlinked(page, &text).into_iter().map(linked).collect())
     }
 
     /// In the order of the page.
@@ -128,7 +125,7 @@ impl Glossary {
             let Some(used) = own.find(|one| !all.iter().any(|other| within(one, other))) else {
                 continue;
             };
-            let link = text.find(&format!("](glossary.md#{})", anchor(&term.name)));
+            let link = text.find(&format!("](glossary.md#{})", slug(&term.name)));
             if link.is_none_or(|link| link > used.span.start) {
                 first.push(Use { term, span: used.span.clone() });
             }
@@ -143,16 +140,6 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
     let passages = passage::all(text);
     let passages = passages.iter().filter(|passage| !passage.counts_small);
     passages.flat_map(|passage| passage.text.iter().cloned()).collect()
-}
-
-/// What a heading's link ends with, as code hosts and mdBook make it.
-fn anchor(name: &str) -> String {
-    let letter = |c: char| match c {
-        ' ' => Some('-'),
-        c if c.is_alphanumeric() || c == '-' => Some(c.to_ascii_lowercase()),
-        _ => None,
-    };
-    name.chars().filter_map(letter).collect()
 }
 
 /// Where a part of a text has a term as a word of its own, in the singular or the plural.

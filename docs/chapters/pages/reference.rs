@@ -199,12 +199,17 @@ fn split(code: &str) -> (&str, Place<'_>) {
     line.map_or((code, Place::Whole), |(name, line)| (name, Place::Line(line)))
 }
 
-/// What headings are called in links, as mdBook and code hosts do it.
+/// What a heading is called in links, as mdBook and code hosts do it.
+pub fn slug(heading: &str) -> String {
+    let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.collect::<String>().to_lowercase().replace(' ', "-")
+}
+
+/// What a page's headings are called: a second one of a name is numbered.
 fn slugs(headings: &[String]) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for heading in headings {
-        let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
-        let slug = kept.collect::<String>().to_lowercase().replace(' ', "-");
+        let slug = slug(heading);
         let again = headings[..found.len()].iter().filter(|other| *other == heading).count();
         found.push(if again == 0 { slug } else { format!("{slug}-{again}") });
     }

@@ -35,6 +35,30 @@ pub struct Patch {
     hunks: Vec<Hunk>,
 }
 
+/// What the files of a folder hold, and what is wrong with them.
+pub fn all<T>(
+    project: &Project,
+    folder: &str,
+    parse: impl Fn(&str, &str) -> Result<T, Fault>,
+) -> (Vec<T>, Vec<Fault>) {
+    let (mut found, mut faults) = (Vec::new(), Vec::new());
+    for file in project.files(folder) {
+        match parse(&file, &project.read(&file).unwrap_or_default()) {
+            Ok(one) => found.push(one),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    (found, faults)
+}
+
+/// All of them, unless something is wrong.
+///
+/// # Errors
+/// If a file is wrong.
+pub fn whole<T>((found, faults): (Vec<T>, Vec<Fault>)) -> Result<Vec<T>> {
+    faults.into_iter().next().map_or(Ok(found), |fault| Err(fault.error()))
+}
+
 impl Patch {
     /// Reads a file whose `form` a fault tells.
     ///

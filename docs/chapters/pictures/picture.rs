@@ -34,11 +34,37 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Every picture that a page makes, and what is wrong with their markers.
+    pub fn all(project: &Project, pages: &[Page]) -> (Vec<Self>, Vec<Fault>) {
+        let (mut pictures, mut faults) = (Vec::<Self>::new(), Vec::new());
+        let marks =
+            pages.iter().flat_map(|page| page.pictures.iter().map(move |mark| (page, mark)));
+        for (page, mark) in marks {
+            let picture = match Self::of(project, page, mark) {
+                Ok(picture) => picture,
+                Err(fault) => {
+                    faults.push(fault);
+                    continue;
+                }
+            };
+            match pictures.iter().find(|other| other.name == picture.name) {
+                Some(other) => {
+                    let first = format!("{}:{}", other.page, other.line);
+                    let what = format!("{} is already made at {first}", picture.file());
+                    let remedy = "give this one a name: <!-- picture NAME -->";
+                    faults.push(Fault::new(picture.page, picture.line, what, remedy));
+                }
+                None => pictures.push(picture),
+            }
+        }
+        (pictures, faults)
+    }
+
     /// The picture of a marker on a page.
     ///
     /// # Errors
     /// If there is no run of a chapter below it, or several and not each has a label.
-    pub fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
+    fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
         let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
         let shots = Render::all(project, &mark.command);
         let shots = shots.map_err(|(what, remedy)| wrong(&what, remedy))?;

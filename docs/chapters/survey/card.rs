@@ -82,7 +82,7 @@ pub struct Radv {
 }
 
 /// Rows of chapter 24, or why there are none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table<Row> {
     /// Why it fails; `None` if it passes.
@@ -90,12 +90,6 @@ pub struct Table<Row> {
     /// A row a rung and way.
     #[serde(default = "Vec::new")]
     pub rungs: Vec<Row>,
-}
-
-impl<Row> Default for Table<Row> {
-    fn default() -> Self {
-        Self { failed: None, rungs: Vec::new() }
-    }
 }
 
 /// How often a rung is right on the hard cases.
