@@ -90,10 +90,9 @@ fn run(arguments: &Arguments) -> Result<()> {
             print(&format!("{list}\nNext:\n{}", new.next()))
         }
         Command::Survey { device, out, limit, list } => {
-            let programs = Programs::beside_this(&project.root)?;
+            let programs = Programs::beside_this(&project)?;
             let limit = Limit::waited(Duration::from_secs(*limit));
-            let survey =
-                Survey { project: &project, programs: &programs, device: device.as_deref(), limit };
+            let survey = Survey { programs: &programs, device: device.as_deref(), limit };
             match list {
                 true => print(&survey.list()),
                 false => survey.run(out),
@@ -109,8 +108,8 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Merge { out, files, samples } => print(&merge::run(out, files, samples.clone())?),
         Command::Nightly { names, list } => nightly::run(&project, names, *list),
         Command::Check => {
-            let programs = Programs::beside_this(&project.root)?;
-            report(&Book::open(&project, &programs)?.check())
+            let programs = Programs::beside_this(&project)?;
+            report(&Book::open(&programs)?.check())
         }
     }
 }
@@ -128,8 +127,8 @@ fn site(project: &Project, out: Option<&Path>) -> Result<()> {
 }
 
 fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
-    let programs = Programs::beside_this(&project.root)?;
-    let book = Book::open(project, &programs)?;
+    let programs = Programs::beside_this(project)?;
+    let book = Book::open(&programs)?;
     book.check_pictures(pictures.unwrap_or_default())?;
     let (changed, mut faults) = book.sync()?;
     for file in changed {
@@ -145,11 +144,11 @@ fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
 }
 
 fn measure(project: &Project, names: &[String]) -> Result<()> {
-    let programs = Programs::beside_this(&project.root)?;
-    let mut faults = Book::open(project, &programs)?.measure(names, |line| {
+    let programs = Programs::beside_this(project)?;
+    let mut faults = Book::open(&programs)?.measure(names, |line| {
         let _ = print(&format!("{line}\n"));
     })?;
-    let (changed, others) = Book::open(project, &programs)?.sync()?;
+    let (changed, others) = Book::open(&programs)?.sync()?;
     for file in changed {
         print(&format!("{file}: renewed\n"))?;
     }

@@ -8,7 +8,6 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context, Error, Result, bail};
 use common::app::Picture;
 use flip::near::Near;
-use manuscript::project::Project;
 use patience::Limit;
 
 use super::exercise::{Exercise, Takes};
@@ -25,8 +24,7 @@ const LIMIT: Limit = Limit::worked(120);
 
 /// The book's own pictures, each rendered once.
 pub struct Originals<'a> {
-    project: &'a Project,
-    programs: &'a Programs,
+    programs: &'a Programs<'a>,
     /// Where they were kept before the book's own files were edited.
     kept: Option<PathBuf>,
     known: Mutex<BTreeMap<(String, Vec<String>), Picture>>,
@@ -34,13 +32,13 @@ pub struct Originals<'a> {
 
 impl<'a> Originals<'a> {
     /// Pictures that are rendered when they are asked for.
-    pub fn new(project: &'a Project, programs: &'a Programs) -> Self {
-        Self { project, programs, kept: None, known: Mutex::default() }
+    pub fn new(programs: &'a Programs<'a>) -> Self {
+        Self { programs, kept: None, known: Mutex::default() }
     }
 
     /// Pictures that lie in a folder.
-    pub fn kept(project: &'a Project, programs: &'a Programs, folder: &Path) -> Self {
-        Self { kept: Some(folder.to_owned()), ..Self::new(project, programs) }
+    pub fn kept(programs: &'a Programs<'a>, folder: &Path) -> Self {
+        Self { kept: Some(folder.to_owned()), ..Self::new(programs) }
     }
 
     /// Renders all that an exercise is compared with into a folder: whole, or not at all.
@@ -65,7 +63,7 @@ impl<'a> Originals<'a> {
     /// The chapter and the arguments that make the picture to compare with.
     fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
         let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
-        let named = |word: &String| self.project.named(word).is_some();
+        let named = |word: &String| self.programs.project.named(word).is_some();
         let chapter = match arguments.first().is_some_and(named) {
             true => arguments.remove(0),
             false => exercise.chapter.clone(),
@@ -84,7 +82,7 @@ impl<'a> Originals<'a> {
         if let Some(picture) = known().get(&key) {
             return Ok(picture.clone());
         }
-        let command = Edition::Book.command(self.project, self.programs, chapter)?;
+        let command = Edition::Book.command(self.programs, chapter)?;
         let seen = RunResult::of(command, arguments, LIMIT)?;
         let picture =
             seen.picture.with_context(|| format!("{chapter} fails as it is: {}", seen.said))?;
@@ -114,10 +112,8 @@ pub struct Verdict {
 
 /// An exercise, and what it takes to hold it against an edition.
 pub struct Attempt<'a> {
-    /// The project.
-    pub project: &'a Project,
     /// Its programs.
-    pub programs: &'a Programs,
+    pub programs: &'a Programs<'a>,
     /// The book's pictures.
     pub originals: &'a Originals<'a>,
     /// The exercise.
@@ -134,8 +130,7 @@ impl Attempt<'_> {
         for step in &self.exercise.steps {
             let missed = match &step.run {
                 Run::Program(arguments) => {
-                    let (programs, chapter) = (self.programs, &self.exercise.chapter);
-                    let command = edition.command(self.project, programs, chapter)?;
+                    let command = edition.command(self.programs, &self.exercise.chapter)?;
                     let seen = RunResult::of(command, arguments, LIMIT)?;
                     let missed = self.missed(edition, step, arguments, &seen)?;
                     if let Some(missed) = missed {
@@ -146,7 +141,7 @@ impl Attempt<'_> {
                     None
                 }
                 Run::Test(program, filter) => {
-                    let tested = edition.test(self.project, self.programs, (program, filter))?;
+                    let tested = edition.test(self.programs, (program, filter))?;
                     let mut expectations = step.expectations.iter();
                     let missed =
                         expectations.find_map(|expected| expected.missed_by_tests(&tested));
@@ -187,8 +182,7 @@ impl Attempt<'_> {
         }
         let other = |other: &Other| match other.own {
             true => {
-                let command =
-                    edition.command(self.project, self.programs, &self.exercise.chapter)?;
+                let command = edition.command(self.programs, &self.exercise.chapter)?;
                 let arguments = sized(other.arguments.clone().unwrap_or_default());
                 let seen = RunResult::of(command, &arguments, LIMIT)?;
                 seen.picture.with_context(|| format!("no picture: {}", seen.said))
@@ -217,9 +211,8 @@ impl Attempt<'_> {
     /// seed of their own its pipelines are as another device's. `None`: by no bit.
     fn near(&self, device: &str) -> Result<Option<Near>> {
         let chapter = &self.exercise.chapter;
-        let program = Edition::Book.command(self.project, self.programs, chapter)?;
-        let to_the_bit =
-            std::env::var_os("ARITHMETIC_SEED").is_none() && is_software(program, device, LIMIT)?;
+        let to_the_bit = std::env::var_os("ARITHMETIC_SEED").is_none()
+            && is_software(self.programs, chapter, device, LIMIT)?;
         Ok(if to_the_bit { None } else { Near::if_any(chapter).map(Near::both) })
     }
 
@@ -236,7 +229,7 @@ impl Attempt<'_> {
             bail!("{file}: its answer does not hold: {missed}");
         }
         let before = before.with_context(|| format!("{file}: solved before its solution"))?;
-        let solved = || self.verdict(&Patched::of(self.project, &exercise.patch)?.edition);
+        let solved = || self.verdict(&Patched::of(self.programs.project, &exercise.patch)?.edition);
         let after = solved().with_context(|| file.clone())?.missed;
         match after {
             None => Ok(format!("{exercise}: {before}; solved by its solution")),

@@ -92,8 +92,8 @@ impl ExerciseArguments {
     }
 
     fn about(&self, project: &Project, exercise: &Exercise) -> Result<()> {
-        let programs = Programs::beside_this(&project.root)?;
-        let bench = Workbench::new(project, &programs, exercise, self.folder.as_deref())?;
+        let programs = Programs::beside_this(project)?;
+        let bench = Workbench::new(&programs, exercise, self.folder.as_deref())?;
         let mut progress = Progress::open(project);
         if self.hint {
             return print(&format!("{}\n", exercise.hint));
@@ -164,12 +164,12 @@ impl ExerciseArguments {
         if self.names.is_empty() {
             exercises = Exercise::whole(project)?;
         }
-        let programs = &Programs::beside_this(&project.root)?;
-        let originals = &Originals::new(project, programs);
+        let programs = &Programs::beside_this(project)?;
+        let originals = &Originals::new(programs);
         // Printed as they come: those that are built take minutes.
         let prove = |exercise: &Exercise| {
             interrupt::asked()?;
-            let line = Attempt { project, programs, originals, exercise }.prove();
+            let line = Attempt { programs, originals, exercise }.prove();
             interrupt::asked()?;
             let proved = line.is_ok();
             print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow};
 use common::output::print;
 use common::usage::Usage;
-use manuscript::project::Project;
 
 use super::attempt::{Attempt, Originals, Verdict};
 use super::exercise::{Exercise, Takes};
@@ -23,8 +22,7 @@ use crate::programs::program::Programs;
 
 /// The place of an exercise.
 pub struct Workbench<'a> {
-    project: &'a Project,
-    programs: &'a Programs,
+    programs: &'a Programs<'a>,
     exercise: &'a Exercise,
     /// The copy of the shaders; for Rust code where the book's pictures are kept.
     folder: PathBuf,
@@ -38,8 +36,7 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If the folder cannot be one, or the exercise needs none.
     pub fn new(
-        project: &'a Project,
-        programs: &'a Programs,
+        programs: &'a Programs<'a>,
         exercise: &'a Exercise,
         folder: Option<&Path>,
     ) -> Result<Self> {
@@ -54,13 +51,13 @@ impl<'a> Workbench<'a> {
         let shown = folder.map_or_else(|| own.clone(), |folder| folder.display().to_string());
         let folder = match folder {
             Some(folder) => std::path::absolute(folder).context("no folder is named")?,
-            None => project.root.join(own),
+            None => programs.project.root.join(own),
         };
         if let Some(file) = file_on_the_way(&folder) {
             let what = if file == folder { shown } else { file.display().to_string() };
             return Err(Usage(format!("'{what}' is no folder; name another with --folder")).into());
         }
-        Ok(Self { project, programs, exercise, folder, shown })
+        Ok(Self { programs, exercise, folder, shown })
     }
 
     /// Makes the place, unless it is there: then the reader's edits are gone on with. Returns whether it was.
@@ -68,17 +65,18 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If it cannot be made, holds something else, or the chapter's program is not built.
     pub fn set_up(&self) -> Result<bool> {
+        let project = self.programs.project;
         let built = || self.programs.built(&self.exercise.chapter);
         match self.exercise.takes {
             Takes::Look => {
                 built()?;
                 // Where the command that is told writes its picture.
-                fs::create_dir_all(self.project.root.join("target/exercises"))?;
+                fs::create_dir_all(project.root.join("target/exercises"))?;
                 Ok(true)
             }
             Takes::Shader => {
                 built()?;
-                let book = self.project.root.join("shaders");
+                let book = project.root.join("shaders");
                 let is_book =
                     |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
                 let refused = |what: &str| {
@@ -99,7 +97,7 @@ impl<'a> Workbench<'a> {
                 fs::create_dir_all(above).with_context(failed)?;
                 // Copied beside it and then renamed: the folder is there whole or not at all.
                 let whole = tempfile::tempdir_in(above).with_context(failed)?;
-                copy_shaders(self.project, whole.path(), &Changed::new())?;
+                copy_shaders(project, whole.path(), &Changed::new())?;
                 fs::rename(whole.keep(), &self.folder).with_context(failed)?;
                 Ok(false)
             }
@@ -107,14 +105,14 @@ impl<'a> Workbench<'a> {
                 if self.kept().is_dir() {
                     return Ok(true);
                 }
-                let fits = self.exercise.patch.patched_in(self.project);
+                let fits = self.exercise.patch.patched_in(project);
                 let what =
                     "the project is not as the book has it: undo your changes and begin again";
                 fits.map_err(|fault| {
                     let misfit = fault.what.replace("this hunk", "the solution");
                     anyhow!("{misfit}: {what}")
                 })?;
-                Originals::new(self.project, self.programs).keep(self.exercise, &self.kept())?;
+                Originals::new(self.programs).keep(self.exercise, &self.kept())?;
                 Ok(false)
             }
         }
@@ -135,9 +133,10 @@ impl<'a> Workbench<'a> {
 
     /// Where to edit what, in lines for the reader.
     pub fn introduction(&self) -> String {
+        let project = self.programs.project;
         let shader = self.exercise.takes == Takes::Shader;
-        let places = self.exercise.patch.places(self.project).into_iter().map(|(file, items)| {
-            let there = self.project.has(&file);
+        let places = self.exercise.patch.places(project).into_iter().map(|(file, items)| {
+            let there = project.has(&file);
             let file = if shader { file.trim_start_matches("shaders/") } else { &*file };
             match (there, &items[..]) {
                 (false, _) => format!("{file} (new)"),
@@ -199,15 +198,15 @@ impl<'a> Workbench<'a> {
 
     fn originals(&self) -> Originals<'a> {
         match self.exercise.takes {
-            Takes::File | Takes::Rust => Originals::kept(self.project, self.programs, &self.kept()),
-            _ => Originals::new(self.project, self.programs),
+            Takes::File | Takes::Rust => Originals::kept(self.programs, &self.kept()),
+            _ => Originals::new(self.programs),
         }
     }
 
     fn missed_with(&self, originals: &Originals) -> Result<Option<String>> {
-        let Self { project, programs, exercise, .. } = *self;
+        let Self { programs, exercise, .. } = *self;
         let Verdict { missed, picture } =
-            Attempt { project, programs, originals, exercise }.verdict(&self.edition())?;
+            Attempt { programs, originals, exercise }.verdict(&self.edition())?;
         let [own, other] = ["png", "other.png"]
             .map(|extension| PathBuf::from(format!("{}.{extension}", self.folder.display())));
         fs::create_dir_all(own.parent().context("a file lies in a folder")?)?;
@@ -229,7 +228,7 @@ impl<'a> Workbench<'a> {
     pub fn practise(&self, with_window: bool, progress: &mut Progress) -> Result<()> {
         let folders = match self.exercise.takes {
             Takes::File | Takes::Rust => ["common", "samples", "shaders", "tests"]
-                .map(|f| self.project.root.join(f))
+                .map(|f| self.programs.project.root.join(f))
                 .to_vec(),
             _ => vec![self.folder.clone()],
         };
@@ -261,7 +260,7 @@ impl<'a> Workbench<'a> {
     /// # Errors
     /// If it does not start.
     pub fn window(&self) -> Result<Window> {
-        let command = self.edition().command(self.project, self.programs, &self.exercise.chapter);
+        let command = self.edition().command(self.programs, &self.exercise.chapter);
         Window::open(command?.args(self.settings()))
     }
 
@@ -302,7 +301,7 @@ impl<'a> Workbench<'a> {
     pub fn apply(&self) -> Result<Vec<String>> {
         let below = |file: &str| match self.exercise.takes {
             Takes::Shader => self.folder.join(file.trim_start_matches("shaders/")),
-            _ => self.project.root.join(file),
+            _ => self.programs.project.root.join(file),
         };
         let read = |file: &str| {
             fs::read_to_string(below(file)).ok().map(|text| text.replace("\r\n", "\n"))

@@ -18,10 +18,12 @@ use super::values::{self, Values};
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
 use crate::sources::hash::{self, Sources};
-use crate::survey::accuracy;
 
 /// What makes the worst arithmetic that conforms; commands that use it have `worst` in them.
 const ARITHMETIC: &str = "common/instruments/src/arithmetic";
+
+/// The chapter that its tests ask, on whatever page their figures are.
+const LABORATORY: (&str, &str) = ("24_accuracy", "numerics");
 
 /// A command on a page that gives figures.
 pub struct Measurement {
@@ -145,7 +147,10 @@ impl Measurement {
         let chapter = chapters()
             .find(|chapter| is_meant(&chapter.name, chapter.module()))
             .or_else(|| chapters().find(|chapter| chapter.page() == self.page))
-            .or_else(|| chapters().find(|chapter| accuracy::is_asked(&chapter.name, target)));
+            .or_else(|| {
+                chapters()
+                    .find(|chapter| LABORATORY == (&*chapter.name, target.unwrap_or_default()))
+            });
         let target = project.tests.iter().find(|test| Some(&*test.name) == target);
         let folder = target.and_then(|test| test.path.rsplit_once('/')).map(|(folder, _)| folder);
         let mut files = folder.map_or(Vec::new(), |folder| {
@@ -204,7 +209,6 @@ pub fn strays(measurements: &[Measurement], stored: &BTreeMap<String, Record>) -
 /// # Errors
 /// If a file cannot be written.
 pub fn renew(
-    project: &Project,
     programs: &Programs,
     measurements: &[&Measurement],
     before: &BTreeMap<String, Record>,
@@ -213,10 +217,8 @@ pub fn renew(
     let (mut faults, mut sources) = (Vec::new(), Sources::default());
     let mut given: BTreeMap<&str, Result<Values, String>> = BTreeMap::new();
     for measurement in measurements {
-        let run = || {
-            values::run(project, programs, &measurement.command)
-                .map_err(|error| format!("{error:#}"))
-        };
+        let run =
+            || values::run(programs, &measurement.command).map_err(|error| format!("{error:#}"));
         let given = given.entry(&measurement.command).or_insert_with(run);
         let values = given.as_ref().map_err(String::clone).and_then(|given| {
             let missing = || format!("its command gives no {}", measurement.name);
@@ -225,7 +227,7 @@ pub fn renew(
         let new = match values {
             Ok(values) => Record {
                 command: measurement.command.clone(),
-                sources: measurement.sources(project, &mut sources),
+                sources: measurement.sources(programs.project, &mut sources),
                 date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10]
                     .to_owned(),
                 ..values.clone()
@@ -240,7 +242,7 @@ pub fn renew(
         // What comes out again as it was is still of the day on which it first did.
         let same = before.get(&measurement.name).filter(|old| !new.timed && old.agrees(&new));
         let date = same.map_or(new.date.clone(), |old| old.date.clone());
-        Record { date, ..new }.write(project, &measurement.name)?;
+        Record { date, ..new }.write(programs.project, &measurement.name)?;
         done(&format!(
             "{}: {}",
             measurement.file(),

@@ -11,7 +11,6 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 use common::files::Folder;
-use manuscript::project::Project;
 use patience::Limit;
 use serde_json::{Map, Value, json};
 
@@ -26,14 +25,14 @@ pub type Values = BTreeMap<String, Record>;
 ///
 /// # Errors
 /// If it is neither, cannot be run, or fails; in one line.
-pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Values> {
+pub fn run(programs: &Programs, command: &str) -> Result<Values> {
     let folder = Folder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
     // What stands before is the environment, `NAME=value`.
     let start = words.iter().take_while(|word| word.contains('=')).count();
     let (environment, words) = words.split_at(start);
     if words.iter().map(String::as_str).take(2).eq(["cargo", "test"]) {
-        let mut test = child::cargo(&project.root);
+        let mut test = child::cargo(&programs.project.root);
         test.args(&words[1..]).env("FIGURES", folder.path());
         test.envs(environment.iter().filter_map(|word| word.split_once('=')));
         finish(&mut test)?;
@@ -41,7 +40,7 @@ pub fn run(project: &Project, programs: &Programs, command: &str) -> Result<Valu
     }
     let runs = command_line::runs(command);
     let [(_, run)] = &runs[..] else { bail!("it is neither a `cargo run` nor a `cargo test`") };
-    let program = run.program(project).context("it runs no program")?;
+    let program = run.program(programs.project).context("it runs no program")?;
     let file = folder.path().join("report.json");
     let mut arguments = run.arguments.clone();
     // The page's command leaves a picture in the reader's folder, or prints a report. Here neither is wanted.

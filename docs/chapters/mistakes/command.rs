@@ -32,10 +32,10 @@ pub fn run(
         return print(&mistakes.iter().map(line).collect::<String>());
     }
     if check {
-        let programs = Programs::beside_this(&project.root)?;
+        let programs = Programs::beside_this(project)?;
         let wanted = |mistake: &Mistake| name.is_some() || mistake.is_in_shaders();
         let mistakes: Vec<Mistake> = mistakes.into_iter().filter(wanted).collect();
-        return check_mistakes(project, &programs, &mistakes);
+        return check_mistakes(&programs, &mistakes);
     }
     let (Some(name), [mistake]) = (name, &mistakes[..]) else {
         let names: Vec<String> = mistakes.into_iter().map(|mistake| mistake.name).collect();
@@ -46,9 +46,9 @@ pub fn run(
     print(&format!("{}: {}\n{}\n", mistake.title, mistake.cause, mistake.run(&folder)))
 }
 
-fn check_mistakes(project: &Project, programs: &Programs, mistakes: &[Mistake]) -> Result<()> {
+fn check_mistakes(programs: &Programs, mistakes: &[Mistake]) -> Result<()> {
     let mut failed = 0;
-    let check = |mistake: &Mistake| Reproduction::new(project, programs, mistake).check();
+    let check = |mistake: &Mistake| Reproduction::new(programs, mistake).check();
     for line in workers::each(mistakes, check) {
         failed += usize::from(line.is_err());
         print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))?;

@@ -6,7 +6,6 @@ use std::process::ExitStatus;
 use anyhow::{Context, Result, bail, ensure};
 use common::files::Folder;
 use image::RgbImage;
-use manuscript::project::Project;
 use panels::{Panel, sheet};
 use patience::Limit;
 
@@ -29,15 +28,14 @@ const UNTIL_CRASHED: Limit = Limit::worked(10);
 
 /// A mistake, and the runs that show it.
 pub struct Reproduction<'a> {
-    project: &'a Project,
-    programs: &'a Programs,
+    programs: &'a Programs<'a>,
     mistake: &'a Mistake,
 }
 
 impl<'a> Reproduction<'a> {
     /// A trial of a mistake by built programs; a patch of Rust code is built here.
-    pub fn new(project: &'a Project, programs: &'a Programs, mistake: &'a Mistake) -> Self {
-        Self { project, programs, mistake }
+    pub fn new(programs: &'a Programs<'a>, mistake: &'a Mistake) -> Self {
+        Self { programs, mistake }
     }
 
     /// What the mistake does, in a line.
@@ -58,6 +56,7 @@ impl<'a> Reproduction<'a> {
     /// # Errors
     /// If it does not do what its file says, or the picture cannot be written.
     pub fn render(&self) -> Result<String> {
+        let project = self.programs.project;
         let right = self.right(SHOWN)?;
         if let Some(why) = self.not_tried(right.device())? {
             bail!("{why}");
@@ -87,12 +86,12 @@ impl<'a> Reproduction<'a> {
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
-        let hash = self.mistake.sources(self.project);
+        let hash = self.mistake.sources(project);
         let folder = Folder::temporary()?;
         let plain = folder.path().join("sheet.png");
         sheet.save(&plain)?;
         let bytes = stamp::stamped(&plain, &self.mistake.command(), &hash, &device)?;
-        let file = self.project.root.join(self.mistake.picture());
+        let file = project.root.join(self.mistake.picture());
         fs::create_dir_all(file.parent().context("a picture lies in a folder")?)?;
         common::files::write_whole(&file, &bytes)?;
         Ok(device)
@@ -105,7 +104,7 @@ impl<'a> Reproduction<'a> {
     }
 
     fn wrong(&self, size: (u32, u32)) -> Result<RunResult> {
-        let wrong = Patched::of(self.project, &self.mistake.patch)?;
+        let wrong = Patched::of(self.programs.project, &self.mistake.patch)?;
         self.run(&wrong.edition, size)
     }
 
@@ -113,14 +112,13 @@ impl<'a> Reproduction<'a> {
     fn not_tried(&self, device: &str) -> Result<Option<String>> {
         let Mistake { name, chapter, undefined, .. } = self.mistake;
         let Some(what) = undefined else { return Ok(None) };
-        let program = Edition::Book.command(self.project, self.programs, chapter)?;
-        let is_software = is_software(program, device, LIMIT)?;
+        let is_software = is_software(self.programs, chapter, device, LIMIT)?;
         let why = format!("{name}: not tried on {device}: undefined in Vulkan: {what}");
         Ok((!is_software).then_some(why))
     }
 
     fn run(&self, edition: &Edition, (width, height): (u32, u32)) -> Result<RunResult> {
-        let command = edition.command(self.project, self.programs, &self.mistake.chapter)?;
+        let command = edition.command(self.programs, &self.mistake.chapter)?;
         let own = shlex::split(&self.mistake.arguments).context("the arguments do not end")?;
         let mut arguments = vec!["--size".to_owned(), format!("{width}x{height}")];
         arguments.extend(own);

@@ -22,40 +22,42 @@ const CONTEXT: usize = 2;
 ///
 /// # Errors
 /// If the marker names what does not exist.
-pub fn body(
-    project: &Project,
-    programs: &Programs,
-    page: &Page,
-    block: &Block,
-) -> Result<(String, String), Fault> {
+pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, String), Fault> {
     let wrong = |what: String, remedy: &str| Fault::new(&*page.path, block.line, what, remedy);
     let words: Vec<&str> = block.words.iter().map(String::as_str).collect();
     match (block.kind, &words[..]) {
         (Kind::Snippet, [source]) => {
-            let text = snippet(project, source).map_err(|wrong| wrong.at(page, block))?;
+            let text = snippet(programs.project, source).map_err(|wrong| wrong.at(page, block))?;
             Ok((text, (*source).to_owned()))
         }
         (Kind::Diff, [old, new, rest @ ..]) if rest.len() <= 1 => {
-            let text = diff_block(project, old, new, rest.first().copied());
+            let text = diff_block(programs.project, old, new, rest.first().copied());
             Ok((text.map_err(|wrong| wrong.at(page, block))?, words.join(" ")))
         }
         (Kind::Controls | Kind::Exercises, [name]) => {
-            let known = project.named(name);
+            let known = programs.project.named(name);
             let Some(chapter) = known else {
                 return Err(wrong(format!("no chapter '{name}'"), "name one of `chapters list`"));
             };
             if block.kind == Kind::Exercises {
-                return Ok((exercise::list(project, chapter), exercise::FOLDER.to_owned()));
+                return Ok((
+                    exercise::list(programs.project, chapter),
+                    exercise::FOLDER.to_owned(),
+                ));
             }
             let controls = programs.controls(name).map_err(|what| wrong(what, BUILD))?;
             Ok((controls.table(), format!("{name} --list-controls")))
         }
         (Kind::Devices, []) => {
-            let (cards, _) = card::all(project);
+            let (cards, _) = card::all(programs.project);
             Ok((card_page::devices(&cards), card::FOLDER.to_owned()))
         }
-        (Kind::Mistakes, []) => Ok((mistake::gallery(project), mistake::FOLDER.to_owned())),
-        (Kind::Gallery, []) => Ok((gallery::tables(project, &page.path), "Cargo.toml".to_owned())),
+        (Kind::Mistakes, []) => {
+            Ok((mistake::gallery(programs.project), mistake::FOLDER.to_owned()))
+        }
+        (Kind::Gallery, []) => {
+            Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
+        }
         (kind, _) => {
             let form = match kind {
                 Kind::Snippet => "<!-- snippet FILE#ANCHOR -->",

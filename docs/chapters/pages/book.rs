@@ -8,7 +8,7 @@ use manuscript::anchor::anchors;
 use manuscript::fault::Fault;
 use manuscript::link::local;
 use manuscript::page::{Kind, Page};
-use manuscript::project::{Project, README, SUMMARY};
+use manuscript::project::{README, SUMMARY};
 
 use super::block::body;
 use super::glossary::Glossary;
@@ -29,8 +29,7 @@ use crate::survey::card;
 
 /// The book of a project.
 pub struct Book<'a> {
-    project: &'a Project,
-    programs: &'a Programs,
+    programs: &'a Programs<'a>,
     pages: Vec<Page>,
 }
 
@@ -39,53 +38,55 @@ impl<'a> Book<'a> {
     ///
     /// # Errors
     /// If one cannot be read.
-    pub fn open(project: &'a Project, programs: &'a Programs) -> Result<Self> {
+    pub fn open(programs: &'a Programs<'a>) -> Result<Self> {
+        let project = programs.project;
         let page = |path: String| Ok(Page::parse(&path, &project.read(&path)?));
         let pages = project.pages().into_iter().map(page).collect::<Result<_>>()?;
-        Ok(Self { project, programs, pages })
+        Ok(Self { programs, pages })
     }
 
     /// Everything that is wrong, in the order of files and lines.
     pub fn check(&self) -> Vec<Fault> {
-        let mut faults = chapter_files::check(self.project);
+        let project = self.programs.project;
+        let mut faults = chapter_files::check(project);
         // A chapter's own picture is the gallery's too, whether or not its command is right.
         let mut linked: BTreeSet<String> =
-            self.project.chapters.iter().map(|chapter| chapter.picture()).collect();
+            project.chapters.iter().map(|chapter| chapter.picture()).collect();
         self.ask_programs();
-        let files = Files::of(self.project);
-        let glossary = Glossary::of(self.project);
+        let files = Files::of(project);
+        let glossary = Glossary::of(project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             faults.extend(self.stale_blocks(page));
-            faults.extend(exercise_list::check(self.project, page));
+            faults.extend(exercise_list::check(project, page));
             let written = Markdown::parse(&page.written());
-            faults.extend(text::check(self.project, self.programs, &files, page, &written));
+            faults.extend(text::check(self.programs, &files, page, &written));
             faults.extend(self.title(page, &written));
             faults.extend(glossary.check(page));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }
-        let (pictures, wrong) = Picture::all(self.project, &self.pages);
+        let (pictures, wrong) = Picture::all(project, &self.pages);
         faults.extend(wrong);
         let mut sources = Sources::default();
         for picture in &pictures {
-            let stale = picture.stale(self.project, &mut sources);
+            let stale = picture.stale(project, &mut sources);
             faults.extend(stale.map(|what| picture.fault(what)));
             linked.insert(picture.file());
         }
-        let (mistakes, wrong) = Mistake::all(self.project);
+        let (mistakes, wrong) = Mistake::all(project);
         faults.extend(wrong);
         for mistake in &mistakes {
-            faults.extend(mistake.patched(self.project).err());
-            faults.extend(mistake.stale(self.project));
+            faults.extend(mistake.patched(project).err());
+            faults.extend(mistake.stale(project));
             linked.insert(mistake.picture());
         }
-        faults.extend(exercise::check(self.project));
-        faults.extend(text::check_exercises(self.project, self.programs, &files));
-        faults.extend(figures::check(self.project, &self.pages, &mut sources));
+        faults.extend(exercise::check(project));
+        faults.extend(text::check_exercises(self.programs, &files));
+        faults.extend(figures::check(project, &self.pages, &mut sources));
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
-        let summary = gallery::summary(self.project);
-        let found = self.project.read(SUMMARY).unwrap_or_default();
+        let summary = gallery::summary(project);
+        let found = project.read(SUMMARY).unwrap_or_default();
         if let Some(line) = first_difference(&found, &summary) {
             faults.push(Fault::stale(
                 SUMMARY,
@@ -94,10 +95,10 @@ impl<'a> Book<'a> {
             ));
         }
         faults.extend(self.wrong_anchors());
-        faults.extend(stray_file::check(self.project, &linked));
-        faults.extend(nightly::check(self.project));
-        faults.extend(card::all(self.project).1);
-        faults.extend(shared_shader::check(self.project, &self.pages));
+        faults.extend(stray_file::check(project, &linked));
+        faults.extend(nightly::check(project));
+        faults.extend(card::all(project).1);
+        faults.extend(shared_shader::check(project, &self.pages));
         faults.sort();
         faults.dedup();
         faults
@@ -108,17 +109,18 @@ impl<'a> Book<'a> {
     /// # Errors
     /// If a file cannot be written.
     pub fn sync(&self) -> Result<(Vec<String>, Vec<Fault>)> {
+        let project = self.programs.project;
         let (mut changed, mut faults) = (Vec::new(), Vec::new());
         let mut write = |path: &str, old: &str, new: &str| {
             if old != new {
-                common::files::write_whole(&self.project.root.join(path), new.as_bytes())?;
+                common::files::write_whole(&project.root.join(path), new.as_bytes())?;
                 changed.push(path.to_owned());
             }
             anyhow::Ok(())
         };
         self.ask_programs();
-        let (stored, _) = Record::all(self.project);
-        let glossary = Glossary::of(self.project);
+        let (stored, _) = Record::all(project);
+        let glossary = Glossary::of(project);
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             let old = page.with_bodies(&[]);
@@ -126,7 +128,7 @@ impl<'a> Book<'a> {
             let bodies: Vec<Option<String>> = page
                 .blocks
                 .iter()
-                .map(|block| match body(self.project, self.programs, page, block) {
+                .map(|block| match body(self.programs, page, block) {
                     Ok((text, _)) => Some(text),
                     Err(fault) => {
                         faults.push(fault);
@@ -136,9 +138,9 @@ impl<'a> Book<'a> {
                 .collect();
             write(&page.path, &old, &page.with_bodies(&bodies))?;
         }
-        let summary = self.project.read(SUMMARY).unwrap_or_default();
-        if self.project.root.join("docs").is_dir() {
-            write(SUMMARY, &summary, &gallery::summary(self.project))?;
+        let summary = project.read(SUMMARY).unwrap_or_default();
+        if project.root.join("docs").is_dir() {
+            write(SUMMARY, &summary, &gallery::summary(project))?;
         }
         faults.sort();
         faults.dedup();
@@ -150,12 +152,13 @@ impl<'a> Book<'a> {
     /// # Errors
     /// If a name is unknown.
     pub fn measure(&self, names: &[String], done: impl FnMut(&str)) -> Result<Vec<Fault>> {
-        let (stored, _) = Record::all(self.project);
+        let project = self.programs.project;
+        let (stored, _) = Record::all(project);
         let (measurements, mut faults) = measurement::all(&self.pages);
         let mut sources = Sources::default();
         let names: Vec<&str> = names
             .iter()
-            .map(|name| self.project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name))
+            .map(|name| project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name))
             .collect();
         let is_of = |measurement: &Measurement, name: &&str| {
             measurement.name == *name || measurement.page_name() == *name
@@ -168,12 +171,12 @@ impl<'a> Book<'a> {
         let mut wanted = |measurement: &&Measurement| match names[..] {
             [] => {
                 let known = stored.get(&measurement.name);
-                measurement.stale(self.project, known, &mut sources).is_some()
+                measurement.stale(project, known, &mut sources).is_some()
             }
             _ => names.iter().any(|name| is_of(measurement, name)),
         };
         let wanted: Vec<&Measurement> = measurements.iter().filter(|m| wanted(m)).collect();
-        faults.extend(measurement::renew(self.project, self.programs, &wanted, &stored, done)?);
+        faults.extend(measurement::renew(self.programs, &wanted, &stored, done)?);
         Ok(faults)
     }
 
@@ -182,14 +185,14 @@ impl<'a> Book<'a> {
         let controls = blocks.filter(|block| block.kind == Kind::Controls);
         let names: BTreeSet<&str> =
             controls.filter_map(|block| block.words.first()).map(String::as_str).collect();
-        let known = self.project.chapters.iter().map(|chapter| &*chapter.name);
+        let known = self.programs.project.chapters.iter().map(|chapter| &*chapter.name);
         self.programs.ask(&known.filter(|name| names.contains(name)).collect::<Vec<_>>());
     }
 
     fn stale_blocks(&self, page: &Page) -> Vec<Fault> {
         let mut faults = Vec::new();
         for block in &page.blocks {
-            match body(self.project, self.programs, page, block) {
+            match body(self.programs, page, block) {
                 Ok((should, source)) => {
                     let lines = page.lines[block.body.clone()].iter();
                     let found: String = lines.map(|line| format!("{line}\n")).collect();
@@ -207,7 +210,7 @@ impl<'a> Book<'a> {
 
     /// A chapter's page is headed by its number and title.
     fn title(&self, page: &Page, written: &Markdown) -> Option<Fault> {
-        let chapter = self.project.of_page(&page.path)?;
+        let chapter = self.programs.project.of_page(&page.path)?;
         let (line, title) = written.title.clone().unwrap_or((1, String::new()));
         let what = "the heading does not name the chapter";
         let remedy = format!("write `# {}`", chapter.heading());
@@ -216,7 +219,7 @@ impl<'a> Book<'a> {
 
     fn without_picture(&self, pictures: &[Picture]) -> Vec<Fault> {
         let mut faults = Vec::new();
-        for chapter in &self.project.chapters {
+        for chapter in &self.programs.project.chapters {
             let page = self.pages.iter().find(|page| page.path == chapter.page());
             let made = pictures.iter().any(|picture| picture.name == chapter.name);
             // A marker that is wrong has been told as that.
@@ -238,8 +241,9 @@ impl<'a> Book<'a> {
 
     /// Anchors are held to their form even where no page shows them yet.
     fn wrong_anchors(&self) -> Vec<Fault> {
-        let files = ["common/src", "samples", "shaders"].map(|folder| self.project.files(folder));
-        let text = |file: &String| self.project.read(file).ok();
+        let project = self.programs.project;
+        let files = ["common/src", "samples", "shaders"].map(|folder| project.files(folder));
+        let text = |file: &String| project.read(file).ok();
         let source = |file: &String| !file.ends_with(".obj");
         let files = files.into_iter().flatten().filter(source);
         files.filter_map(|file| anchors(&file, &text(&file)?).err()).collect()
@@ -250,9 +254,9 @@ impl<'a> Book<'a> {
     /// # Errors
     /// With its name.
     pub fn check_pictures(&self, names: &[String]) -> Result<(), Usage> {
-        let pictures =
-            Picture::all(self.project, &self.pages).0.into_iter().map(|picture| picture.name);
-        let mistakes = Mistake::all(self.project).0.into_iter().map(|mistake| mistake.name);
+        let project = self.programs.project;
+        let pictures = Picture::all(project, &self.pages).0.into_iter().map(|picture| picture.name);
+        let mistakes = Mistake::all(project).0.into_iter().map(|mistake| mistake.name);
         let there: Vec<String> = pictures.chain(mistakes).collect();
         match names.iter().find(|name| !there.contains(name)) {
             Some(name) => {
@@ -268,9 +272,10 @@ impl<'a> Book<'a> {
     /// # Errors
     /// If a name is unknown, or a command fails.
     pub fn render(&self, names: &[String], mut done: impl FnMut(&str, &str)) -> Result<Vec<Fault>> {
+        let project = self.programs.project;
         self.check_pictures(names)?;
-        let (pictures, mut faults) = Picture::all(self.project, &self.pages);
-        let (mistakes, wrong) = Mistake::all(self.project);
+        let (pictures, mut faults) = Picture::all(project, &self.pages);
+        let (mistakes, wrong) = Mistake::all(project);
         faults.extend(wrong);
         let mut rendered = |file: String, made: Result<String>, place: (String, usize), remedy| {
             let fault = |error| {
@@ -282,22 +287,22 @@ impl<'a> Book<'a> {
         let mut sources = Sources::default();
         for picture in &pictures {
             let wanted = match names {
-                [] => picture.stale(self.project, &mut sources).is_some(),
+                [] => picture.stale(project, &mut sources).is_some(),
                 _ => names.contains(&picture.name),
             };
             if wanted {
-                let made = picture.render(self.project, self.programs, &mut sources);
+                let made = picture.render(self.programs, &mut sources);
                 let place = (picture.page.clone(), picture.line);
                 rendered(picture.file(), made, place, "correct the command or the sample");
             }
         }
         for mistake in &mistakes {
             let wanted = match names {
-                [] => mistake.stale(self.project).is_some(),
+                [] => mistake.stale(project).is_some(),
                 _ => names.contains(&mistake.name),
             };
             if wanted {
-                let made = Reproduction::new(self.project, self.programs, mistake).render();
+                let made = Reproduction::new(self.programs, mistake).render();
                 let place = (mistake.file(), 1);
                 rendered(mistake.picture(), made, place, "correct the patch or what it claims");
             }

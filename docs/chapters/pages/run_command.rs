@@ -31,15 +31,15 @@ impl CommandLine {
     }
 
     /// What is wrong with it, and what to do.
-    fn wrong(&self, project: &Project, programs: &Programs) -> Option<(String, &'static str)> {
+    fn wrong(&self, programs: &Programs) -> Option<(String, &'static str)> {
         let wrong =
             |what: String| Some((format!("this command does not run: {what}"), "correct it"));
-        let name = self.program(project)?;
-        if !project.bins.iter().any(|bin| bin.name == name) {
-            let names: Vec<&str> = project.bins.iter().map(|bin| &*bin.name).collect();
+        let name = self.program(programs.project)?;
+        if !programs.project.bins.iter().any(|bin| bin.name == name) {
+            let names: Vec<&str> = programs.project.bins.iter().map(|bin| &*bin.name).collect();
             return wrong(format!("there is no program '{name}', only {}", names.join(", ")));
         }
-        let sample = project.named(name).is_some();
+        let sample = programs.project.named(name).is_some();
         let command = match name {
             _ if sample => instruments::command(),
             "chapters" => Arguments::command(),
@@ -54,7 +54,7 @@ impl CommandLine {
             let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
             return wrong(format!("{name} does not take this: {line}"));
         }
-        if let Some(unknown) = self.unknown_chapter(project) {
+        if let Some(unknown) = self.unknown_chapter(programs.project) {
             return wrong(unknown);
         }
         let settings = if sample { self.settings() } else { Vec::new() };
@@ -73,8 +73,8 @@ impl CommandLine {
 }
 
 /// What is wrong with the commands in a page's code.
-pub fn check(project: &Project, programs: &Programs, page: &str, code: &[Code]) -> Vec<Fault> {
-    let chapter = project.of_page(page);
+pub fn check(programs: &Programs, page: &str, code: &[Code]) -> Vec<Fault> {
+    let chapter = programs.project.of_page(page);
     let mut faults = Vec::new();
     for code in code.iter().filter(|code| code.is_shell()) {
         let mut runs = runs(&code.text);
@@ -86,7 +86,7 @@ pub fn check(project: &Project, programs: &Programs, page: &str, code: &[Code]) 
         for (index, run) in runs {
             // A name in a sentence may stand for any.
             let placeholder = run.bin.as_deref().is_some_and(|bin| bin.contains(['N', '<', '…']));
-            if !placeholder && let Some((what, remedy)) = run.wrong(project, programs) {
+            if !placeholder && let Some((what, remedy)) = run.wrong(programs) {
                 faults.push(Fault::new(page, code.line + index, what, remedy));
             }
         }

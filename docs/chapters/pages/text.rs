@@ -11,31 +11,25 @@ use crate::exercises::exercise::{Exercise, Takes};
 use crate::programs::program::Programs;
 
 /// What a page names and is not there, or is not as it says; `written` is what its author wrote.
-pub fn check(
-    project: &Project,
-    programs: &Programs,
-    files: &Files,
-    page: &Page,
-    written: &Markdown,
-) -> Vec<Fault> {
+pub fn check(programs: &Programs, files: &Files, page: &Page, written: &Markdown) -> Vec<Fault> {
     let path = &*page.path;
     let mut faults = placeholder::check(page);
-    faults.extend(mention::check(project, page));
-    faults.extend(check_links(project, path, &written.links));
+    faults.extend(mention::check(programs.project, page));
+    faults.extend(check_links(programs.project, path, &written.links));
     faults.extend(check_formulas(path, &written.formulas));
-    faults.extend(run_command::check(project, programs, path, &written.code));
-    faults.extend(test_command::check(project, path, &written.code));
+    faults.extend(run_command::check(programs, path, &written.code));
+    faults.extend(test_command::check(programs.project, path, &written.code));
     faults.extend(files.check(page, written));
     faults
 }
 
 /// What is wrong with what the exercises name.
-pub fn check_exercises(project: &Project, programs: &Programs, files: &Files) -> Vec<Fault> {
+pub fn check_exercises(programs: &Programs, files: &Files) -> Vec<Fault> {
     let mut faults = Vec::new();
-    for exercise in Exercise::all(project).0 {
-        let texts = texts(project, &exercise);
+    for exercise in Exercise::all(programs.project).0 {
+        let texts = texts(programs.project, &exercise);
         let written = Markdown::parse(&texts.written());
-        let wrong = check(project, programs, files, &texts, &written).into_iter();
+        let wrong = check(programs, files, &texts, &written).into_iter();
         faults.extend(wrong.map(|fault| Fault { file: exercise.patch.file.clone(), ..fault }));
     }
     faults

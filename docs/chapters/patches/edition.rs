@@ -81,12 +81,7 @@ impl Edition {
     ///
     /// # Errors
     /// If it is not built, or does not build; in one line.
-    pub fn command(
-        &self,
-        project: &Project,
-        programs: &Programs,
-        chapter: &str,
-    ) -> Result<Command> {
+    pub fn command(&self, programs: &Programs, chapter: &str) -> Result<Command> {
         let book = || programs.built(chapter);
         match self {
             Self::Book => book(),
@@ -96,7 +91,7 @@ impl Edition {
                 Ok(command)
             }
             Self::Copy(_) | Self::Edited => {
-                let (mut cargo, target) = self.cargo("build", project, programs);
+                let (mut cargo, target) = self.cargo("build", programs);
                 let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Limit::NONE)?;
                 let why = || first_error(&built.said);
                 ensure!(built.succeeded(), "{chapter} does not build: {}", why());
@@ -106,7 +101,9 @@ impl Edition {
                 let profile = if programs.are_released() { "release" } else { "debug" };
                 let name = format!("{chapter}{}", std::env::consts::EXE_SUFFIX);
                 let mut command = Command::new(target.join(profile).join(name));
-                command.current_dir(&project.root).env("SHADERS", self.shaders(project));
+                command
+                    .current_dir(&programs.project.root)
+                    .env("SHADERS", self.shaders(programs.project));
                 Ok(command)
             }
         }
@@ -116,18 +113,13 @@ impl Edition {
     ///
     /// # Errors
     /// If they do not build, or there is none; in one line.
-    pub fn test(
-        &self,
-        project: &Project,
-        programs: &Programs,
-        (program, filter): (&str, &str),
-    ) -> Result<Tested> {
+    pub fn test(&self, programs: &Programs, (program, filter): (&str, &str)) -> Result<Tested> {
         // A build may take as long as it will, and only once.
-        let (mut build, _) = self.cargo("test", project, programs);
+        let (mut build, _) = self.cargo("test", programs);
         let built = child::run(build.args(["--no-run", "--test", program]), Limit::NONE)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
-        let (mut cargo, _) = self.cargo("test", project, programs);
-        cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(project));
+        let (mut cargo, _) = self.cargo("test", programs);
+        cargo.args(["--test", program, filter]).env("SHADERS", self.shaders(programs.project));
         // What a reader changes gives other figures than the page's.
         cargo.env("EXERCISE", "1");
         let ended = child::run(&mut cargo, LIMIT)?;
@@ -155,10 +147,10 @@ impl Edition {
     }
 
     /// Cargo in the edition's folder, and where what it builds goes.
-    fn cargo(&self, verb: &str, project: &Project, programs: &Programs) -> (Command, PathBuf) {
+    fn cargo(&self, verb: &str, programs: &Programs) -> (Command, PathBuf) {
         let (folder, target): (&Path, PathBuf) = match self {
-            Self::Copy(folder) => (folder, project.root.join(BUILT)),
-            _ => (&project.root, programs.target().to_owned()),
+            Self::Copy(folder) => (folder, programs.project.root.join(BUILT)),
+            _ => (&programs.project.root, programs.target().to_owned()),
         };
         let mut cargo = child::cargo(folder);
         cargo.args([verb, "--message-format", "short"]).env("CARGO_TARGET_DIR", &target);

@@ -111,12 +111,7 @@ impl Picture {
     ///
     /// # Errors
     /// If the program is missing or fails, or panels differ in size or are narrower than their labels.
-    pub fn render(
-        &self,
-        project: &Project,
-        programs: &Programs,
-        sources: &mut Sources,
-    ) -> Result<String> {
+    pub fn render(&self, programs: &Programs, sources: &mut Sources) -> Result<String> {
         let failed = || format!("{}:{}: {} is not made", self.page, self.line, self.file());
         let folder = Folder::temporary()?;
         let mut files = Vec::new();
@@ -130,10 +125,10 @@ impl Picture {
             let pictures = files.iter().map(open).collect::<Result<Vec<_>>>()?;
             self.side_by_side(pictures).with_context(failed)?.save(&files[0])?;
         }
-        let hash = sources.of(project, &self.shots[0].chapter);
+        let hash = sources.of(programs.project, &self.shots[0].chapter);
         let stamped = stamp::stamped(&files[0], &self.command, &hash, &device)?;
-        let file = project.root.join(self.file());
-        fs::create_dir_all(project.root.join("docs/images"))?;
+        let file = programs.project.root.join(self.file());
+        fs::create_dir_all(programs.project.root.join("docs/images"))?;
         common::files::write_whole(&file, &stamped)?;
         Ok(device)
     }

@@ -8,6 +8,7 @@ use std::sync::Mutex;
 use std::time::SystemTime;
 
 use anyhow::{Context, Result, anyhow};
+use manuscript::project::Project;
 use patience::Limit;
 
 use super::child;
@@ -15,21 +16,22 @@ use super::controls::Controls;
 use super::workers;
 
 /// The samples' programs.
-pub struct Programs {
+pub struct Programs<'a> {
+    /// The project in which they run.
+    pub project: &'a Project,
     folder: PathBuf,
-    root: PathBuf,
     known: Mutex<BTreeMap<String, Result<Controls, String>>>,
 }
 
-impl Programs {
-    /// The programs beside this one, run in the project at `root`.
+impl<'a> Programs<'a> {
+    /// The programs beside this one, run in a project.
     ///
     /// # Errors
     /// If the system does not say where this one is.
-    pub fn beside_this(root: &Path) -> Result<Self> {
+    pub fn beside_this(project: &'a Project) -> Result<Self> {
         let this = std::env::current_exe().context("cannot tell where this program lies")?;
         let folder = this.parent().context("this program lies in no folder")?.to_owned();
-        Ok(Self { folder, root: root.to_owned(), known: Mutex::default() })
+        Ok(Self { project, folder, known: Mutex::default() })
     }
 
     /// A command that runs the program `name`.
@@ -37,6 +39,7 @@ impl Programs {
     /// # Errors
     /// If it is missing, or older than its sources; the line says how to build it.
     pub fn command(&self, name: &str) -> Result<Command, String> {
+        let root = &self.project.root;
         let file = self.folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
         let built = modified(&file).ok_or_else(|| format!("the program '{name}' is not built"))?;
         // Cargo lists a program's sources beside it.
@@ -46,11 +49,11 @@ impl Programs {
             .find(|source| modified(Path::new(source)).is_some_and(|changed| changed > built));
         if let Some(source) = newer {
             let source = Path::new(&source);
-            let source = source.strip_prefix(&self.root).unwrap_or(source).display();
+            let source = source.strip_prefix(root).unwrap_or(source).display();
             return Err(format!("the program '{name}' is older than {source}"));
         }
         let mut command = Command::new(file);
-        command.current_dir(&self.root).env("SHADERS", self.root.join("shaders"));
+        command.current_dir(root).env("SHADERS", root.join("shaders"));
         Ok(command)
     }
 

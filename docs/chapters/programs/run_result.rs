@@ -10,6 +10,7 @@ use patience::Limit;
 use serde_json::Value;
 
 use super::child;
+use super::program::Programs;
 
 /// What a run gave.
 #[derive(Default)]
@@ -75,9 +76,9 @@ impl RunResult {
 /// Whether the device of this name is a software driver, by the list that a chapter's program prints.
 ///
 /// # Errors
-/// If the program does not start.
-pub fn is_software(mut program: Command, device: &str, limit: Limit) -> Result<bool> {
-    let listed = child::run(program.arg("--list-devices"), limit)?.told;
+/// If the program is not built, or does not start.
+pub fn is_software(programs: &Programs, chapter: &str, device: &str, limit: Limit) -> Result<bool> {
+    let listed = child::run(programs.built(chapter)?.arg("--list-devices"), limit)?.told;
     let line = format!(": {device} (software;");
     Ok(listed.lines().any(|listed| listed.contains(&line)))
 }

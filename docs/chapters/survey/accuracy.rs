@@ -12,16 +12,8 @@ use super::command::{read, rows, told, words};
 /// The chapter.
 pub const NAME: &str = "24_accuracy";
 
-/// The tests that ask it, on whatever page their figures are.
-const TESTS: &str = "numerics";
-
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
-
-/// Whether this chapter is the laboratory, and a test target asks it.
-pub fn is_asked(chapter: &str, target: Option<&str>) -> bool {
-    chapter == NAME && target == Some(TESTS)
-}
 
 /// What it is asked, where the project has it: hard cases, then random rays. Their answers go to a folder.
 pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {

@@ -15,7 +15,7 @@ use common::files::Folder;
 use common::gpu::Limits;
 use common::output::print;
 use common::usage::Usage;
-use manuscript::project::{Chapter, Project};
+use manuscript::project::Chapter;
 use patience::Limit;
 use serde_json::Value;
 
@@ -53,10 +53,8 @@ impl Error for Idle {}
 
 /// A survey of one device.
 pub struct Survey<'a> {
-    /// Whose chapters run.
-    pub project: &'a Project,
     /// Their programs.
-    pub programs: &'a Programs,
+    pub programs: &'a Programs<'a>,
     /// The device, as `--device` names it.
     pub device: Option<&'a str>,
     /// How long a program may take.
@@ -66,6 +64,7 @@ pub struct Survey<'a> {
 impl Survey<'_> {
     /// What would be run, a line a program.
     pub fn list(&self) -> String {
+        let project = self.programs.project;
         let line = |chapter: &Chapter| {
             let arguments: String =
                 chapter.golden.iter().map(|argument| format!(" {argument}")).collect();
@@ -75,8 +74,8 @@ impl Survey<'_> {
                 golden(chapter)
             )
         };
-        let mut text: String = self.project.chapters.iter().map(line).collect();
-        for (what, arguments) in accuracy::runs(self.project, Path::new("FOLDER")) {
+        let mut text: String = project.chapters.iter().map(line).collect();
+        for (what, arguments) in accuracy::runs(project, Path::new("FOLDER")) {
             text.push_str(&format!("{}: {} ({what})\n", accuracy::NAME, arguments.join(" ")));
         }
         text
@@ -88,6 +87,7 @@ impl Survey<'_> {
     /// If there is no device, it executes nothing, the card cannot be written, a signal asks for the end, or a
     /// chapter fails: then the line says where the card is.
     pub fn run(&self, out: &Path) -> Result<()> {
+        let project = self.programs.project;
         interrupt::listen();
         let cannot = || format!("cannot write to '{}'", out.display());
         fs::create_dir_all(out).with_context(cannot)?;
@@ -95,8 +95,8 @@ impl Survey<'_> {
         self.build()?;
         self.check_device()?;
         let folder = Folder::temporary()?;
-        let laboratory = accuracy::runs(self.project, folder.path());
-        let mut steps = Steps::new(self.project.chapters.len() + laboratory.len());
+        let laboratory = accuracy::runs(project, folder.path());
+        let mut steps = Steps::new(project.chapters.len() + laboratory.len());
         let limit = self.limit;
         print(&format!("{} lines to come; a program is stopped after {limit}\n", steps.all))?;
         let mut card = Card {
@@ -107,7 +107,7 @@ impl Survey<'_> {
             tolerance: flip::TOLERANCE,
             ..Card::default()
         };
-        for chapter in &self.project.chapters {
+        for chapter in &project.chapters {
             let line = self.chapter(chapter, folder.path(), &mut card)?;
             interrupt::asked()?;
             let told = match (&line.failed, line.milliseconds) {
@@ -149,7 +149,7 @@ impl Survey<'_> {
     fn commit(&self) -> Option<String> {
         let git = |arguments: &[&str]| {
             let mut git = Command::new("git");
-            let ended = git.args(arguments).current_dir(&self.project.root);
+            let ended = git.args(arguments).current_dir(&self.programs.project.root);
             let ended = child::run(ended, Limit::NONE).ok().filter(Ended::succeeded)?;
             Some(ended.told.trim().to_owned())
         };
@@ -160,11 +160,12 @@ impl Survey<'_> {
 
     /// Builds the programs if one is missing or older than its sources.
     fn build(&self) -> Result<()> {
-        let names = self.project.chapters.iter().map(|chapter| &*chapter.name);
+        let project = self.programs.project;
+        let names = project.chapters.iter().map(|chapter| &*chapter.name);
         let mut stale = names.filter_map(|name| self.programs.command(name).err());
         let Some(why) = stale.next() else { return Ok(()) };
         print(&format!("{why}: cargo build --bins, some minutes the first time\n"))?;
-        let mut cargo = child::cargo(&self.project.root);
+        let mut cargo = child::cargo(&project.root);
         cargo.args(["build", "--quiet", "--bins"]);
         if self.programs.are_released() {
             cargo.arg("--release");
@@ -175,7 +176,7 @@ impl Survey<'_> {
 
     /// Fails if there is no device, or `--device` names none, before anything is run for a card.
     fn check_device(&self) -> Result<()> {
-        let Some(chapter) = self.project.chapters.last() else { return Ok(()) };
+        let Some(chapter) = self.programs.project.chapters.last() else { return Ok(()) };
         let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
         if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
             return Err(Usage(line).into());
@@ -235,7 +236,7 @@ impl Survey<'_> {
         for file in [&picture, &report] {
             let _ = fs::remove_file(file);
         }
-        let golden = self.project.root.join(golden(chapter));
+        let golden = self.programs.project.root.join(golden(chapter));
         let golden = image::open(&golden)
             .map_err(|_| anyhow::Error::msg("its golden picture is missing"))?;
         let golden = golden.to_rgb8();
