@@ -43,38 +43,34 @@ pub enum Kind {
 }
 
 impl Kind {
-    const ALL: [Self; 7] = [
-        Self::Snippet,
-        Self::Diff,
-        Self::Controls,
-        Self::Gallery,
-        Self::Devices,
-        Self::Mistakes,
-        Self::Exercises,
+    /// Each with the word in its marker, what a reader would call it, and the marker's form.
+    const ALL: [(Self, &str, &str, &str); 7] = [
+        (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
+        (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
+        (Self::Controls, "controls", "table of controls", "NN_name -->"),
+        (Self::Gallery, "gallery", "gallery", "-->"),
+        (Self::Devices, "devices", "table of devices", "-->"),
+        (Self::Mistakes, "mistakes", "gallery of mistakes", "-->"),
+        (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),
     ];
+
+    fn named(word: &str) -> Option<Self> {
+        Self::ALL.iter().find(|kind| kind.1 == word).map(|kind| kind.0)
+    }
 
     /// The word in the marker.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Snippet => "snippet",
-            Self::Diff => "diff",
-            Self::Controls => "controls",
-            Self::Gallery => "gallery",
-            Self::Devices => "devices",
-            Self::Mistakes => "mistakes",
-            Self::Exercises => "exercises",
-        }
+        Self::ALL[self as usize].1
     }
 
     /// What a reader would call it.
     pub fn noun(self) -> &'static str {
-        match self {
-            Self::Controls => "table of controls",
-            Self::Devices => "table of devices",
-            Self::Mistakes => "gallery of mistakes",
-            Self::Exercises => "list of exercises",
-            _ => self.word(),
-        }
+        Self::ALL[self as usize].2
+    }
+
+    /// How the marker is written.
+    pub fn form(self) -> String {
+        format!("<!-- {} {}", self.word(), Self::ALL[self as usize].3)
     }
 }
 
@@ -159,7 +155,7 @@ impl Page {
             self.pictures.push(PictureMark { line, name: rest.first().cloned(), command });
             return end;
         }
-        let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.word() == word) else {
+        let Some(kind) = Kind::named(word) else {
             return line;
         };
         // Not fences but markers end a block, so that one with a lost fence can still be mended.
@@ -245,8 +241,7 @@ fn marker(line: &str) -> Option<&str> {
 }
 
 fn opens(words: &str) -> bool {
-    let first = words.split_whitespace().next();
-    Kind::ALL.iter().any(|kind| Some(kind.word()) == first)
+    words.split_whitespace().next().and_then(Kind::named).is_some()
 }
 
 /// The line after the fenced block that begins on line `start`; `start` itself if none does.

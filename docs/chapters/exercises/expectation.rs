@@ -88,17 +88,15 @@ impl Expectation {
     pub fn parse(text: &str) -> Option<Self> {
         let after =
             |start: &str| text.strip_prefix(start).map(str::trim).filter(|rest| !rest.is_empty());
-        if let Some(text) = after("says ") {
-            return Some(Self::Says(text.to_owned()));
-        }
-        if let Some(text) = after("refused:") {
-            return Some(Self::Refused(text.to_owned()));
-        }
-        if let Some(text) = after("validation:") {
-            return Some(Self::Validation(text.to_owned()));
-        }
-        if let Some(text) = after("fails with ") {
-            return Some(Self::Fails(text.to_owned()));
+        let texts: [(&str, fn(String) -> Self); 4] = [
+            ("says ", Self::Says),
+            ("refused:", Self::Refused),
+            ("validation:", Self::Validation),
+            ("fails with ", Self::Fails),
+        ];
+        let found = texts.into_iter().find_map(|(start, of)| Some(of(after(start)?.to_owned())));
+        if found.is_some() {
+            return found;
         }
         if let Some(rest) = after("report ") {
             let (key, value) = rest.split_once(' ')?;

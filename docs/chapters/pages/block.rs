@@ -59,17 +59,8 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
             Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
         }
         (kind, _) => {
-            let form = match kind {
-                Kind::Snippet => "<!-- snippet FILE#ANCHOR -->",
-                Kind::Diff => "<!-- diff OLD NEW FILE#ANCHOR -->, the file being optional",
-                Kind::Controls => "<!-- controls NN_name -->",
-                Kind::Gallery => "<!-- gallery -->",
-                Kind::Devices => "<!-- devices -->",
-                Kind::Mistakes => "<!-- mistakes -->",
-                Kind::Exercises => "<!-- exercises NN_name -->",
-            };
             let what = format!("<!-- {} {} --> is no marker", kind.word(), words.join(" "));
-            Err(wrong(what, &format!("write {form}")))
+            Err(wrong(what, &format!("write {}", kind.form())))
         }
     }
 }

@@ -56,45 +56,43 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
 fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
     let name = &chapter.name;
     let line = project.chapter_line(chapter);
-    let mut faults = Vec::new();
-    let mut missing = |what: String, remedy: String| {
-        faults.push(Fault::new("Cargo.toml", line, format!("'{name}' {what}"), remedy));
-    };
-    let main = format!("samples/{name}/main.rs");
-    let bin = project.bins.iter().any(|bin| bin.name == *name && bin.path == main);
-    if !bin {
-        missing(
+    let [main, test] =
+        [format!("samples/{name}/main.rs"), format!("tests/samples/{}.rs", chapter.module())];
+    let (page, golden) = (chapter.page(), format!("tests/golden/{name}.png"));
+    let manifest = project.read(&format!("samples/{name}/Cargo.toml")).ok();
+    // Cargo builds a package's programs for the sake of its test programs alone.
+    let is_built = manifest.as_ref().is_none_or(|manifest| manifest.contains("[[test]]"));
+    let write = || "write it".to_owned();
+    let parts = [
+        (
+            project.bins.iter().any(|bin| bin.name == *name && bin.path == main),
             "has no program".to_owned(),
             format!("add [[bin]] name = \"{name}\", path = \"{main}\""),
-        );
-    }
-    if project.files(&format!("shaders/{name}")).is_empty() {
-        missing("has no shaders".to_owned(), format!("write them in shaders/{name}"));
-    }
-    if !project.has(&main) {
-        missing(format!("has no {main}"), "write it".to_owned());
-    }
-    if !project.has(&chapter.page()) {
-        missing(format!("has no page {}", chapter.page()), "write it".to_owned());
-    }
-    let (test, golden) = (module_file(chapter), format!("tests/golden/{name}.png"));
-    let own_package = project.has_own_package(chapter);
-    if !own_package && !project.has(&test) {
-        missing(format!("has no test {test}"), "write it".to_owned());
-    }
-    // Cargo builds a package's programs for the sake of its test programs alone.
-    if own_package && !own_manifest(project, name).contains("[[test]]") {
-        missing(
+        ),
+        (
+            !project.files(&format!("shaders/{name}")).is_empty(),
+            "has no shaders".to_owned(),
+            format!("write them in shaders/{name}"),
+        ),
+        (project.has(&main), format!("has no {main}"), write()),
+        (project.has(&page), format!("has no page {page}"), write()),
+        (manifest.is_some() || project.has(&test), format!("has no test {test}"), write()),
+        (
+            is_built,
             "is a package without a test program: `cargo test` would not build it".to_owned(),
             format!("add [[test]] to samples/{name}/Cargo.toml"),
-        );
-    }
-    if !project.has(&golden) {
-        missing(
+        ),
+        (
+            project.has(&golden),
             format!("has no golden {golden}"),
             "run: UPDATE=1 cargo test --test samples".to_owned(),
-        );
-    }
+        ),
+    ];
+    let missing = parts.into_iter().filter(|(there, ..)| !there);
+    let fault = |what| format!("'{name}' {what}");
+    let missing =
+        missing.map(|(_, what, to_do)| Fault::new("Cargo.toml", line, fault(what), to_do));
+    let mut faults: Vec<Fault> = missing.collect();
     faults.extend(opening(project, chapter, &main));
     let modules = project.read("tests/samples/main.rs").unwrap_or_default();
     let declared = format!("mod {};", chapter.module());
@@ -112,14 +110,6 @@ fn opening(project: &Project, chapter: &Chapter, main: &str) -> Option<Fault> {
     let what = "the first line does not name the chapter".to_owned();
     let wrong = !text.starts_with(&opening);
     wrong.then(|| Fault::new(main, 1, what, format!("begin it with `{}…`", opening)))
-}
-
-fn own_manifest(project: &Project, name: &str) -> String {
-    project.read(&format!("samples/{name}/Cargo.toml")).unwrap_or_default()
-}
-
-fn module_file(chapter: &Chapter) -> String {
-    format!("tests/samples/{}.rs", chapter.module())
 }
 
 fn bins(project: &Project) -> Vec<Fault> {

@@ -2,9 +2,12 @@
 //!
 //! A chapter that is still to come is named as `chapter 11 (planned)`, and in no other way.
 
+use std::sync::LazyLock;
+
 use manuscript::fault::Fault;
 use manuscript::page::Page;
 use manuscript::project::Project;
+use regex_lite::{Match, Regex};
 
 use super::exercise_list;
 
@@ -12,6 +15,19 @@ use super::exercise_list;
 const PLANNED: &str = " (planned)";
 /// Where the chapters of other books are named.
 const SOURCES: &str = "## Sources";
+
+static NUMBER: LazyLock<Regex> = LazyLock::new(|| regex(r"\b\d\d\b"));
+/// After the word comes a number, after its plural a list such as `05, 06 and 12`.
+static LIST: LazyLock<Regex> = LazyLock::new(|| {
+    let gap = r"(?: |, | \(|\) )";
+    regex(&format!(r"(?i)\bchapter{gap}\d\d\b|\bchapters(?:{gap}(?:and|or|to|planned|\d\d)\b)+"))
+});
+static NAME: LazyLock<Regex> = LazyLock::new(|| regex(r"\b\d\d_[a-z]\w*"));
+static EXERCISE: LazyLock<Regex> = LazyLock::new(|| regex(r"\b[Ee]xercise\W+(\d+)\b"));
+
+fn regex(pattern: &str) -> Regex {
+    Regex::new(pattern).expect("the pattern is right")
+}
 
 /// A chapter's number in a line.
 #[derive(Debug, PartialEq, Eq)]
@@ -93,80 +109,39 @@ fn plain(line: &str) -> String {
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// The words of a text, letters, digits and `_`, each with the byte at which it begins.
-fn words(text: &str) -> Vec<(usize, &str)> {
-    let part = |c: char| c.is_alphanumeric() || c == '_';
-    let mut found: Vec<(usize, &str)> = Vec::new();
-    let mut rest = text;
-    while let Some(start) = rest.find(part) {
-        let word = &rest[start..];
-        let word = &word[..word.find(|c| !part(c)).unwrap_or(word.len())];
-        found.push((text.len() - rest.len() + start, word));
-        rest = &rest[start + word.len()..];
-    }
-    found
-}
-
-/// Whether a word is two digits, as the number of a chapter is.
-fn is_number(word: &str) -> bool {
-    word.len() == 2 && word.bytes().all(|byte| byte.is_ascii_digit())
-}
-
 /// Every chapter that a line names: after the word *chapter*, or by a number that begins with 0.
 pub fn chapters(line: &str) -> Vec<Mention> {
     let text = plain(line);
-    let words = words(&text);
-    let end = |index: usize| words[index].0 + words[index].1.len();
-    let mut named = vec![false; words.len()];
-    for (index, (start, word)) in words.iter().enumerate() {
-        // After the word comes a number, after its plural a list such as `05, 06 and 12`.
-        let most = match &*word.to_lowercase() {
-            "chapter" => 1,
-            "chapters" => words.len(),
-            _ => 0,
-        };
-        for at in (index + 1..words.len()).take(most) {
-            let gap = [" ", ", ", " (", ") "].contains(&&text[end(at - 1)..words[at].0]);
-            let joins = ["and", "or", "to", "planned"].contains(&words[at].1);
-            if !gap || !(joins || is_number(words[at].1)) {
-                break;
-            }
-            named[at] = !joins;
-        }
+    let lists: Vec<Match> = LIST.find_iter(&text).collect();
+    let is_named = |number: &Match| {
+        let (before, after) = (&text[..number.start()], &text[number.end()..]);
         // Neither the month of a date nor a part of a longer number.
-        let before = text[..*start].chars().next_back();
-        let after = &text[start + word.len()..];
-        let longer = before.is_some_and(|c| ".,:/-−–#".contains(c))
-            || (after.starts_with(['.', ',', ':', '/', '-'])
-                && after[1..].starts_with(|c: char| c.is_ascii_digit()));
-        named[index] |= is_number(word) && word.starts_with('0') && !longer;
-    }
-    let mention = |index: usize| Mention {
-        number: words[index].1.to_owned(),
-        planned: text[end(index)..].starts_with(PLANNED),
+        let longer = before.ends_with(['.', ',', ':', '/', '-', '−', '–', '#'])
+            || after.starts_with(['.', ',', ':', '/', '-'])
+                && after[1..].starts_with(|c: char| c.is_ascii_digit());
+        lists.iter().any(|list| list.range().contains(&number.start()))
+            || number.as_str().starts_with('0') && !longer
     };
-    (0..words.len()).filter(|&index| named[index]).map(mention).collect()
+    let mention = |number: Match| Mention {
+        number: number.as_str().to_owned(),
+        planned: text[number.end()..].starts_with(PLANNED),
+    };
+    NUMBER.find_iter(&text).filter(is_named).map(mention).collect()
 }
 
 /// Every chapter that a line names as its folder is called, in the text or as a piece of code.
 fn names(line: &str) -> Vec<String> {
-    let named = |word: &&str| {
-        let (number, name) = word.split_once('_').unwrap_or_default();
-        is_number(number) && name.starts_with(|c: char| c.is_ascii_lowercase())
-    };
     let text = plain(line);
-    let prose = words(&text).into_iter().map(|(_, word)| word);
-    let alone = codes(line).into_iter().map(|(_, code)| code);
-    let alone = alone.filter(|code| words(code).len() == 1);
-    prose.chain(alone).filter(named).map(str::to_owned).collect()
+    let alone = |code: &&str| NAME.find(code).is_some_and(|name| name.range() == (0..code.len()));
+    let codes = codes(line).into_iter().map(|(_, code)| code).filter(alone);
+    let prose = NAME.find_iter(&text).map(|name| name.as_str());
+    prose.chain(codes).map(str::to_owned).collect()
 }
 
 /// The number of every exercise that a line names.
 fn exercises(line: &str) -> Vec<usize> {
     let text = plain(line);
-    let words = words(&text);
-    let pairs = words.windows(2).filter(|pair| ["exercise", "Exercise"].contains(&pair[0].1));
-    pairs.filter_map(|pair| pair[1].1.parse().ok()).collect()
+    EXERCISE.captures_iter(&text).filter_map(|found| found[1].parse().ok()).collect()
 }
 
 #[cfg(test)]
