@@ -13,8 +13,12 @@
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
 //!
-//! Arrows between the rooms point one way: [`pages`] → [`exercises`], [`figures`], [`mistakes`], [`survey`] →
-//! [`patches`], [`pictures`] → [`sources`], [`programs`].
+//! The rooms, each of which knows only those below it:
+//!
+//! - [`pages`]: what stands on them, and whether it is so
+//! - [`exercises`], [`figures`], [`mistakes`], [`survey`]: what pages show of each, and its commands
+//! - [`patches`], [`pictures`]: changed editions of the code; what is rendered
+//! - [`sources`], [`programs`]: what a result is made from, as a hash; what is run
 
 mod arguments;
 mod chapter_list;
@@ -116,8 +120,10 @@ fn run(arguments: &Arguments) -> Result<()> {
 
 /// Runs the program that makes the website: mdBook is compiled for it alone.
 fn site(project: &Project, out: Option<&Path>) -> Result<()> {
-    let mut cargo = child::cargo(&project.root);
-    cargo.args(["run", "--quiet", "--package", "site", "--", "--root"]).arg(&project.root);
+    // Here, where the reader is: what `--out` names lies below.
+    let mut cargo = child::cargo(Path::new("."));
+    cargo.args(["run", "--quiet", "--package", "site", "--manifest-path"]);
+    cargo.arg(project.root.join("Cargo.toml")).arg("--").arg("--root").arg(&project.root);
     if let Some(out) = out {
         cargo.arg("--out").arg(out);
     }

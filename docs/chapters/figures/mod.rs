@@ -1,7 +1,7 @@
 //! Figures: the numbers on pages, and the measurements that gave them.
 //!
 //! A page's [`passage`]s have [`number`]s. Its comments bind each to a value ([`binding`]) of a [`record`], which
-//! a [`measurement`] renews. `docs/chapters/README.md` tells authors how.
+//! a [`measurement`] renews. `docs/chapters/figures/README.md` tells authors how.
 
 pub mod binding;
 pub mod device_note;
