@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use manuscript::page::Page;
 
-use super::passage::{Mark, Passage};
+use super::passage::{Comment, Passage};
 use super::record::Record;
 
 /// The measurements that are stored, by page and name.
@@ -13,8 +13,8 @@ pub type Records = BTreeMap<String, Record>;
 /// The measurement and the value for each number of a passage.
 pub fn names(page: &Page, passage: &Passage, stored: &Records) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for (_, mark) in &passage.marks {
-        let Mark::Figures(groups) = mark else { continue };
+    for (_, comment) in &passage.comments {
+        let Comment::Figures(groups) = comment else { continue };
         let whole = |name: &String| match name.contains('/') {
             true => name.clone(),
             false => format!("{}/{name}", page.stem()),

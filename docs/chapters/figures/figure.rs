@@ -35,7 +35,7 @@ use manuscript::page::Page;
 use super::binding::{Records, names};
 use super::device_note;
 use super::number::Number;
-use super::passage::{self, Mark, Passage, line};
+use super::passage::{self, Comment, Passage, line};
 use super::record::{self, Record};
 
 /// A number on a page and what it should be.
@@ -173,8 +173,8 @@ impl Found {
     ) -> Option<Vec<Number>> {
         let mut numbers = passage.numbers(text, notes);
         let mut whole = true;
-        for (line, mark) in &passage.marks {
-            let Mark::Explains(words) = mark else { continue };
+        for (line, comment) in &passage.comments {
+            let Comment::Explains(words) = comment else { continue };
             for word in words {
                 let before = numbers.len();
                 numbers.retain(|number| number.written != *word);

@@ -20,12 +20,12 @@ pub struct Passage {
     /// The heads of a table's rows.
     pub rows: Vec<String>,
     /// The comments below it, with their lines.
-    pub marks: Vec<(usize, Mark)>,
+    pub comments: Vec<(usize, Comment)>,
 }
 
 /// What a comment says of the numbers above it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum Comment {
     /// They come from measurements: of each the name, and the values' names.
     Figures(Vec<(String, Vec<String>)>),
     /// No run gave these.
@@ -102,9 +102,9 @@ pub fn all(text: &str) -> Vec<Passage> {
             }
             Event::Html(_) | Event::InlineHtml(_) => {
                 let at = line(text, span.start);
-                let mark = mark(&text[span]);
-                if let (Some(block), Some(mark)) = (found.last_mut(), mark) {
-                    block.marks.push((at, mark));
+                let comment = comment(&text[span]);
+                if let (Some(block), Some(comment)) = (found.last_mut(), comment) {
+                    block.comments.push((at, comment));
                 }
             }
             _ => {}
@@ -114,17 +114,17 @@ pub fn all(text: &str) -> Vec<Passage> {
 }
 
 /// What a comment says of numbers, if it does.
-fn mark(comment: &str) -> Option<Mark> {
-    let says = comment.trim().strip_prefix("<!--")?.strip_suffix("-->")?.trim();
+fn comment(html: &str) -> Option<Comment> {
+    let says = html.trim().strip_prefix("<!--")?.strip_suffix("-->")?.trim();
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect();
     match says.split_once(' ')? {
-        ("explains", numbers) => Some(Mark::Explains(words(numbers))),
+        ("explains", numbers) => Some(Comment::Explains(words(numbers))),
         ("figures", groups) => {
             let group = |group: &str| {
                 let (name, values) = group.split_once(':').unwrap_or((group, ""));
                 (name.trim().to_owned(), words(values))
             };
-            Some(Mark::Figures(groups.split(';').map(group).collect()))
+            Some(Comment::Figures(groups.split(';').map(group).collect()))
         }
         _ => None,
     }
@@ -136,12 +136,13 @@ mod tests {
 
     /// Of each passage with text or comments: whether small numbers count, its numbers, its comments.
     fn told(text: &str) -> Vec<(bool, String, usize)> {
-        let passages = all(text).into_iter().filter(|p| !p.text.is_empty() || !p.marks.is_empty());
+        let passages =
+            all(text).into_iter().filter(|p| !p.text.is_empty() || !p.comments.is_empty());
         let numbers = |passage: &Passage| {
             let numbers = passage.numbers(text, &[]);
             numbers.into_iter().map(|number| number.written).collect::<Vec<_>>().join(" ")
         };
-        passages.map(|p| (p.counts_small, numbers(&p), p.marks.len())).collect()
+        passages.map(|p| (p.counts_small, numbers(&p), p.comments.len())).collect()
     }
 
     #[test]
@@ -176,8 +177,8 @@ mod tests {
     fn a_comment_names_values_or_numbers() {
         let some = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
         let figures = vec![("a".to_owned(), some("x y")), ("b/c".to_owned(), vec![])];
-        assert_eq!(mark("<!-- figures a: x y; b/c -->\n"), Some(Mark::Figures(figures)));
-        assert_eq!(mark("<!-- explains 3 1e6 -->"), Some(Mark::Explains(some("3 1e6"))));
-        assert_eq!(mark("<!-- picture -->"), None);
+        assert_eq!(comment("<!-- figures a: x y; b/c -->\n"), Some(Comment::Figures(figures)));
+        assert_eq!(comment("<!-- explains 3 1e6 -->"), Some(Comment::Explains(some("3 1e6"))));
+        assert_eq!(comment("<!-- picture -->"), None);
     }
 }

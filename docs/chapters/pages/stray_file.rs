@@ -17,21 +17,16 @@ const FOLDERS: [&str; 5] = ["docs", "samples", "shaders", "tests/golden", "tests
 
 /// Every stray file; `linked` are the files that pages link to or make.
 pub fn check(project: &Project, linked: &BTreeSet<String>) -> Vec<Fault> {
-    let sources = Sources::read(project);
+    let texts = Texts::read(project);
     let files = FOLDERS.into_iter().flat_map(|folder| project.files(folder));
-    let stray = files.filter_map(|file| Some((why(project, &sources, linked, &file)?, file)));
+    let stray = files.filter_map(|file| Some((why(project, &texts, linked, &file)?, file)));
     stray
         .map(|(why, file)| Fault::new(file, 1, format!("stray file: {why}"), "use it or delete it"))
         .collect()
 }
 
 /// Why a file is a stray, if it is.
-fn why(
-    project: &Project,
-    sources: &Sources,
-    linked: &BTreeSet<String>,
-    file: &str,
-) -> Option<String> {
+fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) -> Option<String> {
     let (folder, name) = file.rsplit_once('/')?;
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
     let (used, why) = match extension {
@@ -39,7 +34,7 @@ fn why(
             let path = |target: &&manuscript::project::Target| target.path == file;
             let target = project.bins.iter().chain(&project.tests).find(path).is_some();
             let root = target || project.libs.iter().any(|lib| lib == file);
-            (root || sources.declares(folder, stem), "no [[bin]] and no `mod` names it")
+            (root || texts.declares(folder, stem), "no [[bin]] and no `mod` names it")
         }
         "md" if folder == "docs" => {
             let page = project.of_page(file).is_some();
@@ -47,16 +42,16 @@ fn why(
         }
         "png" | "svg" if folder == "docs/images" => (linked.contains(file), "no page shows it"),
         "png" if folder == "tests/golden" => {
-            (sources.code_says(&format!("\"{stem}\"")), "no test compares with it")
+            (texts.code_says(&format!("\"{stem}\"")), "no test compares with it")
         }
         "glsl" if file.starts_with("shaders/") => {
-            (sources.included.contains(file), "no shader includes it")
+            (texts.included.contains(file), "no shader includes it")
         }
         extension if file.starts_with("shaders/") && shader::EXTENSIONS.contains(&extension) => {
             let below = file.trim_start_matches("shaders/");
             let own =
-                sources.below(&folder.replacen("shaders/", "samples/", 1), &format!("\"{name}\""));
-            (own || sources.code_says(&format!("\"{below}\"")), "no program names it")
+                texts.below(&folder.replacen("shaders/", "samples/", 1), &format!("\"{name}\""));
+            (own || texts.code_says(&format!("\"{below}\"")), "no program names it")
         }
         // Whether they are whole, their own check says.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
@@ -66,20 +61,20 @@ fn why(
             let member = format!("\"{folder}\",");
             (project.manifest.contains(&member), "it is no member of the workspace")
         }
-        _ => (linked.contains(file) || sources.says(file, name), "nothing mentions it"),
+        _ => (linked.contains(file) || texts.says(file, name), "nothing mentions it"),
     };
     (!used).then(|| why.to_owned())
 }
 
 /// The texts in which files are named.
-struct Sources {
+struct Texts {
     /// Every text of the project that may name a file, with its path.
     texts: Vec<(String, String)>,
     /// Every shader file that another includes.
     included: BTreeSet<String>,
 }
 
-impl Sources {
+impl Texts {
     fn read(project: &Project) -> Self {
         let folders = ["common", "docs", "samples", "tests"];
         let mut files: Vec<String> = folders.into_iter().flat_map(|f| project.files(f)).collect();

@@ -3,5 +3,5 @@
 pub mod difference;
 pub mod downscale;
 pub mod picture;
-pub mod render;
+pub mod rendering;
 pub mod stamp;

@@ -10,7 +10,7 @@ use manuscript::page::{Page, PictureMark};
 use manuscript::project::Project;
 use panels::{Panel, sheet};
 
-use super::render::Render;
+use super::rendering::Rendering;
 use super::stamp;
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
@@ -30,7 +30,7 @@ pub struct Picture {
     /// The commands and their labels, in one line.
     pub command: String,
     /// One run, or several of one chapter, each with a label.
-    shots: Vec<Render>,
+    renderings: Vec<Rendering>,
 }
 
 impl Picture {
@@ -66,16 +66,16 @@ impl Picture {
     /// If there is no run of a chapter below it, or several and not each has a label.
     fn of(project: &Project, page: &Page, mark: &PictureMark) -> Result<Self, Fault> {
         let wrong = |what: &str, remedy: &str| Fault::new(&*page.path, mark.line + 2, what, remedy);
-        let shots = Render::all(project, &mark.command);
-        let shots = shots.map_err(|(what, remedy)| wrong(&what, remedy))?;
-        let Some(first) = shots.first() else {
+        let renderings = Rendering::all(project, &mark.command);
+        let renderings = renderings.map_err(|(what, remedy)| wrong(&what, remedy))?;
+        let Some(first) = renderings.first() else {
             return Err(wrong("a picture is made by a `cargo run`", "write one"));
         };
-        if shots.iter().any(|shot| shot.chapter != first.chapter) {
+        if renderings.iter().any(|rendering| rendering.chapter != first.chapter) {
             let remedy = "move the other commands to a block of their own";
             return Err(wrong("the panels of a picture are of one chapter", remedy));
         }
-        if shots.len() > 1 && shots.iter().any(|shot| shot.label.is_none()) {
+        if renderings.len() > 1 && renderings.iter().any(|rendering| rendering.label.is_none()) {
             let remedy = "write `# LABEL` on the line above its command";
             return Err(wrong("a panel has no label", remedy));
         }
@@ -85,7 +85,7 @@ impl Picture {
             line: mark.line,
             name: mark.name.clone().unwrap_or_else(|| stem.to_owned()),
             command: in_a_line(&mark.command),
-            shots,
+            renderings,
         })
     }
 
@@ -96,7 +96,7 @@ impl Picture {
 
     /// What is out of date about it, if anything is.
     pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<String> {
-        let chapter = &self.shots[0].chapter;
+        let chapter = &self.renderings[0].chapter;
         let (hash, maker) = (sources.of(project, chapter), format!("what {chapter} renders"));
         stamp::stale(project, &self.file(), &self.command, &hash, &maker)
     }
@@ -116,16 +116,16 @@ impl Picture {
         let folder = Folder::temporary()?;
         let mut files = Vec::new();
         let mut device = String::new();
-        for (index, shot) in self.shots.iter().enumerate() {
+        for (index, rendering) in self.renderings.iter().enumerate() {
             files.push(folder.path().join(format!("{index}.png")));
-            device = shot.render(programs, &files[index]).with_context(failed)?;
+            device = rendering.make(programs, &files[index]).with_context(failed)?;
         }
         if files.len() > 1 {
             let open = |file| Ok(image::open(file)?.to_rgb8());
             let pictures = files.iter().map(open).collect::<Result<Vec<_>>>()?;
             self.side_by_side(pictures).with_context(failed)?.save(&files[0])?;
         }
-        let hash = sources.of(programs.project, &self.shots[0].chapter);
+        let hash = sources.of(programs.project, &self.renderings[0].chapter);
         let stamped = stamp::stamped(&files[0], &self.command, &hash, &device)?;
         let file = programs.project.root.join(self.file());
         fs::create_dir_all(programs.project.root.join("docs/images"))?;
@@ -137,10 +137,12 @@ impl Picture {
     fn side_by_side(&self, pictures: Vec<RgbImage>) -> Result<RgbImage> {
         let size = pictures[0].dimensions();
         ensure!(pictures.iter().all(|one| one.dimensions() == size), "its panels differ in size");
-        let labels = self.shots.iter().map(|shot| shot.label.clone().unwrap_or_default());
+        let labels =
+            self.renderings.iter().map(|rendering| rendering.label.clone().unwrap_or_default());
         let mut panels = labels.zip(pictures.into_iter().map(Panel::Picture));
         let columns = (ROW / size.0).max(1) as usize;
-        let rows = self.shots.chunks(columns).map(|row| panels.by_ref().take(row.len()).collect());
+        let rows =
+            self.renderings.chunks(columns).map(|row| panels.by_ref().take(row.len()).collect());
         sheet(size, &rows.collect::<Vec<_>>())
     }
 }

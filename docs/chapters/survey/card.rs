@@ -29,7 +29,7 @@ pub struct Card {
     /// The largest mean FLIP error that passes.
     pub tolerance: f32,
     /// Every chapter, by number.
-    pub chapters: Vec<Chapter>,
+    pub chapters: Vec<ChapterResult>,
     /// The hard cases of chapter 24.
     pub hard_cases: Table<HardCases>,
     /// A short measurement of chapter 24.
@@ -51,7 +51,7 @@ pub struct Device {
 /// One chapter's line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Chapter {
+pub struct ChapterResult {
     /// Its name, such as `02_basic`.
     pub name: String,
     /// Why it fails; `None` if it passes.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::card::{Card, Chapter, Device, HardCases, Table};
+use super::card::{Card, ChapterResult, Device, HardCases, Table};
 
 /// The limits of a device in a line.
 fn limits(Device { limits, .. }: &Device) -> String {
@@ -35,7 +35,7 @@ fn vulkan(Device { limits, .. }: &Device) -> String {
 }
 
 /// In a word or a line, what came of a chapter.
-fn result(chapter: &Chapter) -> String {
+fn result(chapter: &ChapterResult) -> String {
     chapter.failed.as_deref().map_or("passes", |why| why).replace('|', "\\|")
 }
 
@@ -93,7 +93,7 @@ pub fn card(card: &Card) -> String {
 }
 
 /// What the device's compiler counts, summed over a chapter's programs.
-fn compiler(chapter: &Chapter) -> String {
+fn compiler(chapter: &ChapterResult) -> String {
     let mut sums: Vec<(&str, f64)> = Vec::new();
     for (name, value) in chapter.compiler.iter().flat_map(|program| &program.statistics) {
         match sums.iter_mut().find(|(known, _)| known == name) {
@@ -107,7 +107,7 @@ fn compiler(chapter: &Chapter) -> String {
 }
 
 /// What RADV counts: sums, and the most registers of a program.
-fn radv(chapter: &Chapter) -> String {
+fn radv(chapter: &ChapterResult) -> String {
     if chapter.radv.is_empty() {
         return "–".to_owned();
     }

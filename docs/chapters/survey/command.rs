@@ -96,9 +96,9 @@ impl Survey<'_> {
         self.check_device()?;
         let folder = Folder::temporary()?;
         let laboratory = accuracy::runs(project, folder.path());
-        let mut steps = Steps::new(project.chapters.len() + laboratory.len());
+        let mut countdown = Countdown::new(project.chapters.len() + laboratory.len());
         let limit = self.limit;
-        print(&format!("{} lines to come; a program is stopped after {limit}\n", steps.all))?;
+        print(&format!("{} lines to come; a program is stopped after {limit}\n", countdown.all))?;
         let mut card = Card {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
@@ -116,13 +116,13 @@ impl Survey<'_> {
                     format!("passes, {:.2} ms", milliseconds.unwrap_or_default())
                 }
             };
-            steps.told(&chapter.name, &told)?;
+            countdown.told(&chapter.name, &told)?;
             card.chapters.push(line);
         }
         for (index, (what, arguments)) in laboratory.iter().enumerate() {
             let failed = self.ask(accuracy::NAME, arguments).err().map(|error| told(&error));
             interrupt::asked()?;
-            steps.told(what, failed.as_deref().unwrap_or("done"))?;
+            countdown.told(what, failed.as_deref().unwrap_or("done"))?;
             match index {
                 0 => card.hard_cases = accuracy::hard_cases(failed, folder.path()),
                 _ => card.measured = accuracy::measured(failed, folder.path()),
@@ -214,8 +214,14 @@ impl Survey<'_> {
     ///
     /// # Errors
     /// If the device executes nothing.
-    fn chapter(&self, chapter: &Chapter, folder: &Path, card: &mut Card) -> Result<card::Chapter> {
-        let mut line = card::Chapter { name: chapter.name.clone(), ..card::Chapter::default() };
+    fn chapter(
+        &self,
+        chapter: &Chapter,
+        folder: &Path,
+        card: &mut Card,
+    ) -> Result<card::ChapterResult> {
+        let mut line =
+            card::ChapterResult { name: chapter.name.clone(), ..card::ChapterResult::default() };
         if let Err(error) = self.try_chapter(chapter, folder, card, &mut line) {
             if error.is::<Idle>() {
                 return Err(error);
@@ -230,7 +236,7 @@ impl Survey<'_> {
         chapter: &Chapter,
         folder: &Path,
         card: &mut Card,
-        line: &mut card::Chapter,
+        line: &mut card::ChapterResult,
     ) -> Result<()> {
         let (picture, report) = (folder.join("picture.png"), folder.join("report.json"));
         for file in [&picture, &report] {
@@ -290,13 +296,13 @@ impl Survey<'_> {
 }
 
 /// Says what has been done and how long the rest may take.
-struct Steps {
+struct Countdown {
     all: usize,
     done: usize,
     start: Instant,
 }
 
-impl Steps {
+impl Countdown {
     fn new(all: usize) -> Self {
         Self { all, done: 0, start: Instant::now() }
     }

@@ -14,7 +14,7 @@ use crate::programs::command_line::{CommandLine, runs};
 use crate::programs::program::Programs;
 
 /// A run that writes a picture.
-pub struct Render {
+pub struct Rendering {
     /// What stands over it where it is a panel: the line `# LABEL` above the command.
     pub label: Option<String>,
     /// The chapter whose program runs.
@@ -23,7 +23,7 @@ pub struct Render {
     arguments: Vec<String>,
 }
 
-impl Render {
+impl Rendering {
     /// The runs in a shell text.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl Render {
     ///
     /// # Errors
     /// If the program is missing or fails.
-    pub fn render(&self, programs: &Programs, picture: &Path) -> Result<String> {
+    pub fn make(&self, programs: &Programs, picture: &Path) -> Result<String> {
         let (report, large) = (picture.with_extension("json"), picture.with_extension("exr"));
         let times = downscale::times(&self.arguments);
         let mut arguments = self.arguments.clone();
