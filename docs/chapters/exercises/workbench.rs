@@ -232,11 +232,11 @@ impl<'a> Workbench<'a> {
                 .to_vec(),
             _ => vec![self.folder.clone()],
         };
-        let mut watch = FolderWatcher::of(folders)?;
+        let mut watcher = FolderWatcher::of(folders);
         let originals = self.originals();
         let mut window = with_window.then(|| self.window()).transpose()?;
         loop {
-            watch.wait()?;
+            watcher.wait()?;
             // A program that runs cannot be built anew everywhere.
             let again = self.exercise.takes != Takes::Shader && window.take().is_some();
             let missed =
