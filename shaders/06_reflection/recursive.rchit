@@ -9,7 +9,7 @@
 #include "common/lighting.glsl"
 #include "common/mirror.glsl"
 #include "path.glsl"
-#include "shadow.glsl"
+#include "common/shadow.glsl"
 #include "report.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;

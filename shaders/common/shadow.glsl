@@ -1,10 +1,12 @@
-// The shadow ray, for every shader that lights what was met: raygen in a loop, the hit shader in a recursion.
+// Taught by 05_shadow_miss.
+//
+// The shadow ray. The including shader's `SHADOW_RAYS` says which hit ends it.
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
+// ANCHOR: shadow
 layout(location = 1) rayPayloadEXT bool lit;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
     uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT;
