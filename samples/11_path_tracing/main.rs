@@ -4,6 +4,7 @@
 //! chances; roulette, which ends a path without a bias; a sum of samples that nothing is lost from; and
 //! scenes whose light is known in closed form.
 
+mod closed_forms;
 mod scenes;
 
 use std::process::ExitCode;

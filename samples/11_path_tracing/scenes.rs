@@ -1,8 +1,10 @@
 //! The scenes of this chapter: one to look at, and four whose light is known without a path.
 
 use anyhow::Result;
-use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
-use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
+use common::scene::{Camera, Material, PointLight, Scene, Sun};
+use glam::{DVec3, Vec3};
+
+use super::closed_forms;
 
 common::shader_enum! {
     /// The names of the scenes.
@@ -57,11 +59,9 @@ impl Staged {
         let (scene, sky) = match name {
             SceneName::Chess | SceneName::Furnace => (white(source, false), Sky::White),
             SceneName::PolishedFurnace => (white(source, true), Sky::White),
-            SceneName::ClosedRoom => (room(), Sky::Black),
-            SceneName::ParallelSquares => (squares(Vec3::Z, Vec3::X, Vec3::Y, 0.75), Sky::Black),
-            SceneName::PerpendicularSquares => {
-                (squares(Vec3::new(0.0, -0.5, 0.5), Vec3::X, Vec3::Z, 2.0), Sky::Black)
-            }
+            SceneName::ClosedRoom => (closed_forms::room(), Sky::Black),
+            SceneName::ParallelSquares => (closed_forms::parallel_squares(), Sky::Black),
+            SceneName::PerpendicularSquares => (closed_forms::perpendicular_squares(), Sky::Black),
         };
         // No light but what the closed form has.
         let sun = Sun { radiance: Vec3::ZERO, ..sun };
@@ -86,98 +86,3 @@ fn white(source: &Scene, polished: bool) -> Scene {
     scene
 }
 // ANCHOR_END: white
-
-// ANCHOR: room
-/// Two boxes in a box. Every surface shines with 1/2 and scatters 1/2 of what it meets: so each place sees
-/// 1/2 + 1/4 + 1/8 + … = 1, wherever it is and wherever it looks.
-fn room() -> Scene {
-    let half = Vec3::splat(0.5);
-    let material = Material {
-        name: "half".to_owned(),
-        base_color: half,
-        emission: half,
-        ..Material::default()
-    };
-    let placed = |size: f32, turn: f32, at: Vec3| Instance {
-        mesh: 0,
-        transform: Affine3A::from_scale_rotation_translation(
-            Vec3::splat(size),
-            Quat::from_rotation_y(turn),
-            at,
-        ),
-        material: 0,
-        record_offset: 0,
-    };
-    let instances = vec![
-        placed(4.0, 0.0, Vec3::ZERO),
-        placed(1.0, 0.4, Vec3::new(-0.6, -1.5, -0.5)),
-        placed(0.7, 1.0, Vec3::new(0.7, -0.9, 0.2)),
-    ];
-    let camera = Camera::new(DVec3::new(0.2, 0.3, 1.9), DVec3::new(0.0, -0.6, 0.0), 70.0);
-    scene(vec![cube()], vec![material], instances, camera)
-}
-// ANCHOR_END: room
-
-// ANCHOR: squares
-/// A white unit square around the origin, which faces +z, and one that shines with 1 and reflects nothing:
-/// its middle, and two directions along its sides. The camera sees the first square whole, and only that.
-fn squares(middle: Vec3, right: Vec3, up: Vec3, distance: f64) -> Scene {
-    let white = Material { name: "white".to_owned(), base_color: Vec3::ONE, ..Material::default() };
-    let shining = Material {
-        name: "shining".to_owned(),
-        base_color: Vec3::ZERO,
-        emission: Vec3::ONE,
-        ..Material::default()
-    };
-    let meshes = vec![
-        square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y),
-        square("shining", 1, middle, right, up),
-    ];
-    let instances = (0..2).map(|mesh| Instance {
-        mesh,
-        transform: Affine3A::IDENTITY,
-        material: mesh,
-        record_offset: 0,
-    });
-    let field_of_view = 2.0 * (0.5 / distance).atan().to_degrees();
-    let camera = Camera::new(DVec3::new(0.0, 0.0, distance), DVec3::ZERO, field_of_view);
-    scene(meshes, vec![white, shining], instances.collect(), camera)
-}
-// ANCHOR_END: squares
-
-fn scene(
-    meshes: Vec<Mesh>,
-    materials: Vec<Material>,
-    instances: Vec<Instance>,
-    camera: Camera,
-) -> Scene {
-    Scene { model: Model { meshes, materials, ..Model::default() }, instances, camera }
-}
-
-/// A unit square, seen from where `right` × `up` points to.
-fn square(name: &str, material: usize, middle: Vec3, right: Vec3, up: Vec3) -> Mesh {
-    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
-    let vertex = |(x, y): (f32, f32)| Vertex {
-        position: middle + x * right + y * up,
-        normal: right.cross(up),
-        uv: Vec2::ZERO,
-    };
-    let triangles = vec![[0, 1, 2], [0, 2, 3]];
-    Mesh { name: name.to_owned(), vertices: corners.map(vertex).into(), triangles, material }
-}
-
-/// The unit cube around the origin.
-fn cube() -> Mesh {
-    let mut cube =
-        Mesh { name: "cube".to_owned(), vertices: vec![], triangles: vec![], material: 0 };
-    for (out, right) in [Vec3::X, Vec3::Y, Vec3::Z]
-        .into_iter()
-        .flat_map(|axis| [(axis, axis.zxy()), (-axis, axis.zxy())])
-    {
-        let first = cube.vertices.len() as u32;
-        let side = square("side", 0, 0.5 * out, right, out.cross(right));
-        cube.vertices.extend(side.vertices);
-        cube.triangles.extend(side.triangles.iter().map(|t| t.map(|corner| corner + first)));
-    }
-    cube
-}

@@ -4,6 +4,8 @@
 //! that chooses one of many; and the balance of two ways to find the same light.
 
 mod alias;
+#[path = "../11_path_tracing/closed_forms.rs"]
+mod closed_forms;
 mod emitters;
 mod lit_scene;
 mod scenes;

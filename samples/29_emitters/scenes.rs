@@ -1,9 +1,10 @@
 //! The scenes of this chapter: one to look at, two that must be white, and those whose light is known.
 
 use anyhow::{Context, Result};
-use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
-use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
+use common::scene::{Camera, Instance, Material, Model, Scene};
+use glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 
+use super::closed_forms::{self, square};
 use super::emitters::Sphere;
 
 common::shader_enum! {
@@ -137,14 +138,12 @@ impl Staged {
         let (scene, spheres) = match name {
             SceneName::Chess => return source.clone(),
             SceneName::Furnace => furnace(source),
-            SceneName::ClosedRoom => (room(), vec![]),
+            SceneName::ClosedRoom => (closed_forms::room(), vec![]),
             SceneName::Ball => above_square(&[(Vec3::new(0.2, 0.1, 1.25), 0.4, 1.0)]),
             SceneName::LowBall => above_square(&[(Vec3::new(0.9, 0.1, 0.1), 0.3, 1.0)]),
             SceneName::ManyBalls => above_square(&many()),
-            SceneName::ParallelSquares => (squares(Vec3::Z, Vec3::X, Vec3::Y, 0.75), vec![]),
-            SceneName::PerpendicularSquares => {
-                (squares(Vec3::new(0.0, -0.5, 0.5), Vec3::X, Vec3::Z, 2.0), vec![])
-            }
+            SceneName::ParallelSquares => (closed_forms::parallel_squares(), vec![]),
+            SceneName::PerpendicularSquares => (closed_forms::perpendicular_squares(), vec![]),
         };
         Self { scene, spheres, sky: Sky::Black }
     }
@@ -175,56 +174,17 @@ fn furnace(source: &Staged) -> (Scene, Vec<Sphere>) {
 }
 // ANCHOR_END: furnace
 
-/// 11's room: two boxes in a box, which shine with 1/2 and scatter 1/2, so that all is 1.
-fn room() -> Scene {
-    let half = Vec3::splat(0.5);
-    let material = Material { name: "half".to_owned(), base_color: half, ..lamp("", half) };
-    let placed = |size: f32, turn: f32, at: Vec3| Instance {
-        mesh: 0,
-        transform: Affine3A::from_scale_rotation_translation(
-            Vec3::splat(size),
-            Quat::from_rotation_y(turn),
-            at,
-        ),
-        material: 0,
-        record_offset: 0,
-    };
-    let instances = vec![
-        placed(4.0, 0.0, Vec3::ZERO),
-        placed(1.0, 0.4, Vec3::new(-0.6, -1.5, -0.5)),
-        placed(0.7, 1.0, Vec3::new(0.7, -0.9, 0.2)),
-    ];
-    let camera = Camera::new(DVec3::new(0.2, 0.3, 1.9), DVec3::new(0.0, -0.6, 0.0), 70.0);
-    scene(vec![cube()], vec![material], instances, camera)
-}
-
-fn white() -> Material {
-    Material { name: "white".to_owned(), base_color: Vec3::ONE, ..Material::default() }
-}
-
-/// 11's squares: a white unit square around the origin, which faces +z and is seen whole, and one that shines.
-fn squares(middle: Vec3, right: Vec3, up: Vec3, distance: f64) -> Scene {
-    let meshes = vec![
-        square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y),
-        square("shining", 1, middle, right, up),
-    ];
-    let materials = vec![white(), lamp("shining", Vec3::ONE)];
-    scene(meshes, materials, vec![as_it_is(0), as_it_is(1)], camera_on_square(distance))
-}
-
 // ANCHOR: above
 /// The white square alone, and balls that shine: centre, radius and radiance.
 fn above_square(balls: &[(Vec3, f32, f32)]) -> (Scene, Vec<Sphere>) {
-    let meshes = vec![square("white", 0, Vec3::ZERO, Vec3::X, Vec3::Y)];
-    let mut materials = vec![white()];
-    materials.extend(balls.iter().map(|ball| lamp("ball", Vec3::splat(ball.2))));
+    let mut scene = closed_forms::white_square(0.75);
+    scene.model.materials.extend(balls.iter().map(|ball| lamp("ball", Vec3::splat(ball.2))));
     let place = |(i, &(center, radius, _)): (usize, &(Vec3, f32, f32))| Sphere {
         center,
         radius,
         material: i + 1,
     };
-    let spheres = balls.iter().enumerate().map(place).collect();
-    (scene(meshes, materials, vec![as_it_is(0)], camera_on_square(0.75)), spheres)
+    (scene, balls.iter().enumerate().map(place).collect())
 }
 
 /// 64 balls in a plane, none of which hides another from the square. The brightest has 55,000 times the
@@ -239,50 +199,3 @@ pub fn many() -> Vec<(Vec3, f32, f32)> {
     (0..64).map(ball).collect()
 }
 // ANCHOR_END: above
-
-fn as_it_is(mesh: usize) -> Instance {
-    Instance { mesh, transform: Affine3A::IDENTITY, material: mesh, record_offset: 0 }
-}
-
-/// From so far above the square that it fills the picture.
-fn camera_on_square(distance: f64) -> Camera {
-    let field_of_view = 2.0 * (0.5 / distance).atan().to_degrees();
-    Camera::new(DVec3::new(0.0, 0.0, distance), DVec3::ZERO, field_of_view)
-}
-
-fn scene(
-    meshes: Vec<Mesh>,
-    materials: Vec<Material>,
-    instances: Vec<Instance>,
-    camera: Camera,
-) -> Scene {
-    Scene { model: Model { meshes, materials, ..Model::default() }, instances, camera }
-}
-
-/// A unit square, seen from where `right` × `up` points to.
-fn square(name: &str, material: usize, middle: Vec3, right: Vec3, up: Vec3) -> Mesh {
-    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
-    let vertex = |(x, y): (f32, f32)| Vertex {
-        position: middle + x * right + y * up,
-        normal: right.cross(up),
-        uv: Vec2::ZERO,
-    };
-    let triangles = vec![[0, 1, 2], [0, 2, 3]];
-    Mesh { name: name.to_owned(), vertices: corners.map(vertex).into(), triangles, material }
-}
-
-/// The unit cube around the origin.
-fn cube() -> Mesh {
-    let mut cube =
-        Mesh { name: "cube".to_owned(), vertices: vec![], triangles: vec![], material: 0 };
-    for (out, right) in [Vec3::X, Vec3::Y, Vec3::Z]
-        .into_iter()
-        .flat_map(|axis| [(axis, axis.zxy()), (-axis, axis.zxy())])
-    {
-        let first = cube.vertices.len() as u32;
-        let side = square("side", 0, 0.5 * out, right, out.cross(right));
-        cube.vertices.extend(side.vertices);
-        cube.triangles.extend(side.triangles.iter().map(|t| t.map(|corner| corner + first)));
-    }
-    cube
-}

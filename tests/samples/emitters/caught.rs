@@ -11,6 +11,9 @@ use super::{NAME, picture};
 #[path = "../../../samples/29_emitters/alias.rs"]
 mod alias;
 #[allow(dead_code)]
+#[path = "../../../samples/11_path_tracing/closed_forms.rs"]
+mod closed_forms;
+#[allow(dead_code)]
 #[path = "../../../samples/29_emitters/emitters.rs"]
 mod emitters;
 #[allow(dead_code)]
