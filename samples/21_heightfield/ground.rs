@@ -2,12 +2,12 @@
 
 use glam::{DVec3, Vec3};
 
+use super::heightfield::HeightfieldShape;
+
 /// How wide a hill is, and the pond beside it.
 pub const CELL: f32 = 16.0;
 /// Where the hill stands on whose top the world began.
 pub const MIDDLE: Vec3 = Vec3::new(8.0, 0.0, 0.0);
-/// What one rounding costs at most, relative.
-const U: f64 = 1.0 / (1 << 24) as f64;
 
 /// A landscape by what can be set of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,28 +16,6 @@ pub struct Landscape {
     pub k: f32,
     /// How many rings of hills and ponds lie around the middle hill.
     pub rings: u32,
-}
-
-common::shader_struct! {
-    /// The height of the ground (`heightfield.glsl`).
-    pub struct HeightfieldShape {
-        /// Scales everything.
-        pub k: f32,
-        /// Height of the hills.
-        pub a: f32,
-        /// How many hills a unit of x.
-        pub fx: f32,
-        /// How many hills a unit of z.
-        pub fz: f32,
-        /// Height of the ridges.
-        pub b: f32,
-        /// How many ridges a unit of x.
-        pub gx: f32,
-        /// How many ridges a unit of z.
-        pub gz: f32,
-        /// No slope is steeper.
-        pub lipschitz: f32,
-    }
 }
 
 common::shader_struct! {
@@ -57,20 +35,11 @@ common::shader_struct! {
 }
 
 impl Landscape {
-    // ANCHOR: shape
-    /// Hills 16 wide, with ridges across. No slope is steeper than the hills' and the ridges' together.
-    ///
-    /// |∇(S(u)·S(v))| is 8 at most, as the page shows, and the slope of S is.
+    /// Hills 16 wide, with ridges across.
     pub fn shape(&self) -> HeightfieldShape {
-        let (a, fx, fz) = (2.2, 0.5 / CELL, 0.5 / CELL);
-        let (b, gx, gz) = (0.12, 0.125, 0.1875);
-        let hills = f64::from(a) * f64::from(fx).max(f64::from(fz));
-        let ridges = f64::from(b) * f64::from(gx).hypot(f64::from(gz));
-        let steepest = 8.0 * f64::from(self.k) * (hills + ridges);
-        let lipschitz = (steepest as f32).next_up();
-        HeightfieldShape { k: self.k, a, fx, fz, b, gx, gz, lipschitz }
+        let hill = 0.5 / CELL;
+        HeightfieldShape::new(self.k, [2.2, hill, hill], [0.12, 0.125, 0.1875])
     }
-    // ANCHOR_END: shape
 
     /// The height of the ground, in f64: where pieces stand on it.
     pub fn height(&self, x: f32, z: f32) -> f64 {
@@ -97,26 +66,10 @@ impl Landscape {
     }
     // ANCHOR_END: bounds
 
-    // ANCHOR: error
     /// By how much the height of a ray above the ground may be wrong that is computed in f32, for rays
     /// from `origin` (its absolute coordinates), wherever they are in the box.
     pub fn error(&self, origin: DVec3) -> f64 {
-        let HeightfieldShape { k, a, fx, fz, b, gx, gz, lipschitz } = self.shape();
-        let [k, a, fx, fz, b, gx, gz, lipschitz] =
-            [k, a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
         let (low, high) = self.bounds(0.0);
-        let reach = low.abs().max(high.abs()).as_dvec3();
-        // o + t·d: the product is no longer than origin and point together, and both round.
-        let place = origin + 2.0 * reach;
-        let place = U * (place.y + lipschitz * place.x.hypot(place.z));
-        // Where on the wave, times its slope; then three roundings of the wave itself.
-        let along_x = 8.0 * U * fx * reach.x + 3.0 * U;
-        let along_z = 8.0 * U * (2.0 * fz * reach.z + 0.25) + 3.0 * U;
-        let across = 8.0 * U * 2.0 * (gx * reach.x + gz * reach.z) + 3.0 * U;
-        // The products with each other and with a, b and k, and the sum.
-        let height = a * (along_x + along_z + 2.0 * U) + b * (across + U) + 2.0 * U * (a + b);
-        // What is rounded twice is of the order of U².
-        (place + k * height) * (1.0 + 1e-6)
+        self.shape().error(origin, low.abs().max(high.abs()).as_dvec3())
     }
-    // ANCHOR_END: error
 }

@@ -4,6 +4,7 @@
 //! stand on the ground, views of steps and errors, and five views of the land.
 
 mod ground;
+mod heightfield;
 mod land;
 mod scenes;
 

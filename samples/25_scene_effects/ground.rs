@@ -2,32 +2,9 @@
 
 use common::gpu::order::Bounds;
 use effects::Heightfield;
-use glam::{DVec3, Vec3, Vec3Swizzles};
+use glam::{Vec3, Vec3Swizzles};
 
-/// What one rounding costs at most, relative.
-const U: f64 = 1.0 / (1 << 24) as f64;
-
-common::shader_struct! {
-    /// The height of the ground (`shaders/common/heightfield.glsl`).
-    pub struct HeightfieldShape {
-        /// Scales everything.
-        pub k: f32,
-        /// Height of the hills.
-        pub a: f32,
-        /// How many hills a unit of x.
-        pub fx: f32,
-        /// How many hills a unit of z.
-        pub fz: f32,
-        /// Height of the ridges.
-        pub b: f32,
-        /// How many ridges a unit of x.
-        pub gx: f32,
-        /// How many ridges a unit of z.
-        pub gz: f32,
-        /// No slope is steeper.
-        pub lipschitz: f32,
-    }
-}
+use crate::heightfield::HeightfieldShape;
 
 common::shader_struct! {
     /// The ground as shaders get it.
@@ -61,7 +38,8 @@ impl Ground {
     pub fn new(field: &Heightfield) -> Self {
         let (low, high) = bounds(field);
         let shape = shape(field);
-        let error = (error(&shape, low.abs().max(high.abs()).as_dvec3()) as f32).next_up();
+        let reach = low.abs().max(high.abs()).as_dvec3();
+        let error = (shape.error(reach, reach) as f32).next_up();
         let &Heightfield { light, dark, rock, square, .. } = field;
         Self { shape, low, high, error, light, dark, rock, square }
     }
@@ -75,32 +53,5 @@ pub fn bounds(field: &Heightfield) -> Bounds {
 
 fn shape(field: &Heightfield) -> HeightfieldShape {
     let (f, g) = (field.hill.recip(), field.ridge.recip());
-    // |∇(S(u)·S(v))| is 8 at most, and the slope of S is.
-    let hills = f64::from(field.hills) * f64::from(f.max_element());
-    let ridges = f64::from(field.ridges) * f64::from(g.x).hypot(f64::from(g.y));
-    HeightfieldShape {
-        k: 1.0,
-        a: field.hills,
-        fx: f.x,
-        fz: f.y,
-        b: field.ridges,
-        gx: g.x,
-        gz: g.y,
-        lipschitz: ((8.0 * (hills + ridges)) as f32).next_up(),
-    }
-}
-
-/// By how much the height of a ray above the ground may be wrong, for rays from within `reach`.
-fn error(shape: &HeightfieldShape, reach: DVec3) -> f64 {
-    let &HeightfieldShape { a, fx, fz, b, gx, gz, lipschitz, .. } = shape;
-    let [a, fx, fz, b, gx, gz, lipschitz] = [a, fx, fz, b, gx, gz, lipschitz].map(f64::from);
-    // o + t·d: the product is no longer than origin and point together, and both round.
-    let place = 3.0 * reach;
-    let place = U * (place.y + lipschitz * place.x.hypot(place.z));
-    // Where on the wave, times its slope; then three roundings of the wave itself.
-    let along_x = 8.0 * U * fx * reach.x + 3.0 * U;
-    let along_z = 8.0 * U * (2.0 * fz * reach.z + 0.25) + 3.0 * U;
-    let across = 8.0 * U * 2.0 * (gx * reach.x + gz * reach.z) + 3.0 * U;
-    let height = a * (along_x + along_z + 2.0 * U) + b * (across + U) + 2.0 * U * (a + b);
-    (place + height) * (1.0 + 1e-6)
+    HeightfieldShape::new(1.0, [field.hills, f.x, f.y], [field.ridges, g.x, g.y])
 }

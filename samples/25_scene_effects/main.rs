@@ -7,6 +7,8 @@ mod contents;
 mod costs;
 mod geometry;
 mod ground;
+#[path = "../21_heightfield/heightfield.rs"]
+mod heightfield;
 mod panel;
 mod recipe;
 mod report;

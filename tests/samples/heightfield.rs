@@ -9,6 +9,9 @@ mod world;
 #[path = "../../samples/21_heightfield/ground.rs"]
 mod ground;
 #[allow(dead_code)]
+#[path = "../../samples/21_heightfield/heightfield.rs"]
+mod heightfield;
+#[allow(dead_code)]
 #[path = "../../samples/21_heightfield/land.rs"]
 mod land;
 #[allow(dead_code)]

@@ -4,7 +4,8 @@ use glam::DVec3;
 use reference::heightfield::Heightfield;
 use reference::{Ray, Surface};
 
-use super::ground::{HeightfieldShape, Landscape};
+use super::ground::Landscape;
+use super::heightfield::HeightfieldShape;
 
 /// What is wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
