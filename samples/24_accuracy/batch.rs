@@ -7,7 +7,7 @@ use common::scene::{boxes_on_gpu, build_top, input_usage};
 use glam::{DVec3, Vec3};
 
 use crate::ladder::Primitive;
-use crate::probe::{Answer, Query, Ray};
+use crate::query::{Answer, Query, Ray};
 use crate::shape::{Shape, parts};
 
 /// Queries in device memory, all of one primitive, and their shapes in a top level.

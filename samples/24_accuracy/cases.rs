@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use crate::judge::{Expected, ExpectedHit, Tolerance};
 use crate::ladder::Primitive;
-use crate::probe::Ray;
+use crate::query::Ray;
 use crate::shape::{Leaving, Shape};
 
 /// Every shape stands in one top level: where many overlap, each ray is offered to all of them.

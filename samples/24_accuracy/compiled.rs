@@ -5,10 +5,9 @@ use std::fmt::Write as _;
 use anyhow::{Result, bail};
 use common::app::Progress;
 use common::gpu::Blueprint;
-use instruments::compile_for::{CompiledFor, Family, programs};
-use serde::Serialize;
+use instruments::compile_for::{Family, programs};
 
-use crate::measure::{Measured, Measurement};
+use crate::measurement::{Compiled, MeasuredRung, Measurement};
 
 /// The families, and so the children in which they are compiled.
 pub const FAMILIES: [Family; 3] = [Family::Navi21, Family::Navi31, Family::Gfx1201];
@@ -19,21 +18,12 @@ pub const SHOWN: &str = "navi31";
 /// Clock and compiler disagree by more than this, or it is not worth a word.
 pub const DISAGREE: f64 = 1.5;
 
-/// A rung's direct pipeline, which is one program, on one family.
-#[derive(Clone, Debug, Serialize)]
-pub struct Compiled {
-    #[serde(flatten)]
-    pub program: CompiledFor,
-    /// Its inverse throughput over the least of the ladder, on the same family.
-    pub ratio: f64,
-}
-
 /// Has the direct pipeline of every rung compiled for every family.
 ///
 /// # Errors
 /// If there is no such compiler, with what to install, or if it refuses a rung.
-pub fn compile(rungs: &mut [Measured], progress: &Progress) -> Result<()> {
-    let mut rows: Vec<&mut Measured> =
+pub fn compile(rungs: &mut [MeasuredRung], progress: &Progress) -> Result<()> {
+    let mut rows: Vec<&mut MeasuredRung> =
         rungs.iter_mut().filter(|row| row.blueprint.is_some()).collect();
     let blueprints: Vec<&Blueprint> =
         rows.iter().filter_map(|row| row.blueprint.as_ref()).collect();
@@ -66,8 +56,8 @@ pub fn compile(rungs: &mut [Measured], progress: &Progress) -> Result<()> {
 
 /// What clock and compiler say of one rung.
 pub struct Pair<'a> {
-    pub row: &'a Measured,
-    /// Measured time, and estimated inverse throughput on [`SHOWN`], over the least of the ladder each.
+    pub row: &'a MeasuredRung,
+    /// MeasuredRung time, and estimated inverse throughput on [`SHOWN`], over the least of the ladder each.
     pub time: f64,
     pub estimate: f64,
 }
@@ -80,7 +70,7 @@ impl Pair<'_> {
 }
 
 /// A ladder's figures, of the families in their order.
-pub fn table(ladder: &[Measured]) -> String {
+pub fn table(ladder: &[MeasuredRung]) -> String {
     let Some(known) = ladder.iter().find(|row| !row.compiled_for.is_empty()) else {
         return String::new();
     };
@@ -113,7 +103,7 @@ impl Measurement {
     pub fn pairs(&self) -> Vec<Pair<'_>> {
         let mut pairs = Vec::new();
         for ladder in self.rungs.chunk_by(|a, b| a.primitive == b.primitive) {
-            let time = |row: &Measured| row.time.map(|time| time.ratio.median);
+            let time = |row: &MeasuredRung| row.time.map(|time| time.ratio.median);
             let least = ladder.iter().filter_map(time).fold(f64::INFINITY, f64::min);
             pairs.extend(ladder.iter().filter_map(|row| {
                 let shown = row.compiled_for.iter().find(|c| c.program.family == SHOWN)?;

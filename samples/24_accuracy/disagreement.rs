@@ -1,11 +1,11 @@
-//! Measured time against the compiler's estimate, one panel a primitive.
+//! MeasuredRung time against the compiler's estimate, one panel a primitive.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::compiled::{DISAGREE, Pair, SHOWN};
 use crate::drawing::{self, BLUE, Drawing, Drawn, GRID, ORANGE, TEXT, font};
-use crate::measure::{Measured, Measurement};
+use crate::measurement::{MeasuredRung, Measurement};
 
 const PANEL: (u32, u32) = (320, 330);
 const COLUMNS: usize = 5;
@@ -27,8 +27,8 @@ struct Panel<'a> {
 }
 
 struct Point<'a> {
-    row: &'a Measured,
-    /// Measured and estimated, each over the cheapest rung's.
+    row: &'a MeasuredRung,
+    /// MeasuredRung and estimated, each over the cheapest rung's.
     at: (f64, f64),
     /// The least and the most that a family's estimate is.
     span: (f64, f64),

@@ -12,7 +12,7 @@ use reference::random::{Random, f32s};
 
 use crate::judge::Expected;
 use crate::ladder::Primitive;
-use crate::probe::Ray;
+use crate::query::Ray;
 use crate::shape::{Pattern, Shape, Sum};
 use truth::Truth;
 

@@ -43,7 +43,7 @@ pub struct Form {
 }
 
 common::shader_struct! {
-    struct View {
+    struct Push {
         camera: CameraBasis,
         found: Address,
     }
@@ -56,7 +56,7 @@ common::shader_struct! {
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Form>> {
     let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_SRC;
     let found = Buffer::new(gpu, "found", u64::from(4 * SIDE * SIDE), usage)?;
-    let view = View { camera: camera().basis(1.0), found: found.address.into() };
+    let push = Push { camera: camera().basis(1.0), found: found.address.into() };
     let truth = truth();
     let timer = Timer::new(gpu)?;
     let mut bodies = vec![Body::sphere(gpu)?];
@@ -67,7 +67,7 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Form>> {
         gpu.submit(|cmd| {
             timer.start(cmd);
             let level = Descriptor::AccelerationStructure(&body.tlas);
-            body.pipeline.bind(cmd, &[level], &view)?;
+            body.pipeline.bind(cmd, &[level], &push)?;
             body.sbt.trace(cmd, vk::Extent2D { width: SIDE, height: SIDE }.into());
             timer.stop(cmd);
             barrier::trace_to_trace(gpu, cmd);
@@ -98,13 +98,13 @@ fn camera() -> Camera {
 }
 
 /// What a pixel sees of the sphere itself.
-struct Truth {
+struct ExactHit {
     t: f64,
     /// Pixels from the outline.
     depth: f64,
 }
 
-fn truth() -> Vec<Option<Truth>> {
+fn truth() -> Vec<Option<ExactHit>> {
     let camera = camera();
     let sphere = Sphere { center: DVec3::ZERO, radius: 1.0 };
     let [right, up, forward] = camera.axes();
@@ -116,13 +116,13 @@ fn truth() -> Vec<Option<Truth>> {
         let (x, y) = (at(i % SIDE), at(i / SIDE));
         let direction = (scale * forward + x * right - y * up).normalize();
         let ray = Ray { origin: camera.eye, direction, tmin: 0.0, tmax: f64::INFINITY };
-        sphere.intersect(&ray).map(|hit| Truth { t: hit.t, depth: outline - x.hypot(y) })
+        sphere.intersect(&ray).map(|hit| ExactHit { t: hit.t, depth: outline - x.hypot(y) })
     };
     (0..SIDE * SIDE).map(pixel).collect()
 }
 
 impl Form {
-    fn compare_with(&mut self, truth: &[Option<Truth>], found: &[f32]) {
+    fn compare_with(&mut self, truth: &[Option<ExactHit>], found: &[f32]) {
         let seen = truth.iter().zip(found).filter_map(|(truth, &t)| Some((truth.as_ref()?, t)));
         let (met, lost): (Vec<_>, Vec<_>) = seen.partition(|&(_, t)| t > 0.0);
         self.lost = 1e6 * lost.len() as f64 / (met.len() + lost.len()) as f64;
@@ -188,7 +188,7 @@ impl Body {
             .miss("geometry.rmiss")
             .hit(hit)
             .binding(Binding::AccelerationStructure)
-            .push_constants::<View>()
+            .push_constants::<Push>()
             .build(gpu)?;
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;
         let bytes = blas.size + inputs.iter().map(|input| input.size).sum::<u64>();

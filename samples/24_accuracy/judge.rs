@@ -4,7 +4,8 @@ use glam::{DVec3, Vec3};
 use reference::ulp::ulp_error;
 use serde::{Deserialize, Serialize};
 
-use crate::probe::{Answer, Ray, Way};
+use crate::probe::Way;
+use crate::query::{Answer, Ray};
 use crate::shape::{Leaving, Shape};
 
 /// Whether there is a hit.

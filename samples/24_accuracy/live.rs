@@ -11,7 +11,8 @@ use serde::Serialize;
 use crate::batch::Batch;
 use crate::families::Family;
 use crate::ladder::{Primitive, Rung};
-use crate::measure::{Errors, tally};
+use crate::measure::tally;
+use crate::measurement::Errors;
 use crate::probe::{Probe, Way};
 use crate::specimen::{SUN, Specimen};
 
@@ -26,12 +27,12 @@ pub struct Live {
     specimen: Specimen,
     family: Family,
     batch: Batch,
-    found: Vec<Found>,
+    found: Vec<LiveFigures>,
 }
 
 /// What was found of one rung, on rays through the view.
 #[derive(Serialize)]
-pub struct Found {
+pub struct LiveFigures {
     pub rung: &'static str,
     /// The best of five.
     pub nanoseconds_a_ray: f64,
@@ -78,7 +79,7 @@ impl Live {
         let times = (0..TIMES).map(|_| probe.time(&instrument, &self.batch, REPEAT));
         let times = times.collect::<Result<Vec<_>>>()?;
         let best = times.into_iter().min_by(f64::total_cmp).context("a time was taken")?;
-        self.found.push(Found {
+        self.found.push(LiveFigures {
             rung: rung.label,
             nanoseconds_a_ray: 1e6 * best / f64::from(REPEAT * self.batch.count()),
             errors: tally(&self.family, Way::Direct, &answers),
@@ -87,14 +88,14 @@ impl Live {
     }
 
     /// All that was found, for a report.
-    pub fn found(&self) -> &[Found] {
+    pub fn found(&self) -> &[LiveFigures] {
         &self.found
     }
 
     /// Time against error; `shown` is the rung of the picture.
     pub fn chart(&self, shown: &str) -> Chart {
         let dots = self.found.iter().filter(|found| found.nanoseconds_a_ray > 0.0).map(|found| {
-            let Found { rung, nanoseconds_a_ray, errors } = found;
+            let LiveFigures { rung, nanoseconds_a_ray, errors } = found;
             // A false hit or miss among a hundred rays is worse than any error.
             let is_wrong = 100 * errors.wrong() > errors.rays;
             let y = if is_wrong { 1e9 } else { errors.p99.clamp(0.1, 1e8) };

@@ -16,8 +16,10 @@ mod lab;
 mod ladder;
 mod live;
 mod measure;
+mod measurement;
 mod plot;
 mod probe;
+mod query;
 mod shape;
 mod specimen;
 mod table;
@@ -56,7 +58,7 @@ struct Demo {
 
 common::shader_struct! {
     /// What the picture's shader can read.
-    struct View {
+    struct Push {
         camera: CameraBasis,
         numbers: Address,
         count: u32,
@@ -112,14 +114,14 @@ impl Sample for Demo {
         };
         // Half of the picture is a picture, in the usual view.
         let aspect = if self.show == 0 { 0.5 } else { 1.0 } * frame.aspect();
-        let view = View {
+        let push = Push {
             camera: self.specimen.camera().basis(aspect),
             numbers: numbers.address.into(),
             count: (numbers.size / 4) as u32,
             sun: specimen::SUN.normalize(),
             show: self.show,
         };
-        pipeline.bind(frame.cmd, &[Descriptor::StorageImage(frame.image)], &view)?;
+        pipeline.bind(frame.cmd, &[Descriptor::StorageImage(frame.image)], &push)?;
         sbt.trace(frame.cmd, frame.area);
         if frame.is_first_band() {
             self.ask_live(frame.gpu)?
@@ -175,7 +177,7 @@ impl Demo {
             .constant(1, self.probe.fused)
             .constant(2, top.constant)
             .binding(Binding::StorageImage)
-            .push_constants::<View>()
+            .push_constants::<Push>()
             .build(gpu)?;
         // ANCHOR_END: pipeline
         let sbt = ShaderBindingTable::new(gpu, &pipeline)?;

@@ -1,106 +1,22 @@
 //! What accuracy costs: every rung on seeded random families, errors and time in one run.
 
-use std::collections::BTreeSet;
 use std::time::SystemTime;
 
 use anyhow::Result;
 use common::app::Progress;
-use common::gpu::{Blueprint, Gpu};
-use instruments::compare::{self, Ratio};
+use common::gpu::Gpu;
+use instruments::compare;
 use reference::ulp::ulp_error;
-use serde::Serialize;
 
 use crate::batch::Batch;
-use crate::compiled::{self, Compiled};
+use crate::compiled;
 use crate::families::Family;
-use crate::geometry::{self, Form};
+use crate::geometry;
 use crate::judge::ExpectedHit;
 use crate::ladder::{Code, Primitive, Rung};
-use crate::probe::{Answer, Instrument, Probe, Way};
-
-/// All that a run measured.
-#[derive(Serialize)]
-pub struct Measurement {
-    pub device: String,
-    pub driver: String,
-    /// How shaders computed: the value of `--arithmetic`.
-    pub arithmetic: String,
-    /// The day, as 2026-11-21.
-    pub date: String,
-    /// Whether `fma()` rounds once here.
-    pub fused: bool,
-    /// Rays of each family.
-    pub rays: usize,
-    /// Rounds of each timing; 0 for errors alone.
-    pub rounds: u32,
-    /// The GPU compiler of the estimates, with its version.
-    pub compiler: Option<String>,
-    /// Why there are no estimates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub no_compiler: Option<String>,
-    pub rungs: Vec<Measured>,
-    /// The sphere beside its meshes, if all rungs of spheres were asked for.
-    pub forms: Vec<Form>,
-    /// Shader stages that took part, by path below `shaders/`.
-    pub stages: BTreeSet<String>,
-    pub validation_messages: Vec<String>,
-}
-
-/// One rung.
-#[derive(Serialize)]
-pub struct Measured {
-    pub primitive: &'static str,
-    pub rung: &'static str,
-    pub name: &'static str,
-    /// Why the device does not have it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unavailable: Option<String>,
-    pub errors: Vec<Errors>,
-    /// Of the primitive's first family, direct.
-    pub time: Option<Time>,
-    /// Of every family, where a rung takes as many steps as a ray is hard.
-    pub marches: Vec<March>,
-    /// What a GPU's compiler makes of it, asked directly: one program for each family.
-    pub compiled_for: Vec<Compiled>,
-    /// What the direct pipeline is made from.
-    #[serde(skip)]
-    pub blueprint: Option<Blueprint>,
-}
-
-/// How wrong a rung is on a family.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Errors {
-    pub family: &'static str,
-    pub way: &'static str,
-    pub rays: usize,
-    /// Error of t in ULP, where both see a hit: median, 99 of 100, largest.
-    pub p50: f64,
-    pub p99: f64,
-    pub max: f64,
-    pub false_hits: usize,
-    pub false_misses: usize,
-    /// Hits that the device's box test kept from the shader; no false misses.
-    pub never_offered: usize,
-    pub not_finite: usize,
-}
-
-/// What a rung costs.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Time {
-    /// Millions of intersections a second.
-    pub millions_a_second: f64,
-    /// Time over the cheapest rung's, of the same round.
-    pub ratio: Ratio,
-    /// The cheapest rung against itself: no smaller difference can be seen.
-    pub noise: Ratio,
-}
-
-/// What a march costs on a family, over the rung that is cheapest there.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct March {
-    pub family: &'static str,
-    pub ratio: Ratio,
-}
+use crate::measurement::{Errors, March, MeasuredRung, Measurement, Time};
+use crate::probe::{Instrument, Probe, Way};
+use crate::query::Answer;
 
 // ANCHOR: timed
 /// A dispatch shorter than this, in milliseconds, is repeated within the shader until it is as long.
@@ -192,8 +108,8 @@ fn errors(
     rung: &Rung,
     families: &[Family],
     batches: &[Batch],
-) -> Result<Measured> {
-    let mut measured = Measured {
+) -> Result<MeasuredRung> {
+    let mut measured = MeasuredRung {
         primitive: primitive.name(),
         rung: rung.label,
         name: rung.name,
@@ -267,7 +183,7 @@ fn times(
     ladder: &[&Rung],
     batch: &Batch,
     rounds: u32,
-    measured: &[Measured],
+    measured: &[MeasuredRung],
 ) -> Result<Vec<Option<Time>>> {
     let ladder = ladder.iter().copied().zip(measured);
     let timed = ladder.filter(|(rung, row)| row.unavailable.is_none() && rung.code != Code::Device);
@@ -300,7 +216,7 @@ fn times(
         probe.time(instrument, batch, repeat)
     })?;
     // ANCHOR_END: times
-    let time = |row: &Measured| {
+    let time = |row: &MeasuredRung| {
         let value = comparison.values.iter().find(|value| value.value == row.rung)?;
         Some(Time {
             millions_a_second: f64::from(batch.count() * repeat) / value.milliseconds / 1e3,

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use crate::drawing::{self, BLUE, Drawing, Drawn, GRID, ORANGE, font};
 use crate::ladder::Primitive;
-use crate::measure::{Errors, Measured, Measurement};
+use crate::measurement::{Errors, MeasuredRung, Measurement};
 
 const PANEL: (u32, u32) = (400, 360);
 const COLUMNS: usize = 4;
@@ -27,7 +27,7 @@ struct Panel<'a> {
 
 /// One rung.
 struct Point<'a> {
-    row: &'a Measured,
+    row: &'a MeasuredRung,
     /// Time over the cheapest rung's.
     time: f64,
     /// On the home family: 99 of 100 rays are at least as good.

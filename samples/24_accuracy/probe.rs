@@ -10,32 +10,8 @@ use glam::Vec3;
 
 use crate::batch::Batch;
 use crate::ladder::{Code, Primitive, Rung};
+use crate::query::{Answer, Query, Ray};
 use crate::shape::Shape;
-
-common::shader_struct! {
-    /// What is asked: a ray, and where the numbers of its shape are.
-    pub struct Query {
-        pub origin: Vec3,
-        pub tmin: f32,
-        pub direction: Vec3,
-        pub tmax: f32,
-        pub first: u32,
-        pub count: u32,
-        pub shape: u32,
-    }
-}
-
-common::shader_struct! {
-    /// What the device said.
-    pub struct Answer {
-        pub offered: u32,
-        pub hit: u32,
-        pub t: f32,
-        pub normal: Vec3,
-        pub point: Vec3,
-        pub steps: u32,
-    }
-}
 
 common::shader_struct! {
     struct Push {
@@ -51,23 +27,6 @@ common::shader_struct! {
 
 /// How many samples one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
 const SAMPLES_AT_ONCE: u32 = 1 << 22;
-
-/// A ray `origin + t·direction`, `tmin < t <= tmax`, in f32 as the device gets it.
-#[derive(Clone, Copy, Debug)]
-pub struct Ray {
-    pub origin: Vec3,
-    pub direction: Vec3,
-    pub tmin: f32,
-    pub tmax: f32,
-}
-
-impl Ray {
-    /// The same ray for the reference.
-    pub fn exact(&self) -> reference::Ray {
-        let Self { origin, direction, tmin, tmax } = *self;
-        reference::Ray::from_f32(origin.to_array(), direction.to_array(), tmin, tmax)
-    }
-}
 
 /// By which way a rung is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use crate::compiled;
 use crate::geometry::Form;
 use crate::hard::short;
 use crate::ladder::Primitive;
-use crate::measure::{Errors, Measured, Measurement, Time};
+use crate::measurement::{Errors, MeasuredRung, Measurement, Time};
 
 impl Measurement {
     /// Markdown tables of each primitive: time beside the home family's error, a compiler's estimates, and
@@ -57,7 +57,7 @@ impl Measurement {
     }
 }
 
-fn times(ladder: &[Measured]) -> String {
+fn times(ladder: &[MeasuredRung]) -> String {
     let home = ladder.iter().find_map(|row| row.errors.first()).map_or("", |e| e.family);
     let mut text = String::from(
         "| rung | time / cheapest | middle half | million a second | p50, ULP | p99, ULP | wrong |\n\
@@ -65,7 +65,7 @@ fn times(ladder: &[Measured]) -> String {
     );
     let mut noise = None;
     for row in ladder {
-        let Measured { rung, name, unavailable, errors, time, .. } = row;
+        let MeasuredRung { rung, name, unavailable, errors, time, .. } = row;
         if let Some(why) = unavailable {
             let _ = writeln!(text, "| {rung} {name} | unavailable: {why} | | | | | |");
             continue;
@@ -96,7 +96,7 @@ fn times(ladder: &[Measured]) -> String {
 }
 
 /// Time of every family, where it depends on the rays.
-fn marches(ladder: &[Measured]) -> String {
+fn marches(ladder: &[MeasuredRung]) -> String {
     let families: Vec<_> = ladder[0].marches.iter().map(|march| march.family).collect();
     if families.is_empty() {
         return String::new();
@@ -117,7 +117,7 @@ fn marches(ladder: &[Measured]) -> String {
     text + "\n"
 }
 
-fn errors(ladder: &[Measured]) -> String {
+fn errors(ladder: &[MeasuredRung]) -> String {
     let mut text = String::from(
         "| family | rung | way | p50 | p99 | largest, ULP | false misses | false hits | never offered |\n\
          |---|---|---|---|---|---|---|---|---|\n",
@@ -153,7 +153,7 @@ fn errors(ladder: &[Measured]) -> String {
 }
 
 /// Rays that leave a surface have no error but that they meet it again, or pass what is near.
-fn departures(ladder: &[Measured]) -> String {
+fn departures(ladder: &[MeasuredRung]) -> String {
     let families = ladder.iter().find(|row| !row.errors.is_empty());
     let families: Vec<_> =
         families.into_iter().flat_map(|row| &row.errors).map(|error| error.family).collect();

@@ -5,7 +5,7 @@ use reference::random::{Random, f32s};
 use reference::sphere;
 
 use super::{Family, on_disc};
-use crate::probe::Ray;
+use crate::query::Ray;
 use crate::shape::{Gap, Leaving, Shape};
 
 /// A ray that leaves a sphere where another one arrives, anywhere above the surface, often grazing;

@@ -6,7 +6,7 @@ use reference::{
 };
 
 use crate::judge::{Expected, ExpectedHit};
-use crate::probe::Ray;
+use crate::query::Ray;
 use crate::shape::{Heightfield, Leaving, Pattern, Shape, Sum, parts};
 
 /// The shapes as the reference knows them.

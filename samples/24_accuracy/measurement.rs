@@ -1,0 +1,103 @@
+//! The figures of a run, as its file has them.
+
+use std::collections::BTreeSet;
+
+use common::gpu::Blueprint;
+use instruments::compare::Ratio;
+use instruments::compile_for::CompiledFor;
+use serde::Serialize;
+
+use crate::geometry::Form;
+
+/// All that a run measured.
+#[derive(Serialize)]
+pub struct Measurement {
+    pub device: String,
+    pub driver: String,
+    /// How shaders computed: the value of `--arithmetic`.
+    pub arithmetic: String,
+    /// The day, as 2026-11-21.
+    pub date: String,
+    /// Whether `fma()` rounds once here.
+    pub fused: bool,
+    /// Rays of each family.
+    pub rays: usize,
+    /// Rounds of each timing; 0 for errors alone.
+    pub rounds: u32,
+    /// The GPU compiler of the estimates, with its version.
+    pub compiler: Option<String>,
+    /// Why there are no estimates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_compiler: Option<String>,
+    pub rungs: Vec<MeasuredRung>,
+    /// The sphere beside its meshes, if all rungs of spheres were asked for.
+    pub forms: Vec<Form>,
+    /// Shader stages that took part, by path below `shaders/`.
+    pub stages: BTreeSet<String>,
+    pub validation_messages: Vec<String>,
+}
+
+/// One rung.
+#[derive(Serialize)]
+pub struct MeasuredRung {
+    pub primitive: &'static str,
+    pub rung: &'static str,
+    pub name: &'static str,
+    /// Why the device does not have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unavailable: Option<String>,
+    pub errors: Vec<Errors>,
+    /// Of the primitive's first family, direct.
+    pub time: Option<Time>,
+    /// Of every family, where a rung takes as many steps as a ray is hard.
+    pub marches: Vec<March>,
+    /// What a GPU's compiler makes of it, asked directly: one program for each family.
+    pub compiled_for: Vec<Compiled>,
+    /// What the direct pipeline is made from.
+    #[serde(skip)]
+    pub blueprint: Option<Blueprint>,
+}
+
+/// How wrong a rung is on a family.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Errors {
+    pub family: &'static str,
+    pub way: &'static str,
+    pub rays: usize,
+    /// Error of t in ULP, where both see a hit: median, 99 of 100, largest.
+    pub p50: f64,
+    pub p99: f64,
+    pub max: f64,
+    pub false_hits: usize,
+    pub false_misses: usize,
+    /// Hits that the device's box test kept from the shader; no false misses.
+    pub never_offered: usize,
+    pub not_finite: usize,
+}
+
+/// What a rung costs.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Time {
+    /// Millions of intersections a second.
+    pub millions_a_second: f64,
+    /// Time over the cheapest rung's, of the same round.
+    pub ratio: Ratio,
+    /// The cheapest rung against itself: no smaller difference can be seen.
+    pub noise: Ratio,
+}
+
+/// What a march costs on a family, over the rung that is cheapest there.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct March {
+    pub family: &'static str,
+    pub ratio: Ratio,
+}
+
+/// A rung's direct pipeline, which is one program, on one family.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compiled {
+    #[serde(flatten)]
+    pub program: CompiledFor,
+    /// Its inverse throughput over the least of the ladder, on the same family.
+    pub ratio: f64,
+}
