@@ -7,7 +7,7 @@ use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform}
 use effects::{Composition, EmitterAddresses, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
 
-use crate::recipe::{Kind, Recipe};
+use crate::recipe::{GeometryKind, Recipe};
 use crate::world::Shapes;
 
 /// What rays can meet, but for the plane.
@@ -27,7 +27,7 @@ pub struct SceneGeometry {
 
 /// An instance before it knows its hit record.
 struct Placed {
-    kind: Kind,
+    kind: GeometryKind,
     transform: Affine3A,
     custom_index: u32,
     address: vk::DeviceAddress,
@@ -52,7 +52,7 @@ impl SceneGeometry {
         let bounds = from.scene.bounds_of_instances();
         for ((index, instance), bounds) in from.scene.instances.iter().enumerate().zip(bounds) {
             geometry.instances.push(Placed {
-                kind: Kind::Mesh,
+                kind: GeometryKind::Mesh,
                 transform: instance.transform,
                 custom_index: index as u32,
                 address: geometry.scene.blas[instance.mesh].address,
@@ -60,15 +60,15 @@ impl SceneGeometry {
             });
         }
         let bounds: Vec<_> = from.spheres.iter().map(sphere_bounds).collect();
-        let order = geometry.level(gpu, Kind::Sphere, &bounds)?;
+        let order = geometry.level(gpu, GeometryKind::Sphere, &bounds)?;
         geometry.shapes.spheres = geometry.records(gpu, "spheres", &from.spheres, &order)?;
         if let Some(lamps) = from.lamps()? {
             geometry.shapes.emitters = Some(geometry.lamps(gpu, &lamps, &order)?);
         }
         let bounds: Vec<_> = from.boxes.iter().map(|b| (b.low, b.high)).collect();
-        let order = geometry.level(gpu, Kind::Box, &bounds)?;
+        let order = geometry.level(gpu, GeometryKind::Box, &bounds)?;
         geometry.shapes.boxes = geometry.records(gpu, "boxes", &from.boxes, &order)?;
-        let order = geometry.level(gpu, Kind::Solid, &from.solid_bounds)?;
+        let order = geometry.level(gpu, GeometryKind::Solid, &from.solid_bounds)?;
         geometry.shapes.solids = geometry.records(gpu, "solids", &from.solids, &order)?;
         let as_they_come: Vec<u32> = (0..from.faces.len() as u32).collect();
         geometry.shapes.faces = geometry.records(gpu, "faces", &from.faces, &as_they_come)?;
@@ -80,7 +80,7 @@ impl SceneGeometry {
         geometry.shapes.glasses = geometry.records(gpu, "glasses", &glasses, &as_they_come)?;
         geometry.shapes.glass_count = glasses.len() as u32;
         let bounds: Vec<_> = from.heightfield.iter().map(crate::ground::bounds).collect();
-        geometry.level(gpu, Kind::Ground, &bounds)?;
+        geometry.level(gpu, GeometryKind::Ground, &bounds)?;
         Ok(geometry)
     }
 
@@ -91,7 +91,12 @@ impl SceneGeometry {
 
     // ANCHOR: level
     /// Boxes for the intersection shader of a kind, near beside near; returns their order.
-    fn level(&mut self, gpu: &Gpu, kind: Kind, bounds: &[order::Bounds]) -> Result<Vec<u32>> {
+    fn level(
+        &mut self,
+        gpu: &Gpu,
+        kind: GeometryKind,
+        bounds: &[order::Bounds],
+    ) -> Result<Vec<u32>> {
         let order = order::for_build(gpu, bounds, self.scene.options.ordering);
         if order.is_empty() {
             return Ok(order);

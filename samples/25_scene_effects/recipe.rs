@@ -10,7 +10,7 @@ use crate::{Push, world};
 
 /// A kind of geometry: each has a hit group and a bit of the cull mask of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum GeometryKind {
     /// Triangles.
     Mesh,
     /// Spheres.
@@ -23,7 +23,7 @@ pub enum Kind {
     Solid,
 }
 
-impl Kind {
+impl GeometryKind {
     /// All kinds, in the order of hit records and mask bits, each with the effect that calls for it.
     pub const ALL: [(Self, Effect); 5] = [
         (Self::Mesh, Triangles),
@@ -79,13 +79,13 @@ impl Recipe {
     // ANCHOR_END: constants
 
     /// The kinds of geometry that it has hit groups for, in the order of the hit records.
-    pub fn kinds(&self) -> Vec<Kind> {
-        let kinds = Kind::ALL.into_iter().filter(|&(_, effect)| self.effects.has(effect));
+    pub fn kinds(&self) -> Vec<GeometryKind> {
+        let kinds = GeometryKind::ALL.into_iter().filter(|&(_, effect)| self.effects.has(effect));
         kinds.map(|(kind, _)| kind).collect()
     }
 
     /// The hit record of a kind; 0 where rays do not look at it.
-    pub fn record(&self, kind: Kind) -> u32 {
+    pub fn record(&self, kind: GeometryKind) -> u32 {
         self.kinds().iter().position(|&known| known == kind).unwrap_or(0) as u32
     }
 
@@ -95,17 +95,17 @@ impl Recipe {
     }
 
     // ANCHOR: groups
-    fn hit_group(&self, kind: Kind) -> HitGroup<'static> {
+    fn hit_group(&self, kind: GeometryKind) -> HitGroup<'static> {
         match kind {
             // Geometry without holes is opaque: the device calls no any-hit shader for it.
-            Kind::Mesh if self.effects.has(CutOut) => {
+            GeometryKind::Mesh if self.effects.has(CutOut) => {
                 HitGroup::triangles().closest_hit("mesh.rchit").any_hit("cut_out.rahit")
             }
-            Kind::Mesh => HitGroup::triangles().closest_hit("mesh.rchit"),
-            Kind::Sphere => HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"),
-            Kind::Box => HitGroup::procedural("box.rint").closest_hit("shape.rchit"),
-            Kind::Ground => HitGroup::procedural("ground.rint").closest_hit("ground.rchit"),
-            Kind::Solid => HitGroup::procedural("solid.rint").closest_hit("solid.rchit"),
+            GeometryKind::Mesh => HitGroup::triangles().closest_hit("mesh.rchit"),
+            GeometryKind::Sphere => HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"),
+            GeometryKind::Box => HitGroup::procedural("box.rint").closest_hit("shape.rchit"),
+            GeometryKind::Ground => HitGroup::procedural("ground.rint").closest_hit("ground.rchit"),
+            GeometryKind::Solid => HitGroup::procedural("solid.rint").closest_hit("solid.rchit"),
         }
     }
     // ANCHOR_END: groups
@@ -113,8 +113,8 @@ impl Recipe {
     /// What the device need not look for, where it can be told.
     fn skipped(&self, gpu: &Gpu) -> vk::PipelineCreateFlags {
         let kinds = self.kinds();
-        let meshes = kinds.contains(&Kind::Mesh);
-        let shapes = kinds.iter().any(|&kind| kind != Kind::Mesh);
+        let meshes = kinds.contains(&GeometryKind::Mesh);
+        let shapes = kinds.iter().any(|&kind| kind != GeometryKind::Mesh);
         match (gpu.limits.primitive_culling, meshes, shapes) {
             (true, true, false) => vk::PipelineCreateFlags::RAY_TRACING_SKIP_AABBS_KHR,
             (true, false, true) => vk::PipelineCreateFlags::RAY_TRACING_SKIP_TRIANGLES_KHR,

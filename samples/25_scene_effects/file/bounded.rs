@@ -3,12 +3,12 @@
 //! Each is a function for serde's `deserialize_with`, so that the error has the number's own line.
 
 use common::gpu::ShaderEnum;
+use common::scene::LightKind;
 use common::scene::text::quoted;
 use glam::{DVec3, Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error};
 use toml::Value;
 
-use super::description::Kind;
 use crate::{FOCUS, GlassKind, Pattern};
 
 /// The farthest coordinate of a scene file, and the largest strength of a light.
@@ -273,7 +273,7 @@ pub fn maybe_glass<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GlassKin
 }
 
 /// Where a light is.
-pub fn light_kind<'de, D: Deserializer<'de>>(from: D) -> Result<Kind, D::Error> {
-    let kinds = [("directional", Kind::Directional), ("point", Kind::Point)];
+pub fn light_kind<'de, D: Deserializer<'de>>(from: D) -> Result<LightKind, D::Error> {
+    let kinds = [("directional", LightKind::Directional), ("point", LightKind::Point)];
     word(from, "kind of light", &kinds)
 }

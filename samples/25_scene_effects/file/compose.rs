@@ -11,7 +11,7 @@ use common::scene::{
 use glam::{Affine3A, Mat3A};
 use toml::Spanned;
 
-use super::description::{Board, Description, Optics, Piece, View};
+use super::description::{CameraTable, Description, LensTable, PieceTable, PlaneTable};
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
@@ -36,14 +36,14 @@ impl Description {
         let mut model = self.model(path, source)?;
         let (materials, finishes) = self.paint(&mut model.materials, source)?;
         let view = self.camera.get_ref();
-        let &View { eye, target, field_of_view, .. } = view;
+        let &CameraTable { eye, target, field_of_view, .. } = view;
         if eye.distance(target) < 1e-9 {
             let what = "the camera stands where it looks; move `eye` or `target`";
             return Err(source.error(self.camera.span().start, what));
         }
         let camera = Camera::new(eye, target, field_of_view);
         let mut lens = pinhole(&camera);
-        if let Some(Optics { diameter, focus, blades }) = view.lens {
+        if let Some(LensTable { diameter, focus, blades }) = view.lens {
             lens = ThinLens { diameter, focus: focus.unwrap_or(lens.focus), blades, ..lens };
         }
         let instances = self.instances(&model, &materials, source)?;
@@ -59,7 +59,7 @@ impl Description {
             finishes,
             lens,
             lights: lights.collect::<Result<_>>()?,
-            plane: self.plane.as_ref().map(Board::plane),
+            plane: self.plane.as_ref().map(PlaneTable::plane),
             spheres: Vec::new(),
             boxes: Vec::new(),
             solids: Vec::new(),
@@ -192,7 +192,7 @@ fn standing(model: &Model) -> Vec<Instance> {
 }
 
 fn place(
-    pieces: &[Spanned<Piece>],
+    pieces: &[Spanned<PieceTable>],
     model: &Model,
     materials: &Numbers,
     source: &Source,
@@ -200,7 +200,7 @@ fn place(
     let meshes = numbers(model.meshes.iter().map(|mesh| &mesh.name));
     let reaches: Vec<f32> = model.meshes.iter().map(Mesh::reach).collect();
     let placed = pieces.iter().map(|piece| {
-        let Piece { mesh, at, turn, size, material } = piece.get_ref();
+        let PieceTable { mesh, at, turn, size, material } = piece.get_ref();
         let mesh = *meshes.get(mesh.get_ref()).ok_or_else(|| {
             let known = some(model.meshes.iter().map(|mesh| &mesh.name));
             let what = format!("no mesh {}; there is {known}", quoted(mesh.get_ref()));

@@ -6,6 +6,7 @@
 //! `model`, pieces are those of the book's own chess set, or of none if there is no `[[piece]]`. The page
 //! of chapter 25 lists every key.
 
+use common::scene::LightKind;
 use glam::{DVec3, Vec2, Vec3};
 use serde::Deserialize;
 use toml::Spanned;
@@ -24,27 +25,27 @@ pub(super) struct Description {
     #[serde(default = "one", deserialize_with = "bounded::part")]
     pub(super) sky: f32,
     #[serde(default)]
-    pub(super) picture: Picture,
-    pub(super) camera: Spanned<View>,
+    pub(super) picture: PictureTable,
+    pub(super) camera: Spanned<CameraTable>,
     #[serde(default)]
-    pub(super) light: Vec<Spanned<Lamp>>,
+    pub(super) light: Vec<Spanned<LightTable>>,
     #[serde(default)]
-    pub(super) material: Vec<Spanned<Paint>>,
+    pub(super) material: Vec<Spanned<MaterialTable>>,
     #[serde(default)]
-    pub(super) piece: Vec<Spanned<Piece>>,
-    pub(super) plane: Option<Board>,
+    pub(super) piece: Vec<Spanned<PieceTable>>,
+    pub(super) plane: Option<PlaneTable>,
     #[serde(default)]
-    pub(super) sphere: Vec<Spanned<Ball>>,
+    pub(super) sphere: Vec<Spanned<SphereTable>>,
     #[serde(default, rename = "box")]
-    pub(super) boxes: Vec<Spanned<Block>>,
+    pub(super) boxes: Vec<Spanned<BoxTable>>,
     #[serde(default)]
-    pub(super) solid: Vec<Spanned<Body>>,
-    pub(super) heightfield: Option<Spanned<Land>>,
+    pub(super) solid: Vec<Spanned<SolidTable>>,
+    pub(super) heightfield: Option<Spanned<HeightfieldTable>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [picture]", default)]
-pub(super) struct Picture {
+pub(super) struct PictureTable {
     #[serde(deserialize_with = "bounded::samples")]
     pub(super) samples: u32,
     #[serde(deserialize_with = "bounded::samples")]
@@ -55,7 +56,7 @@ pub(super) struct Picture {
     pub(super) bounces: u32,
 }
 
-impl Default for Picture {
+impl Default for PictureTable {
     fn default() -> Self {
         Self { samples: 1, light_samples: 16, depth: 4, bounces: 0 }
     }
@@ -63,19 +64,19 @@ impl Default for Picture {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [camera]")]
-pub(super) struct View {
+pub(super) struct CameraTable {
     #[serde(deserialize_with = "bounded::far_point")]
     pub(super) eye: DVec3,
     #[serde(deserialize_with = "bounded::far_point")]
     pub(super) target: DVec3,
     #[serde(deserialize_with = "bounded::view")]
     pub(super) field_of_view: f64,
-    pub(super) lens: Option<Optics>,
+    pub(super) lens: Option<LensTable>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, { diameter = 0.1 }")]
-pub(super) struct Optics {
+pub(super) struct LensTable {
     #[serde(deserialize_with = "bounded::part")]
     pub(super) diameter: f32,
     #[serde(default, deserialize_with = "bounded::maybe_focus")]
@@ -84,18 +85,12 @@ pub(super) struct Optics {
     pub(super) blades: u32,
 }
 
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    Directional,
-    Point,
-}
-
 /// A light of either kind; which keys go with which is checked when it is made.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[light]]")]
-pub(super) struct Lamp {
+pub(super) struct LightTable {
     #[serde(deserialize_with = "bounded::light_kind")]
-    pub(super) kind: Kind,
+    pub(super) kind: LightKind,
     #[serde(default, deserialize_with = "bounded::maybe_degrees")]
     pub(super) azimuth: Option<f32>,
     #[serde(default, deserialize_with = "bounded::maybe_degrees")]
@@ -119,7 +114,7 @@ fn yes() -> bool {
 /// A new material, or what differs from the model's of that name.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[material]]")]
-pub(super) struct Paint {
+pub(super) struct MaterialTable {
     pub(super) name: String,
     #[serde(default, deserialize_with = "bounded::maybe_color")]
     pub(super) color: Option<Vec3>,
@@ -152,7 +147,7 @@ pub(super) struct Paint {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[piece]]")]
-pub(super) struct Piece {
+pub(super) struct PieceTable {
     pub(super) mesh: Spanned<String>,
     #[serde(deserialize_with = "bounded::point")]
     pub(super) at: Vec3,
@@ -169,7 +164,7 @@ fn one() -> f32 {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [plane]")]
-pub(super) struct Board {
+pub(super) struct PlaneTable {
     #[serde(deserialize_with = "bounded::direction")]
     pub(super) normal: Vec3,
     #[serde(default, deserialize_with = "bounded::coordinate")]
@@ -186,7 +181,7 @@ pub(super) struct Board {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[sphere]]")]
-pub(super) struct Ball {
+pub(super) struct SphereTable {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) center: Vec3,
     #[serde(deserialize_with = "bounded::length")]
@@ -196,7 +191,7 @@ pub(super) struct Ball {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[box]]")]
-pub(super) struct Block {
+pub(super) struct BoxTable {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) low: Vec3,
     #[serde(deserialize_with = "bounded::point")]
@@ -206,7 +201,7 @@ pub(super) struct Block {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [[solid]]")]
-pub(super) struct Body {
+pub(super) struct SolidTable {
     #[serde(deserialize_with = "bounded::point")]
     pub(super) center: Vec3,
     #[serde(deserialize_with = "bounded::faces")]
@@ -216,7 +211,7 @@ pub(super) struct Body {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table, [heightfield]")]
-pub(super) struct Land {
+pub(super) struct HeightfieldTable {
     #[serde(deserialize_with = "bounded::place")]
     pub(super) low: Vec2,
     #[serde(deserialize_with = "bounded::place")]

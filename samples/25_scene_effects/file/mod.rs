@@ -2,9 +2,9 @@
 
 mod bounded;
 mod compose;
-mod depth;
 mod description;
 mod names;
+mod nesting;
 mod polytope;
 mod source;
 mod tally;

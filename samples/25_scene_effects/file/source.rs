@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
-use super::depth::MOST;
+use super::nesting::MOST;
 use super::tally::Tally;
 
 /// Bytes of a scene file.

@@ -7,7 +7,7 @@ use toml_parser::Source;
 use toml_parser::lexer::Token;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
-use super::depth::Depth;
+use super::nesting::Nesting;
 
 /// Bytes that reading may take. A hundred thousand spheres take half of it.
 const MOST: u64 = 800_000_000;
@@ -43,13 +43,13 @@ impl Tally {
         let mut tally = Self { text: text.len(), tokens, ..Self::default() };
         tally.check()?;
         let tokens = Source::new(text).lex().into_vec();
-        let mut depth = Depth::default();
+        let mut nesting = Nesting::default();
         let mut add = |event: Event| {
             tally.add(event.kind());
-            depth.add(&event);
+            nesting.add(&event);
         };
         parse_document(&tokens, &mut RecursionGuard::new(&mut add, DEPTH), &mut ());
-        tally.too_deep = depth.too_deep;
+        tally.too_deep = nesting.too_deep;
         Ok(tally)
     }
 

@@ -1,15 +1,15 @@
 //! From a table of a scene file to the value that it stands for.
 
-use common::scene::{Light, Material, PointLight, Sun};
+use common::scene::{Light, LightKind, Material, PointLight, Sun};
 
-use super::description::{Board, Kind, Lamp, Land, Paint};
+use super::description::{HeightfieldTable, LightTable, MaterialTable, PlaneTable};
 use crate::{BoardPlane, Finish, GlassKind, Heightfield, SceneLight};
 
-impl Lamp {
+impl LightTable {
     pub(super) fn light(&self) -> Result<SceneLight, &'static str> {
         let light = match *self {
             Self {
-                kind: Kind::Directional,
+                kind: LightKind::Directional,
                 azimuth: Some(azimuth),
                 elevation: Some(elevation),
                 radiance: Some(radiance),
@@ -18,7 +18,7 @@ impl Lamp {
                 ..
             } => Light::directional(&Sun { azimuth, elevation, radiance }, self.size),
             Self {
-                kind: Kind::Point,
+                kind: LightKind::Point,
                 position: Some(position),
                 intensity: Some(intensity),
                 azimuth: None,
@@ -26,10 +26,10 @@ impl Lamp {
                 radiance: None,
                 ..
             } => Light::point(&PointLight { position, intensity }, self.size),
-            Self { kind: Kind::Directional, .. } => {
+            Self { kind: LightKind::Directional, .. } => {
                 return Err("a directional light has `azimuth`, `elevation` and `radiance`");
             }
-            Self { kind: Kind::Point, .. } => {
+            Self { kind: LightKind::Point, .. } => {
                 return Err("a point light has `position` and `intensity`");
             }
         };
@@ -37,14 +37,14 @@ impl Lamp {
     }
 }
 
-impl Board {
+impl PlaneTable {
     pub(super) fn plane(&self) -> BoardPlane {
         let &Self { normal, distance, light, dark, square, reflection } = self;
         BoardPlane { normal, distance, light, dark, square, reflection }
     }
 }
 
-impl Land {
+impl HeightfieldTable {
     pub(super) fn heightfield(&self) -> Result<Heightfield, &'static str> {
         let &Self { low, high, hills, hill, ridges, ridge, light, dark, rock, square } = self;
         match low.cmplt(high).all() && hills + ridges > 0.0 {
@@ -58,7 +58,7 @@ impl Land {
     }
 }
 
-impl Paint {
+impl MaterialTable {
     pub(super) fn apply(&self, material: &mut Material) {
         material.base_color = self.color.unwrap_or(material.base_color);
         material.specular = self.specular.unwrap_or(material.specular);

@@ -7,7 +7,7 @@ pub(super) const MOST: usize = 16;
 
 /// Follows a parser into tables and lists, and out again.
 #[derive(Default)]
-pub(super) struct Depth {
+pub(super) struct Nesting {
     /// Tables that the last headline names.
     headline: usize,
     /// Tables that the dots of the last key name.
@@ -18,7 +18,7 @@ pub(super) struct Depth {
     pub too_deep: Option<usize>,
 }
 
-impl Depth {
+impl Nesting {
     /// Goes on with what the parser has met.
     pub fn add(&mut self, event: &Event) {
         use EventKind as Kind;
@@ -57,7 +57,7 @@ mod tests {
 
     /// Where a text is too deep.
     fn too_deep(text: &str) -> Option<usize> {
-        let mut depth = Depth::default();
+        let mut depth = Nesting::default();
         let tokens = Source::new(text).lex().into_vec();
         parse_document(&tokens, &mut |event: Event| depth.add(&event), &mut ());
         depth.too_deep
