@@ -2,7 +2,7 @@
 
 use common::scene::Sun;
 use reference::Ray;
-use reference::solid::bound::{Stray, Verdict};
+use reference::solid::bound::{SolidVerdict, Stray};
 
 use super::counterpart::counterpart;
 use super::stub::Stub;
@@ -51,8 +51,8 @@ fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
             }
             // An outline; or the terminator of a ball: from h above it, a ray passes it whose sine is
             // below the root of 2h/r, and h is 2e-6 here, r 0.2 or more.
-            let outline =
-                visible == 1.0 && solid.judge(&clip, &ray, Stray::default(), None) == Verdict::Near;
+            let outline = visible == 1.0
+                && solid.judge(&clip, &ray, Stray::default(), None) == SolidVerdict::Near;
             let towards: f32 = (0..3).map(|i| (normal[i] * 2.0 - 1.0) * light[i]).sum();
             assert!(outline || towards.abs() < 5e-3, "{name}: {ray:?} {visible} {exact:?}");
             apart += 1;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use reference::Ray;
 use reference::solid::Solid as ReferenceSolid;
-use reference::solid::bound::{Found, Stray, Verdict};
+use reference::solid::bound::{SolidAnswer, SolidVerdict, Stray};
 use reference::ulp::ulp_error;
 use serde_json::Value;
 
@@ -30,14 +30,14 @@ impl Tally {
         stray: Stray,
         hit: &[f32; 4],
     ) {
-        let found = (hit[0] >= 0.0).then(|| Found {
+        let found = (hit[0] >= 0.0).then(|| SolidAnswer {
             t: hit[2].into(),
             member: hit[1] as usize,
             enters: hit[3] == 0.0,
         });
         match solid.judge(clip, ray, stray, found) {
-            Verdict::Agrees(None) => self.misses += 1,
-            Verdict::Agrees(Some(t)) => {
+            SolidVerdict::Agrees(None) => self.misses += 1,
+            SolidVerdict::Agrees(Some(t)) => {
                 self.hits += 1;
                 let errors = if is_ball(solid, hit[1] as usize) {
                     &mut self.balls
@@ -46,8 +46,8 @@ impl Tally {
                 };
                 errors.push(ulp_error(hit[2], t));
             }
-            Verdict::Near => self.near += 1,
-            Verdict::Wrong => {
+            SolidVerdict::Near => self.near += 1,
+            SolidVerdict::Wrong => {
                 let first = solid.intersect_within(clip, ray);
                 self.wrong.push(format!("{ray:?} {found:?}, exactly {first:?}"));
             }

@@ -66,7 +66,7 @@ pub struct Stray {
 
 /// What a renderer says of the first place where a ray goes through a solid's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct SolidAnswer {
     /// Ray parameter.
     pub t: f64,
     /// The half-space or ball whose surface it is.
@@ -77,7 +77,7 @@ pub struct Found {
 
 /// The judgement on such an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum SolidVerdict {
     /// The exact answer, within the bound of t; with the exact t, if there is a hit.
     Agrees(Option<f64>),
     /// Another, which rounding explains: where they part, two changes are closer than their bounds.
@@ -116,15 +116,21 @@ impl Solid {
     }
 
     /// Judges a renderer's answer about this solid, of whose surface only what lies in `clip` is there.
-    pub fn judge(&self, clip: &Self, ray: &Ray, stray: Stray, found: Option<Found>) -> Verdict {
+    pub fn judge(
+        &self,
+        clip: &Self,
+        ray: &Ray,
+        stray: Stray,
+        found: Option<SolidAnswer>,
+    ) -> SolidVerdict {
         let both = Self::Intersection(vec![self.clone(), clip.clone()]);
         let changes = both.changes(ray, stray);
         // Whatever it says, the surface that it names must be there.
-        let is_there = |found: Found| {
+        let is_there = |found: SolidAnswer| {
             changes.iter().any(|change| change.member == found.member && change.holds(found.t))
         };
         if !found.is_none_or(is_there) {
-            return Verdict::Wrong;
+            return SolidVerdict::Wrong;
         }
         let exact = self.intersect_within(clip, ray);
         let agree = match (&exact, found) {
@@ -140,7 +146,7 @@ impl Solid {
             _ => false,
         };
         if agree {
-            return Verdict::Agrees(exact.map(|exact| exact.t));
+            return SolidVerdict::Agrees(exact.map(|exact| exact.t));
         }
         // They part at the nearer of the two.
         let ends = found.map(|found| found.t).into_iter().chain(exact.map(|exact| exact.t));
@@ -152,7 +158,7 @@ impl Solid {
                 || change.holds(ray.tmax)
                 || changes.iter().any(|other| change.meets(other))
         };
-        if there().any(free) { Verdict::Near } else { Verdict::Wrong }
+        if there().any(free) { SolidVerdict::Near } else { SolidVerdict::Wrong }
     }
 }
 

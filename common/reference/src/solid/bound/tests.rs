@@ -91,13 +91,13 @@ fn an_answer_is_judged_by_its_margin() {
         Solid::Intersection(vec![flat(DVec3::Y, 1.0), flat(DVec3::new(1.0, 1.0, 0.0), 1.0 + apart)])
     };
     let says = |solid: &Solid, t, member, enters| {
-        solid.judge(&all, &ray, Stray::default(), Some(Found { t, member, enters }))
+        solid.judge(&all, &ray, Stray::default(), Some(SolidAnswer { t, member, enters }))
     };
-    assert_eq!(says(&edge(1e-3), 2.0, 0, true), Verdict::Agrees(Some(2.0)));
-    assert_eq!(says(&edge(1e-3), 2.0 - 1e-3, 1, true), Verdict::Wrong);
-    assert_eq!(says(&edge(1e-9), 2.0, 1, true), Verdict::Near);
-    assert_eq!(says(&edge(1e-9), 2.0 + 1e-5, 0, true), Verdict::Wrong);
+    assert_eq!(says(&edge(1e-3), 2.0, 0, true), SolidVerdict::Agrees(Some(2.0)));
+    assert_eq!(says(&edge(1e-3), 2.0 - 1e-3, 1, true), SolidVerdict::Wrong);
+    assert_eq!(says(&edge(1e-9), 2.0, 1, true), SolidVerdict::Near);
+    assert_eq!(says(&edge(1e-9), 2.0 + 1e-5, 0, true), SolidVerdict::Wrong);
     let silent = |solid: &Solid| solid.judge(&all, &ray, Stray::default(), None);
-    assert_eq!(silent(&edge(1e-3)), Verdict::Wrong);
-    assert_eq!(silent(&Solid::Inverse(Box::new(all.clone()))), Verdict::Agrees(None));
+    assert_eq!(silent(&edge(1e-3)), SolidVerdict::Wrong);
+    assert_eq!(silent(&Solid::Inverse(Box::new(all.clone()))), SolidVerdict::Agrees(None));
 }
