@@ -1,6 +1,7 @@
 //! Files that are written whole or not at all.
 
 pub mod folder;
+mod several;
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
@@ -14,6 +15,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use tempfile::NamedTempFile;
 
 pub use self::folder::Folder;
+pub use self::several::write_all;
 
 /// Writes `bytes` to `path`: into a temporary file beside it, then renamed.
 ///
@@ -22,40 +24,12 @@ pub use self::folder::Folder;
 /// # Errors
 /// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_all(&[(path, bytes)], Vec::new())
-}
-
-/// Writes several files, all or none of them, as [`write_whole`] does each, and keeps the folders that were
-/// made for them.
-///
-/// # Errors
-/// As [`write_whole`].
-pub fn write_all(files: &[(&Path, &[u8])], mut folders: Vec<Folder>) -> Result<()> {
-    let failed = |path: &Path| format!("cannot write '{}'", path.display());
-    let mut all = Vec::new();
-    for &(path, bytes) in files {
-        let mut unfinished = Unfinished::begin(path).with_context(|| failed(path))?;
-        unfinished.write(bytes).with_context(|| failed(path))?;
-        all.push(unfinished);
-    }
-    // A signal comes before the first is in its place, or after the last.
-    let mut unfinished = unfinished();
-    let mut done = Vec::new();
-    for (file, (path, _)) in all.iter_mut().zip(files) {
-        let old = if files.len() > 1 { fs::read(&file.target).ok() } else { None };
-        if let Err(error) = file.finish() {
-            for (target, old) in done {
-                let _ = match old {
-                    Some(bytes) => fs::write(target, bytes),
-                    None => fs::remove_file(target),
-                };
-            }
-            return Err(error).with_context(|| failed(path));
-        }
-        done.push((file.target.clone(), old));
-    }
-    folders.iter_mut().for_each(|folder| folder.keep_in(&mut unfinished));
-    Ok(())
+    let write = || {
+        let mut file = Unfinished::begin(path)?;
+        file.write(bytes)?;
+        file.finish()
+    };
+    write().with_context(|| format!("cannot write '{}'", path.display()))
 }
 
 /// What is unfinished at a path.

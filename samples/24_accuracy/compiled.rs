@@ -22,7 +22,7 @@ pub const DISAGREE: f64 = 1.5;
 ///
 /// # Errors
 /// If there is no such compiler, with what to install, or if it refuses a rung.
-pub fn compile(rungs: &mut [MeasuredRung], progress: &Progress) -> Result<()> {
+pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()> {
     let mut rows: Vec<&mut MeasuredRung> =
         rungs.iter_mut().filter(|row| row.blueprint.is_some()).collect();
     let blueprints: Vec<&Blueprint> =

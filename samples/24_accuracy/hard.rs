@@ -109,7 +109,7 @@ pub fn run(gpu: &Gpu, path: &Path, tops: bool, report: Option<&Path>) -> Result<
         validation_messages: Vec::new(),
     };
     let rungs: usize = Primitive::ALL.iter().map(|p| 2 * p.ladder().len()).sum();
-    let progress = Progress::new(rungs as u64, "rungs");
+    let mut progress = Progress::new(rungs as u64, "rungs");
     for primitive in Primitive::ALL {
         let own: Vec<&Case> =
             cases.iter().filter(|case| case.shape.primitive() == primitive).collect();

@@ -45,7 +45,7 @@ pub fn measure(
         .collect();
     let steps: usize = chosen.iter().map(|p| p.ladder().len()).sum();
     let families = compiled::FAMILIES.len();
-    let progress = Progress::new((2 * steps + families) as u64, "steps");
+    let mut progress = Progress::new((2 * steps + families) as u64, "steps");
     for primitive in chosen {
         let families = Family::of(primitive, rays);
         let batches = families
@@ -78,7 +78,7 @@ pub fn measure(
     }
     let no_compiler = match gpu.emulation.name() != "driver" {
         true => Some(String::from("no GPU computes as badly as it may")),
-        false => compiled::compile(&mut rungs, &progress).err().map(|why| format!("{why:#}")),
+        false => compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}")),
     };
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());

@@ -57,5 +57,9 @@ pub fn start<S: Sample>(name: &'static str, args: &Args, options: Options) -> Re
     if !args.headless {
         guard::apart::want();
     }
-    Program::of::<S>(name).start(args, &mut Instruments::new(options))
+    let program = Program::of::<S>(name);
+    match options.are_none() {
+        true => program.start(args, &mut ()),
+        false => program.start(args, &mut Instruments::new(options)),
+    }
 }

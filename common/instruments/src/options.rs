@@ -33,6 +33,15 @@ pub struct Options {
 }
 
 impl Options {
+    /// Whether nothing is asked of any instrument.
+    pub fn are_none(&self) -> bool {
+        let Self { report, compare, sums, compile_for, arithmetic } = self;
+        let told = report.report.is_some() || report.compiler_figures;
+        let rendered = compare.compare.is_some() || sums.samples.is_some();
+        let compiled = compile_for.compile_for.is_some();
+        !(told || rendered || compiled) && arithmetic.or_seeded() == Arithmetic::Driver
+    }
+
     /// Refuses options that do not go together.
     fn check(&self, args: &Args) -> Result<(), Usage> {
         let asked = args.list_controls || self.compile_for.compile_for.is_some();
@@ -69,6 +78,8 @@ pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options,
         options: Options,
     }
     let (args, More { options, own }) = Args::parse_with(name)?;
-    options.check(&args)?;
+    if !options.are_none() {
+        options.check(&args)?;
+    }
     Ok((args, options, own))
 }

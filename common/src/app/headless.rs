@@ -23,7 +23,7 @@ pub fn run(program: &Program, args: &Args, watch: &mut dyn Watch) -> Result<()> 
     run.sample.changed(&run.gpu)?;
     let frames = run.frames.clone();
     let count = frames.iter().map(|range| u64::from(range.end - range.start)).sum();
-    let progress = Progress::new(count, if run.apart { "samples" } else { "frames" });
+    let mut progress = Progress::new(count, if run.apart { "samples" } else { "frames" });
     for (number, index) in frames.into_iter().flatten().enumerate() {
         if let (true, Some(playback)) = (number > 0, run.sample.playback()) {
             playback.advance(1);

@@ -10,33 +10,42 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A bar that appears once the run has taken a while, if someone can see it.
 pub struct Progress {
-    bar: ProgressBar,
+    steps: u64,
+    done: u64,
+    /// Of what the steps are.
+    what: &'static str,
     start: Instant,
+    bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// A bar of so many steps; `what` says of what.
-    pub fn new(steps: u64, what: &str) -> Self {
-        let bar = ProgressBar::hidden();
-        bar.set_length(steps);
-        let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left");
-        let style = ProgressStyle::with_template(&template);
-        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
-        Self { bar, start: Instant::now() }
+    /// So many steps, none of them done.
+    pub fn new(steps: u64, what: &'static str) -> Self {
+        Self { steps, done: 0, what, start: Instant::now(), bar: None }
     }
 
     /// One step is done.
-    pub fn step(&self) {
-        let visible = self.start.elapsed() > PATIENCE && std::io::stderr().is_terminal();
-        if self.bar.is_hidden() && visible {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+    pub fn step(&mut self) {
+        self.done += 1;
+        if self.bar.is_none() && self.start.elapsed() > PATIENCE && std::io::stderr().is_terminal()
+        {
+            self.bar = Some(self.shown());
         }
-        self.bar.inc(1);
+        self.bar.iter().for_each(|bar| bar.set_position(self.done));
+    }
+
+    fn shown(&self) -> ProgressBar {
+        let bar = ProgressBar::with_draw_target(Some(self.steps), ProgressDrawTarget::stderr());
+        let template = format!("{{bar:40}} {{pos}}/{{len}} {}, {{eta}} left", self.what);
+        let style = ProgressStyle::with_template(&template);
+        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
+        // What is left is told by all that was done, not by what is done from now on.
+        bar.with_elapsed(self.start.elapsed())
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.bar.iter().for_each(ProgressBar::finish_and_clear);
     }
 }

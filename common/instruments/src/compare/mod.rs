@@ -86,7 +86,7 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), Usage> {
 pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
     let rounds = run.args.frames;
     let turns = u64::from(rounds) * (values.len() as u64 + 1) + values.len() as u64;
-    let progress = Progress::new(turns, "frames");
+    let mut progress = Progress::new(turns, "frames");
     // What a picture costs is known of each value.
     let mut bands = HashMap::<_, Bands>::new();
     compare(control, values, rounds, |value| {
