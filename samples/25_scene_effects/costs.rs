@@ -41,7 +41,7 @@ impl Costs {
         if let Some(last) = last.filter(|last| last.recipe == recipe) {
             return Ok(last);
         }
-        let effects = Effect::ALL.into_iter().filter(|&effect| recipe.effects.has(effect));
+        let effects = recipe.effects.all();
         // Last with all of them: that is the picture which stays.
         let timers =
             effects.map(Some).chain([None]).map(|left_out| Ok((left_out, Timer::new(gpu)?)));

@@ -3,99 +3,57 @@
 //! A chapter that adds an effect says so in its metadata (`effects` in Cargo.toml) and adds a row to
 //! [`Effect`], and to `finding.rs` the condition and the reason; a test fails until it has.
 
-use Effect::*;
+use common::gpu::ShaderEnum;
 
-/// Something that costs time and that not every scene needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum Effect {
-    /// Meshes (02).
-    Triangles,
-    /// Colours from an image, `map_Kd` (02).
-    Textures,
-    /// Surfaces with holes, `map_d` or `d` below 1 (03).
-    CutOut,
-    /// Spheres that a shader intersects (08).
-    Spheres,
-    /// Boxes that a shader intersects (08).
-    Boxes,
-    /// A landscape that a shader marches over (21).
-    Heightfield,
-    /// A plane without end (12).
-    Plane,
-    /// Convex solids that a shader intersects (22).
-    Solids,
-    /// Shadows of a light at a place (05).
-    PointShadows,
-    /// Shadows of a light at infinity (05).
-    DirectionalShadows,
-    /// Soft shadows: a light with a size (05).
-    AreaLight,
-    /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
-    Mirror,
-    /// Light that surfaces scatter onto others (11).
-    Bounces,
-    /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).
-    Glass,
-    /// Spheres and meshes that shine on others, `Ke` above 0 (29).
-    Emitters,
-    /// Marble, wood or a checker that a surface is cut from (13).
-    Patterns,
-    /// Lines along the edges of triangles (20).
-    Wireframe,
-    /// Several rays a pixel (04).
-    AntiAliasing,
-    /// A lens with a diameter (28).
-    DepthOfField,
+common::shader_enum! {
+    /// Something that costs time and that not every scene needs.
+    #[derive(PartialOrd, Ord)]
+    pub enum Effect {
+        /// Meshes (02).
+        Triangles,
+        /// Colours from an image, `map_Kd` (02).
+        Textures,
+        /// Surfaces with holes, `map_d` or `d` below 1 (03).
+        CutOut = "cut-out",
+        /// Spheres that a shader intersects (08).
+        Spheres,
+        /// Boxes that a shader intersects (08).
+        Boxes,
+        /// A landscape that a shader marches over (21).
+        Heightfield,
+        /// A plane without end (12).
+        Plane,
+        /// Convex solids that a shader intersects (22).
+        Solids,
+        /// Shadows of a light at a place (05).
+        PointShadows,
+        /// Shadows of a light at infinity (05).
+        DirectionalShadows,
+        /// Soft shadows: a light with a size (05).
+        AreaLight,
+        /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
+        Mirror,
+        /// Light that surfaces scatter onto others (11).
+        Bounces,
+        /// Surfaces that let light in, `illum` 4, 6, 7 or 9 (27).
+        Glass,
+        /// Spheres and meshes that shine on others, `Ke` above 0 (29).
+        Emitters,
+        /// Marble, wood or a checker that a surface is cut from (13).
+        Patterns,
+        /// Lines along the edges of triangles (20).
+        Wireframe,
+        /// Several rays a pixel (04).
+        AntiAliasing = "anti-aliasing",
+        /// A lens with a diameter (28).
+        DepthOfField,
+    }
 }
 
 impl Effect {
-    /// All effects, by number: that of an effect is its bit.
-    pub const ALL: [Self; 19] = [
-        Triangles,
-        Textures,
-        CutOut,
-        Spheres,
-        Boxes,
-        Heightfield,
-        Plane,
-        Solids,
-        PointShadows,
-        DirectionalShadows,
-        AreaLight,
-        Mirror,
-        Bounces,
-        Glass,
-        Emitters,
-        Patterns,
-        Wireframe,
-        AntiAliasing,
-        DepthOfField,
-    ];
-
     /// The name, as metadata, reports and controls have it.
     pub fn name(self) -> &'static str {
-        match self {
-            Triangles => "triangles",
-            Textures => "textures",
-            CutOut => "cut-out",
-            Spheres => "spheres",
-            Boxes => "boxes",
-            Heightfield => "heightfield",
-            Plane => "plane",
-            Solids => "solids",
-            PointShadows => "point shadows",
-            DirectionalShadows => "directional shadows",
-            AreaLight => "area light",
-            Mirror => "mirror",
-            Bounces => "bounces",
-            Glass => "glass",
-            Emitters => "emitters",
-            Patterns => "patterns",
-            Wireframe => "wireframe",
-            AntiAliasing => "anti-aliasing",
-            DepthOfField => "depth of field",
-        }
+        Self::LAYOUT.words[self as usize]
     }
 
     /// The macro that shaders know it by, such as `EFFECT_CUT_OUT`.
@@ -106,7 +64,7 @@ impl Effect {
 
     /// The effect of a name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|effect| effect.name() == name)
+        Self::ALL.iter().copied().find(|effect| effect.name() == name)
     }
 }
 
@@ -117,7 +75,7 @@ pub struct Effects(pub u32);
 impl Effects {
     /// Every effect that there is.
     pub fn everything() -> Self {
-        Effect::ALL.into_iter().fold(Self(0), Self::with)
+        Effect::ALL.iter().copied().fold(Self(0), Self::with)
     }
 
     /// Whether the effect is in the set.
@@ -142,7 +100,7 @@ impl Effects {
 
     /// The effects in the set, in the order of [`Effect::ALL`].
     pub fn all(self) -> impl Iterator<Item = Effect> {
-        Effect::ALL.into_iter().filter(move |&effect| self.has(effect))
+        Effect::ALL.iter().copied().filter(move |&effect| self.has(effect))
     }
 
     /// The names of the effects in the set.
@@ -153,11 +111,12 @@ impl Effects {
 
 #[cfg(test)]
 mod tests {
+    use super::Effect::*;
     use super::*;
 
     #[test]
     fn an_effects_bit_is_its_place_in_the_list() {
-        for (number, effect) in Effect::ALL.into_iter().enumerate() {
+        for (number, &effect) in Effect::ALL.iter().enumerate() {
             assert_eq!(effect as usize, number);
             assert_eq!(Effect::named(effect.name()), Some(effect));
         }

@@ -1,5 +1,6 @@
 //! What a scene calls for, found from the scene alone, with the reason.
 
+use common::gpu::ShaderEnum;
 use common::scene::{LightKind, Material};
 
 use crate::Effect::{self, *};
@@ -18,11 +19,11 @@ pub struct Finding {
 
 /// What a scene calls for: a finding for every effect, in the order of [`Effect::ALL`].
 pub fn findings(scene: &Composition) -> Vec<Finding> {
-    let finding = |effect| match found(scene, effect) {
+    let finding = |&effect| match found(scene, effect) {
         Some(why) => Finding { effect, needed: true, why },
         None => Finding { effect, needed: false, why: why_not(effect).to_owned() },
     };
-    Effect::ALL.into_iter().map(finding).collect()
+    Effect::ALL.iter().map(finding).collect()
 }
 
 /// The effects that findings call for.

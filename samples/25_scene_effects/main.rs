@@ -20,7 +20,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, anyhow};
 use ash::vk;
-use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements};
+use common::gpu::{Address, Buffer, Descriptor, Gpu, Requirements, ShaderEnum};
 use common::output;
 use common::scene::{Camera, CameraBasis, SceneAddresses, SceneOnGpu, SceneOptions, input_usage};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
@@ -110,8 +110,7 @@ impl Sample for Demo {
             self.open();
         }
         c.one_of("pipeline", &mut self.pipeline, &["specialised", "everything"]);
-        let names: Vec<&str> =
-            ["nothing"].into_iter().chain(Effect::ALL.map(Effect::name)).collect();
+        let names = [&["nothing"], Effect::LAYOUT.words].concat();
         c.one_of("without", &mut self.without, &names);
         c.checkbox("measure costs", &mut self.measure);
         c.integer("samples", &mut self.scene.samples, 1..=64);

@@ -1,5 +1,6 @@
 //! What a GPU's own compiler makes of each scene's pipeline, against that which has everything.
 
+use common::gpu::ShaderEnum;
 use effects::Effect;
 use run::{compiled_for, figures};
 use serde_json::{Map, Value};

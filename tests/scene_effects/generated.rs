@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use common::gpu::ShaderEnum;
 use effects::Effect::{self, *};
 use effects::Effects;
 use reference::random::Random;
@@ -45,7 +46,7 @@ pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
         });
         all.count() == 0
     };
-    let pairs = Effect::ALL.into_iter().flat_map(|a| Effect::ALL.map(|b| (a, b)));
+    let pairs = Effect::ALL.iter().flat_map(|&a| Effect::ALL.iter().map(move |&b| (a, b)));
     pairs.filter(|&(a, b)| a < b).find(|&(a, b)| !is_seen(a, b))
 }
 
@@ -58,7 +59,8 @@ pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
 pub fn all_pairs() -> Vec<Effects> {
     let mut random = Random(16);
     let drawn = (0..100_000).map(|_| {
-        let halves = Effect::ALL.map(|effect| (effect, half(&mut random)));
+        let halves =
+            Effect::ALL.iter().map(|&effect| (effect, half(&mut random))).collect::<Vec<_>>();
         let set = |row: u32| {
             let chosen = halves.iter().filter(|(_, half)| half >> row & 1 == 1);
             chosen.fold(Effects::default(), |set, (effect, _)| set.with(*effect))

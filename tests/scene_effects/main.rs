@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use common::app::Picture;
+use common::gpu::ShaderEnum;
 use effects::Effect::*;
 use effects::{Effect, Effects, findings, needed};
 use reference::random::Random;
@@ -92,7 +93,7 @@ const SCENES: [(&str, &[Effect], &[&str]); 18] = [
         &[Triangles, Spheres, Plane, Mirror, Bounces, Glass, Emitters, AntiAliasing],
         &["shadow.rmiss", "mesh.rchit", "sphere.rint", "shape.rchit"],
     ),
-    ("everything", &Effect::ALL, &EVERY_STAGE),
+    ("everything", Effect::ALL, &EVERY_STAGE),
 ];
 
 const EVERY_STAGE: [&str; 10] = [
@@ -227,7 +228,7 @@ fn every_scene_has_its_stages_and_looks_the_same_with_all_of_them() {
 fn taking_out_what_is_needed_changes_the_picture() {
     let with = |sets: &[&str]| run("120x75", &[], sets);
     let whole = with(&[]);
-    for effect in Effect::ALL {
+    for &effect in Effect::ALL {
         let without = with(&[&format!("without={}", effect.name())]);
         let pairs = whole.picture.pixels.iter().zip(&without.picture.pixels);
         let differ = pairs.filter(|(a, b)| a != b).count();
@@ -329,14 +330,14 @@ fn every_effect_that_a_chapter_declares_is_in_the_table_and_in_the_shaders() {
             );
         }
     }
-    for effect in Effect::ALL {
+    for &effect in Effect::ALL {
         let by = declared.iter().filter(|(_, effects)| effects.iter().any(|e| e == effect.name()));
         assert_eq!(by.count(), 1, "one chapter declares the effect '{}'", effect.name());
     }
     let folder = root().join("shaders").join(NAME);
     let everything = std::fs::read_to_string(folder.join("effects.glsl")).unwrap();
     let sources: Vec<String> = files(&folder);
-    for effect in Effect::ALL {
+    for &effect in Effect::ALL {
         let define = effect.define();
         assert!(everything.contains(&format!("#define {define}\n")), "effects.glsl lacks {define}");
         // Each effect has a stage or a line of its own. Geometry has none: its stages are chosen.
@@ -358,7 +359,7 @@ fn the_page_lists_every_scene_and_every_key_of_the_file() {
         let file = format!("{}.toml", name.replace(' ', "_"));
         assert!(page.contains(&format!("(../samples/assets/scenes/{file})")), "{file}");
     }
-    for effect in Effect::ALL {
+    for &effect in Effect::ALL {
         assert!(page.contains(&format!("| {} |", effect.name())), "{}", effect.name());
     }
     // What the reader of files says that it knows, table by table.
