@@ -104,12 +104,6 @@ mod crashes {
 
     use super::{SAID, is_traced};
 
-    unsafe extern "C" {
-        /// `std::set_new_handler`: what C++ calls where `new` finds no memory, before it throws.
-        #[link_name = "_ZSt15set_new_handlerPFvvE"]
-        fn set_new_handler(handler: extern "C" fn()) -> Option<extern "C" fn()>;
-    }
-
     /// From now on, a crash of the driver or of the shader compiler ends the process in one line, and so does a
     /// file that grows beyond the system's limit. With `RUST_BACKTRACE` set, a crash is the system's, which may
     /// keep its memory for a debugger.
@@ -119,7 +113,6 @@ mod crashes {
         unsafe {
             // Then the write fails, and what was half written is removed.
             libc::signal(SIGXFSZ, libc::SIG_IGN);
-            set_new_handler(no_memory);
             if is_traced() {
                 return;
             }
@@ -131,10 +124,6 @@ mod crashes {
                 libc::sigaction(signal, &action, std::ptr::null_mut());
             }
         }
-    }
-
-    extern "C" fn no_memory() {
-        end("error: no memory left for the driver or the shader compiler\n")
     }
 
     /// Nothing can be put together where a signal is handled.
