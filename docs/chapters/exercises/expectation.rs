@@ -86,9 +86,10 @@ fn other(text: &str) -> Option<Other> {
 impl Expectation {
     /// Reads one; `None` if it is none.
     pub fn parse(text: &str) -> Option<Self> {
+        type Of = fn(String) -> Expectation;
         let after =
             |start: &str| text.strip_prefix(start).map(str::trim).filter(|rest| !rest.is_empty());
-        let texts: [(&str, fn(String) -> Self); 4] = [
+        let texts: [(&str, Of); 4] = [
             ("says ", Self::Says),
             ("refused:", Self::Refused),
             ("validation:", Self::Validation),
