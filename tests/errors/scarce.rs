@@ -21,7 +21,7 @@ fn limited(limit: &str, program: &str) -> Command {
 
 /// Exit code 0 and nothing said, or 1 and one line of the program's own; whether it was the first.
 ///
-/// What the driver and its compiler write themselves, before they give up, may stand above that line.
+/// What Rust, the driver and its compiler write themselves, before they give up, may stand above that line.
 #[track_caller]
 fn done_or_said(what: &str, output: Output) -> bool {
     let errors = String::from_utf8_lossy(&output.stderr);

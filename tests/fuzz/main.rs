@@ -6,7 +6,6 @@
 
 mod functions;
 mod long;
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
 mod memory;
 mod planted;
 mod programs;

@@ -124,7 +124,6 @@ fn a_long_time_is_found() {
     assert!(matches!(fault, Fault::Slow(time) if time.as_millis() >= 1200), "{fault}");
 }
 
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[test]
 fn memory_without_a_bound_is_found() {
     let fault = found_in(|path| {
@@ -137,7 +136,6 @@ fn memory_without_a_bound_is_found() {
     assert_eq!(fault, Fault::Memory(FUNCTION.memory as u64));
 }
 
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[test]
 fn memory_for_what_a_header_promises_is_found() {
     // As many texels as the file says, whatever it has: nothing of them is ever touched.

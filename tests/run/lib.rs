@@ -37,13 +37,8 @@ pub struct Run {
 }
 
 /// What a program says when it has panicked or crashed, or has no memory left: one line, but no refusal.
-pub const MISTAKES: [&str; 5] = [
-    "this is a mistake of the program",
-    "panicked at",
-    "no memory left",
-    "crashed (SIG",
-    "gave up (SIG",
-];
+pub const MISTAKES: [&str; 4] =
+    ["this is a mistake of the program", "panicked at", "crashed (SIG", "gave up (SIG"];
 
 /// A command that runs the binary `name` in the project's root, as users have it: without a backtrace.
 pub fn command(name: &str) -> Command {

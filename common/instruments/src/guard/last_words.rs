@@ -1,7 +1,5 @@
 //! What a program says when it cannot go on: one line, and exit code 1, as with any other error.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::io::{Write, stderr};
 use std::panic::PanicHookInfo;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -40,50 +38,6 @@ fn line(info: &PanicHookInfo) -> String {
         true => format!("error: the window system failed: {said}"),
         false => format!("error: this is a mistake of the program, at {file}:{line}: {said}"),
     }
-}
-
-/// The system's allocator. Where that has nothing left, the process ends in one line.
-struct Allocator;
-
-#[global_allocator]
-static ALLOCATOR: Allocator = Allocator;
-
-// SAFETY: every call is passed on as it came.
-unsafe impl GlobalAlloc for Allocator {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: the caller's promise, here and below.
-        given(unsafe { System.alloc(layout) }, layout.size())
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as above.
-        given(unsafe { System.alloc_zeroed(layout) }, layout.size())
-    }
-
-    unsafe fn realloc(&self, old: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // SAFETY: as above.
-        given(unsafe { System.realloc(old, layout, size) }, size)
-    }
-
-    unsafe fn dealloc(&self, old: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(old, layout) }
-    }
-}
-
-fn given(memory: *mut u8, size: usize) -> *mut u8 {
-    if memory.is_null() {
-        no_memory(size);
-    }
-    memory
-}
-
-#[cold]
-fn no_memory(size: usize) -> ! {
-    SAID.store(true, Ordering::Relaxed);
-    // Nothing here may allocate: standard error is not buffered, and numbers are written to it as they are made.
-    let _ = writeln!(stderr(), "error: no memory left for {size} bytes more");
-    std::process::exit(1)
 }
 
 /// Elsewhere the system says what has crashed.
@@ -145,7 +99,11 @@ mod crashes {
             SIGBUS => crash!("crashed", "SIGBUS"),
             SIGILL => crash!("crashed", "SIGILL"),
             SIGFPE => crash!("crashed", "SIGFPE"),
-            _ => crash!("gave up", "SIGABRT"),
+            // Rust does so where it gets no memory, and has said how much it asked for.
+            _ => {
+                "error: no memory left, or the driver or the shader compiler gave up (SIGABRT): --validate may say \
+                 why\n"
+            }
         })
     }
 
