@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::heightfield::HeightfieldShape;
+use super::shape::HeightfieldShape;
 
 /// How wide a hill is, and the pond beside it.
 pub const CELL: f32 = 16.0;

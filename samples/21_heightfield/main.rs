@@ -4,9 +4,9 @@
 //! stand on the ground, views of steps and errors, and five views of the land.
 
 mod ground;
-mod heightfield;
 mod land;
 mod scenes;
+mod shape;
 
 use std::process::ExitCode;
 

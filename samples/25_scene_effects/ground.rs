@@ -4,7 +4,7 @@ use common::gpu::order::Bounds;
 use effects::Heightfield;
 use glam::{Vec3, Vec3Swizzles};
 
-use crate::heightfield::HeightfieldShape;
+use crate::shape::HeightfieldShape;
 
 common::shader_struct! {
     /// The ground as shaders get it.

@@ -7,12 +7,12 @@ mod contents;
 mod costs;
 mod geometry;
 mod ground;
-#[path = "../21_heightfield/heightfield.rs"]
-mod heightfield;
 mod panel;
 mod recipe;
 mod report;
 mod scenes;
+#[path = "../21_heightfield/shape.rs"]
+mod shape;
 mod world;
 
 use std::path::PathBuf;

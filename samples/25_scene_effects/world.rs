@@ -12,7 +12,7 @@ use effects::{
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::ground::Ground;
-use crate::heightfield::HeightfieldShape;
+use crate::shape::HeightfieldShape;
 
 /// Where shaders find the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]

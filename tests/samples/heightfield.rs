@@ -9,14 +9,14 @@ mod world;
 #[path = "../../samples/21_heightfield/ground.rs"]
 mod ground;
 #[allow(dead_code)]
-#[path = "../../samples/21_heightfield/heightfield.rs"]
-mod heightfield;
-#[allow(dead_code)]
 #[path = "../../samples/21_heightfield/land.rs"]
 mod land;
 #[allow(dead_code)]
 #[path = "../../samples/21_heightfield/scenes.rs"]
 mod scenes;
+#[allow(dead_code)]
+#[path = "../../samples/21_heightfield/shape.rs"]
+mod shape;
 
 use common::app::Picture;
 use glam::DVec3;

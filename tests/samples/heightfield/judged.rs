@@ -5,7 +5,7 @@ use reference::heightfield::Heightfield;
 use reference::{Ray, Surface};
 
 use super::ground::Landscape;
-use super::heightfield::HeightfieldShape;
+use super::shape::HeightfieldShape;
 
 /// What is wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
