@@ -3,7 +3,7 @@
 
 use anyhow::Result;
 use ash::vk;
-use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Input};
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu};
 use common::scene::{input_usage, instance_bytes};
 
 use super::costs::Costs;
@@ -108,8 +108,8 @@ impl Levels {
         let is_built = |policy| anew || policy == Policy::Rebuilt;
         let (geometry, [for_flag, for_top]) = ([flag.geometry()], &self.scratch);
         self.costs.time(cmd, 0, is_built(plan.flag), || match is_built(plan.flag) {
-            true => self.flag.rebuild(cmd, Input::Geometries(&geometry), for_flag),
-            false => self.flag.update(cmd, Input::Geometries(&geometry), for_flag),
+            true => self.flag.rebuild(cmd, &geometry, for_flag),
+            false => self.flag.update(cmd, &geometry, for_flag),
         })?;
 
         // An update keeps the order of the build: instance i of both is the same piece.
@@ -119,10 +119,11 @@ impl Levels {
         let instances = world.instances(frame, &self.order, &self.flag);
         let bytes: Vec<u8> = instances.iter().flat_map(instance_bytes).collect();
         self.instances.update(cmd, &bytes)?;
-        let input = Input::Instances(self.instances.address, instances.len() as u32);
+        let count = instances.len() as u32;
+        let input = [Geometry::Instances { instances: self.instances.address, count }];
         self.costs.time(cmd, 1, is_built(plan.top), || match is_built(plan.top) {
-            true => self.tlas.rebuild(cmd, input, for_top),
-            false => self.tlas.update(cmd, input, for_top),
+            true => self.tlas.rebuild(cmd, &input, for_top),
+            false => self.tlas.update(cmd, &input, for_top),
         })
     }
     // ANCHOR_END: show

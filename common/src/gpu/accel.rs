@@ -1,12 +1,14 @@
 //! Acceleration structures: bottom levels of triangles or boxes, top levels of instances.
 //!
 //! A build needs three sizes from the driver (structure, build scratch, update scratch), a buffer for
-//! the structure and one for the scratch; structures that are built together share both. Compaction copies a structure into a buffer of the size that
-//! it turned out to need; an update moves primitives without changing which there are.
+//! the structure and one for the scratch; structures that are built together share both. Compaction copies
+//! a structure into a buffer of the size that it turned out to need; an update moves primitives without
+//! changing which there are.
 
-mod batch;
+mod build;
 mod compaction;
-mod input;
+mod place;
+mod plan;
 mod update;
 
 use std::sync::Arc;
@@ -15,9 +17,8 @@ use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::geometry::Geometry;
-use super::{Buffer, Gpu, barrier};
-pub use input::Input;
-use input::Shape;
+use super::{Buffer, Gpu};
+use plan::Plan;
 
 /// What a build may cost and allow later.
 #[derive(Clone, Copy, Default)]
@@ -44,20 +45,6 @@ pub struct AccelerationStructure {
     /// Where it lies, others that were built with it beside it.
     _buffer: Arc<Buffer>,
     gpu: Gpu,
-}
-
-/// What is known of a structure before it is built, and what a build in its place or an update must know.
-#[derive(Clone)]
-struct Plan {
-    name: String,
-    options: BuildOptions,
-    shape: Shape,
-    /// Bytes that a build needs for the structure: more than it has, once it is compacted.
-    size: u64,
-    /// Bytes that a build needs beside it.
-    build_scratch: u64,
-    /// Bytes that an update needs beside it.
-    update_scratch: u64,
 }
 
 impl AccelerationStructure {
@@ -89,19 +76,17 @@ impl AccelerationStructure {
             let total: u64 = geometries.iter().map(|geometry| u64::from(geometry.count())).sum();
             ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
         }
-        let inputs: Vec<_> =
-            inputs.iter().map(|&(name, list)| (name, Input::Geometries(list))).collect();
-        batch::build(gpu, &inputs, options)
+        build::build(gpu, inputs, options)
     }
 
     /// Bytes that a build in its place needs beside it.
     pub fn build_scratch(&self) -> u64 {
-        self.plan.build_scratch
+        self.plan.sizes.build_scratch_size
     }
 
     /// Bytes that an update needs beside it.
     pub fn update_scratch(&self) -> u64 {
-        self.plan.update_scratch
+        self.plan.sizes.update_scratch_size
     }
 
     /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
@@ -123,8 +108,8 @@ impl AccelerationStructure {
             "'{name}' has {count} instances; {} takes {limit}",
             gpu.name
         );
-        let input = Input::Instances(instances.address, count);
-        Ok(batch::build(gpu, &[(name, input)], options)?.remove(0))
+        let input = [Geometry::Instances { instances: instances.address, count }];
+        Ok(build::build(gpu, &[(name, &input)], options)?.remove(0))
     }
 }
 
@@ -136,44 +121,4 @@ impl Drop for AccelerationStructure {
         }
         self.gpu.count(|statistics| statistics.acceleration_structure_bytes -= self.size);
     }
-}
-
-fn flags(options: BuildOptions) -> vk::BuildAccelerationStructureFlagsKHR {
-    use vk::BuildAccelerationStructureFlagsKHR as Flags;
-    let mut flags = Flags::PREFER_FAST_TRACE;
-    if options.updatable {
-        flags |= Flags::ALLOW_UPDATE;
-    }
-    if options.compact {
-        flags |= Flags::ALLOW_COMPACTION;
-    }
-    if options.data_access {
-        flags |= Flags::ALLOW_DATA_ACCESS;
-    }
-    flags
-}
-
-fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
-    let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment)
-}
-
-fn ranges(counts: &[u32]) -> Vec<vk::AccelerationStructureBuildRangeInfoKHR> {
-    let range = vk::AccelerationStructureBuildRangeInfoKHR::default();
-    counts.iter().map(|&count| range.primitive_count(count)).collect()
-}
-
-/// Records builds that do not depend on each other, each with scratch of its own.
-fn record_builds(
-    gpu: &Gpu,
-    cmd: vk::CommandBuffer,
-    infos: &[vk::AccelerationStructureBuildGeometryInfoKHR],
-    ranges: &[&[vk::AccelerationStructureBuildRangeInfoKHR]],
-) {
-    barrier::trace_to_build(gpu, cmd);
-    barrier::between_builds(gpu, cmd);
-    // SAFETY: every address in infos belongs to a buffer that outlives the submission.
-    unsafe { gpu.acceleration_structure.cmd_build_acceleration_structures(cmd, infos, ranges) };
-    barrier::between_builds(gpu, cmd);
-    barrier::build_to_trace(gpu, cmd);
 }

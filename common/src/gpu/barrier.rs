@@ -22,6 +22,12 @@ const BUILD: Stage = Stage::ACCELERATION_STRUCTURE_BUILD_KHR;
 /// Where rays are traced: in ray tracing pipelines, and by ray queries in compute shaders.
 const TRACE: Stage =
     Stage::from_raw(Stage::RAY_TRACING_SHADER_KHR.as_raw() | Stage::COMPUTE_SHADER.as_raw());
+/// What clears, fills or updates a buffer or an image.
+const FILL: (Stage, Access) =
+    (Stage::from_raw(Stage::CLEAR.as_raw() | Stage::COPY.as_raw()), Access::TRANSFER_WRITE);
+/// What adds to a buffer or an image in a shader.
+const STORAGE: Access =
+    Access::from_raw(Access::SHADER_STORAGE_READ.as_raw() | Access::SHADER_STORAGE_WRITE.as_raw());
 
 /// Uploaded bytes become visible to builds (vertices, instances) and to every shader.
 pub fn after_upload(gpu: &Gpu, cmd: vk::CommandBuffer) {
@@ -49,27 +55,23 @@ pub fn build_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
 
 /// What one trace wrote (an accumulation buffer, a list of hits) becomes visible to the next.
 pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;
-    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, both));
+    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, STORAGE));
 }
 
 /// What earlier traces read and wrote in a buffer comes before a transfer clears it.
 pub fn trace_to_fill(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
-    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), written);
+    memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), FILL);
 }
 
 /// A buffer cleared or filled by a transfer becomes visible to the trace that adds to it.
 pub fn fill_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    let both = Access::SHADER_STORAGE_READ | Access::SHADER_STORAGE_WRITE;
-    memory(gpu, cmd, (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE), (TRACE, both));
+    memory(gpu, cmd, FILL, (TRACE, STORAGE));
 }
 
 /// Earlier traces have read an acceleration structure before a build or an update changes it.
 pub fn trace_to_build(gpu: &Gpu, cmd: vk::CommandBuffer) {
     // Nothing was written that the build would have to see: waiting is enough.
-    let written = Access::ACCELERATION_STRUCTURE_WRITE_KHR;
-    memory(gpu, cmd, (TRACE, Access::NONE), (BUILD, written));
+    memory(gpu, cmd, (TRACE, Access::NONE), (BUILD, Access::ACCELERATION_STRUCTURE_WRITE_KHR));
 }
 
 /// Earlier traces and builds have read vertices before a compute shader moves them.
@@ -88,14 +90,12 @@ pub fn deform_to_build(gpu: &Gpu, cmd: vk::CommandBuffer) {
 /// Earlier traces and builds have read a buffer before a recorded update changes it.
 pub fn reads_to_update(gpu: &Gpu, cmd: vk::CommandBuffer) {
     // Nothing was written that the update would have to see: waiting is enough.
-    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
-    memory(gpu, cmd, (TRACE | BUILD, Access::NONE), written);
+    memory(gpu, cmd, (TRACE | BUILD, Access::NONE), FILL);
 }
 
 /// What was recorded into a buffer becomes visible to the traces and the builds that read it.
 pub fn update_to_reads(gpu: &Gpu, cmd: vk::CommandBuffer) {
-    let written = (Stage::CLEAR | Stage::COPY, Access::TRANSFER_WRITE);
-    memory(gpu, cmd, written, (TRACE | BUILD, Access::SHADER_READ));
+    memory(gpu, cmd, FILL, (TRACE | BUILD, Access::SHADER_READ));
 }
 
 /// Earlier traces are done with the shader binding table before a transfer changes it.

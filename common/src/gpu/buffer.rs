@@ -7,15 +7,13 @@ use anyhow::{Context, Result, ensure};
 use ash::vk;
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
+use super::memory::Memory;
+use super::staging::{Staging, read_back};
 use super::{Gpu, barrier};
 
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
 const MOST_UPDATED: usize = 65_536;
-
-/// How many bytes a staging buffer has at most: what is larger goes in parts, and memory does not hold it twice.
-const MOST_STAGED: u64 = 32 << 20;
 
 /// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
 /// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
@@ -30,7 +28,7 @@ pub struct Buffer {
     pub size: u64,
     /// Its device address; 0 unless made with `SHADER_DEVICE_ADDRESS`.
     pub address: vk::DeviceAddress,
-    allocation: Option<Allocation>,
+    memory: Option<Memory>,
     gpu: Gpu,
 }
 
@@ -67,25 +65,40 @@ impl Buffer {
         data: &[T],
         usage: vk::BufferUsageFlags,
     ) -> Result<Self> {
-        let bytes: &[u8] = bytemuck::cast_slice(data);
-        let buffer =
-            Self::new(gpu, name, bytes.len() as u64, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
-        buffer.write(0, data)?;
-        Ok(buffer)
+        Ok(Self::with_arrays(gpu, name, &[data], usage)?.0)
     }
 
-    /// A buffer that the host has mapped, to write into (`CpuToGpu`) or read from (`GpuToCpu`).
+    /// A buffer in device memory that holds arrays one after the other, and the address of each, a multiple of
+    /// [`ADDRESS_ALIGNMENT`].
+    ///
+    /// A buffer for each would cost time and memory, and a device has room for some thousands of allocations
+    /// only.
     ///
     /// # Errors
-    /// As [`Buffer::new`].
-    pub fn mapped(
+    /// As [`Buffer::with_data`].
+    pub fn with_arrays<T: Pod, A: AsRef<[T]>>(
         gpu: &Gpu,
         name: &str,
-        size: u64,
+        arrays: &[A],
         usage: vk::BufferUsageFlags,
-        location: MemoryLocation,
-    ) -> Result<Self> {
-        Self::in_memory(gpu, name, size, usage, location, 1)
+    ) -> Result<(Self, Vec<vk::DeviceAddress>)> {
+        // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
+        let sizes = arrays.iter().map(|array| size_of_val(array.as_ref()).max(1) as u64);
+        let (offsets, size) = offsets(sizes, ADDRESS_ALIGNMENT);
+        let buffer = Self::new(gpu, name, size, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
+        let mut staging = Staging::new(gpu, size as usize)?;
+        for (array, &offset) in arrays.iter().zip(&offsets) {
+            staging.to_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
+        }
+        staging.submit()?;
+        let addresses = offsets.iter().map(|offset| buffer.address + offset).collect();
+        Ok((buffer, addresses))
+    }
+
+    /// A buffer that the host has mapped, to copy from (`CpuToGpu`) or to (`GpuToCpu`).
+    pub(super) fn mapped(gpu: &Gpu, name: &str, size: u64, at: MemoryLocation) -> Result<Self> {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        Self::in_memory(gpu, name, size, usage, at, 1)
     }
 
     fn in_memory(
@@ -108,34 +121,24 @@ impl Buffer {
         // SAFETY: the device is alive; the buffer is destroyed on every path below.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }
             .with_context(|| format!("cannot make the buffer '{name}' of {size} bytes"))?;
-        let mut buffer = Self { handle, size, address: 0, allocation: None, gpu: gpu.clone() };
+        let mut buffer = Self { handle, size, address: 0, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
         let addressed = usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS);
         let alignment = alignment.max(if addressed { ADDRESS_ALIGNMENT } else { 1 });
         requirements.alignment = requirements.alignment.max(alignment);
-        let allocation = gpu
-            .allocator
-            .lock()
-            .map_err(|_| anyhow::anyhow!("an allocating thread panicked"))?
-            .allocate(&AllocationCreateDesc {
-                name,
-                requirements,
-                location,
-                linear: true,
-                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-            })
-            .with_context(|| format!("no memory for the buffer '{name}' of {size} bytes"))?;
-        // SAFETY: the memory is bound below and freed after the buffer.
-        let (memory, offset) = unsafe { (allocation.memory(), allocation.offset()) };
+        let no_memory = || format!("no memory for the buffer '{name}' of {size} bytes");
+        let memory =
+            Memory::new(gpu, name, requirements, location, true).with_context(no_memory)?;
+        let allocation = &buffer.memory.insert(memory).allocation;
+        let offset = allocation.offset();
         // Where the host has no room to map it, some drivers hand out `MAP_FAILED`, which is -1.
         let start = |at: NonNull<c_void>| at.addr().get().wrapping_sub(offset as usize);
         let unmapped = allocation.mapped_ptr().is_some_and(|at| start(at) == usize::MAX);
-        buffer.allocation = Some(allocation);
         ensure!(!unmapped, "no address space for the buffer '{name}' of {size} bytes");
         // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
-        unsafe { gpu.device.bind_buffer_memory(handle, memory, offset) }
-            .with_context(|| format!("no memory for the buffer '{name}' of {size} bytes"))?;
+        unsafe { gpu.device.bind_buffer_memory(handle, allocation.memory(), offset) }
+            .with_context(no_memory)?;
         if addressed {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.
@@ -157,43 +160,15 @@ impl Buffer {
     /// If the data does not fit, or the copy fails.
     pub fn write<T: Pod>(&self, offset: u64, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
-        if bytes.is_empty() {
-            return Ok(());
-        }
         ensure!(
             offset + bytes.len() as u64 <= self.size,
             "{} bytes at {offset} do not fit a buffer of {} bytes",
             bytes.len(),
             self.size
         );
-        let mut staging = Self::staging(&self.gpu, bytes.len() as u64)?;
-        let mut at = offset;
-        for part in bytes.chunks(MOST_STAGED as usize) {
-            staging.mapped_bytes()[..part.len()].copy_from_slice(part);
-            self.copy_from(&staging, part.len() as u64, at)?;
-            at += part.len() as u64;
-        }
-        Ok(())
-    }
-
-    /// A mapped buffer for [`Buffer::copy_from`]: as large as what is to be copied, but no larger than a few
-    /// copies one after the other need.
-    pub(super) fn staging(gpu: &Gpu, size: u64) -> Result<Self> {
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-        Self::mapped(gpu, "staging", size.min(MOST_STAGED), usage, MemoryLocation::CpuToGpu)
-    }
-
-    /// Copies the first bytes of `staging` to the buffer, `offset` bytes from its start, and waits for it.
-    pub(super) fn copy_from(&self, staging: &Self, size: u64, offset: u64) -> Result<()> {
-        self.gpu.submit(|cmd| {
-            let region = vk::BufferCopy::default().dst_offset(offset).size(size);
-            // SAFETY: both buffers outlive the submission, which is waited for.
-            unsafe {
-                self.gpu.device.cmd_copy_buffer(cmd, staging.handle, self.handle, &[region]);
-            }
-            barrier::after_upload(&self.gpu, cmd);
-            Ok(())
-        })
+        let mut staging = Staging::new(&self.gpu, bytes.len())?;
+        staging.to_buffer(self, offset, bytes)?;
+        staging.submit()
     }
 
     /// Records that the buffer begins with `data` for the traces and builds that follow in `cmd`; the host does
@@ -237,34 +212,22 @@ impl Buffer {
     /// # Errors
     /// If the copy fails.
     pub fn read<T: Pod>(&self) -> Result<Vec<T>> {
-        let mut staging = Self::mapped(
-            &self.gpu,
-            "readback",
-            self.size,
-            vk::BufferUsageFlags::TRANSFER_DST,
-            MemoryLocation::GpuToCpu,
-        )?;
-        self.gpu.submit(|cmd| {
+        let mut copy = read_back(&self.gpu, "readback", self.size, |cmd, to| {
             let region = vk::BufferCopy::default().size(self.size);
-            barrier::before_readback(&self.gpu, cmd);
             // SAFETY: both buffers outlive the submission, which is waited for.
-            unsafe {
-                self.gpu.device.cmd_copy_buffer(cmd, self.handle, staging.handle, &[region]);
-            }
-            barrier::after_readback(&self.gpu, cmd);
-            Ok(())
+            unsafe { self.gpu.device.cmd_copy_buffer(cmd, self.handle, to, &[region]) };
         })?;
         let whole = self.size as usize / size_of::<T>() * size_of::<T>();
-        Ok(bytemuck::pod_collect_to_vec(&staging.mapped_bytes()[..whole]))
+        Ok(bytemuck::pod_collect_to_vec(&copy.mapped_bytes()[..whole]))
     }
 
-    /// The mapped bytes of a buffer made with [`Buffer::mapped`].
+    /// The bytes of a mapped buffer.
     ///
     /// # Panics
     /// If the buffer lives in device memory only.
-    pub fn mapped_bytes(&mut self) -> &mut [u8] {
-        let allocation = self.allocation.as_mut().expect("a live buffer has its memory");
-        let bytes = allocation.mapped_slice_mut().expect("the buffer was made with Buffer::mapped");
+    pub(super) fn mapped_bytes(&mut self) -> &mut [u8] {
+        let memory = self.memory.as_mut().expect("a live buffer has its memory");
+        let bytes = memory.allocation.mapped_slice_mut().expect("the buffer was made mapped");
         &mut bytes[..self.size as usize]
     }
 }
@@ -273,11 +236,26 @@ impl Drop for Buffer {
     fn drop(&mut self) {
         // SAFETY: submissions are waited for, so the device no longer uses the buffer.
         unsafe { self.gpu.device.destroy_buffer(self.handle, None) };
-        if let (Some(allocation), Ok(mut allocator)) =
-            (self.allocation.take(), self.gpu.allocator.lock())
-        {
-            // Freeing fails only for memory of another allocator.
-            let _ = allocator.free(allocation);
-        }
+    }
+}
+
+/// Where parts of these sizes lie one after the other, each at a multiple of `alignment`, and what they take.
+pub(super) fn offsets(sizes: impl Iterator<Item = u64>, alignment: u64) -> (Vec<u64>, u64) {
+    let mut end = 0u64;
+    let offsets = sizes.map(|size| {
+        let offset = end.next_multiple_of(alignment);
+        end = offset + size;
+        offset
+    });
+    (offsets.collect(), end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_begins_where_it_may_and_ends_before_the_next() {
+        assert_eq!(offsets([1, 256, 300, 7].into_iter(), 256), (vec![0, 256, 512, 1024], 1031));
     }
 }

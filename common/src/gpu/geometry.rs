@@ -4,7 +4,8 @@ use std::fmt::{Display, Formatter};
 
 use ash::vk;
 
-/// What a bottom level is built from.
+/// What an acceleration structure is built from: a bottom level from triangles and boxes, a top level from
+/// instances.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Geometry {
     /// Indexed triangles: three `u32` each, over positions of three `f32`.
@@ -33,12 +34,21 @@ pub enum Geometry {
         /// Never call an any-hit shader for it.
         opaque: bool,
     },
+    /// Bottom levels in their places: a top level's only geometry.
+    Instances {
+        /// Address of the first `VkAccelerationStructureInstanceKHR`.
+        instances: vk::DeviceAddress,
+        /// How many instances there are.
+        count: u32,
+    },
 }
 
 impl Geometry {
-    /// How many triangles or boxes there are.
+    /// How many triangles, boxes or instances there are.
     pub fn count(&self) -> u32 {
-        let (Self::Triangles { count, .. } | Self::Aabbs { count, .. }) = *self;
+        let (Self::Triangles { count, .. }
+        | Self::Aabbs { count, .. }
+        | Self::Instances { count, .. }) = *self;
         count
     }
 
@@ -58,22 +68,15 @@ impl Geometry {
                 }
             }
             Self::Aabbs { count, opaque, .. } => Self::Aabbs { boxes: 0, count, opaque },
+            Self::Instances { count, .. } => Self::Instances { instances: 0, count },
         }
     }
 
     /// As Vulkan takes it.
     pub(super) fn described(&self) -> vk::AccelerationStructureGeometryKHR<'static> {
         let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
-        let (kind, data, opaque, once) = match *self {
-            Self::Triangles {
-                vertices,
-                vertex_stride,
-                vertex_count,
-                indices,
-                opaque,
-                no_duplicate_any_hit,
-                ..
-            } => (
+        let (kind, data) = match *self {
+            Self::Triangles { vertices, vertex_stride, vertex_count, indices, .. } => (
                 vk::GeometryTypeKHR::TRIANGLES,
                 vk::AccelerationStructureGeometryDataKHR {
                     triangles: vk::AccelerationStructureGeometryTrianglesDataKHR::default()
@@ -84,19 +87,34 @@ impl Geometry {
                         .index_type(vk::IndexType::UINT32)
                         .index_data(address(indices)),
                 },
-                opaque,
-                no_duplicate_any_hit,
             ),
-            Self::Aabbs { boxes, opaque, .. } => (
+            Self::Aabbs { boxes, .. } => (
                 vk::GeometryTypeKHR::AABBS,
                 vk::AccelerationStructureGeometryDataKHR {
                     aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
                         .data(address(boxes))
                         .stride(size_of::<vk::AabbPositionsKHR>() as u64),
                 },
-                opaque,
-                false,
             ),
+            Self::Instances { instances, .. } => (
+                vk::GeometryTypeKHR::INSTANCES,
+                vk::AccelerationStructureGeometryDataKHR {
+                    instances: vk::AccelerationStructureGeometryInstancesDataKHR::default()
+                        .data(address(instances)),
+                },
+            ),
+        };
+        vk::AccelerationStructureGeometryKHR::default()
+            .geometry_type(kind)
+            .geometry(data)
+            .flags(self.flags())
+    }
+
+    fn flags(&self) -> vk::GeometryFlagsKHR {
+        let (opaque, once) = match *self {
+            Self::Triangles { opaque, no_duplicate_any_hit, .. } => (opaque, no_duplicate_any_hit),
+            Self::Aabbs { opaque, .. } => (opaque, false),
+            Self::Instances { .. } => (false, false),
         };
         let mut flags = vk::GeometryFlagsKHR::empty();
         if opaque {
@@ -105,10 +123,7 @@ impl Geometry {
         if once {
             flags |= vk::GeometryFlagsKHR::NO_DUPLICATE_ANY_HIT_INVOCATION;
         }
-        vk::AccelerationStructureGeometryKHR::default()
-            .geometry_type(kind)
-            .geometry(data)
-            .flags(flags)
+        flags
     }
 }
 
@@ -122,18 +137,7 @@ impl Display for Geometry {
                 write!(f, "{count} triangles of {vertex_count} vertices, {}{once}", opaque(is))
             }
             Self::Aabbs { count, opaque: is, .. } => write!(f, "{count} boxes, {}", opaque(is)),
+            Self::Instances { count, .. } => write!(f, "{count} instances"),
         }
     }
-}
-
-/// A top level's only geometry, as Vulkan takes it.
-pub(super) fn of_instances(
-    instances: vk::DeviceAddress,
-) -> vk::AccelerationStructureGeometryKHR<'static> {
-    let data = vk::DeviceOrHostAddressConstKHR { device_address: instances };
-    vk::AccelerationStructureGeometryKHR::default()
-        .geometry_type(vk::GeometryTypeKHR::INSTANCES)
-        .geometry(vk::AccelerationStructureGeometryDataKHR {
-            instances: vk::AccelerationStructureGeometryInstancesDataKHR::default().data(data),
-        })
 }

@@ -6,10 +6,35 @@ mod texels;
 use anyhow::{Context, Result, ensure};
 use ash::vk;
 use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
-use super::{Buffer, Gpu, barrier};
+use super::memory::Memory;
+use super::staging::read_back;
+use super::{Gpu, barrier};
 pub use texels::Texels;
+
+/// The one mip level and layer that every image of colour here has.
+const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    base_mip_level: 0,
+    level_count: 1,
+    base_array_layer: 0,
+    layer_count: 1,
+};
+
+/// A copy between them and a buffer, but for its extent.
+pub(super) const COPY: vk::BufferImageCopy = vk::BufferImageCopy {
+    buffer_offset: 0,
+    buffer_row_length: 0,
+    buffer_image_height: 0,
+    image_subresource: vk::ImageSubresourceLayers {
+        aspect_mask: vk::ImageAspectFlags::COLOR,
+        mip_level: 0,
+        base_array_layer: 0,
+        layer_count: 1,
+    },
+    image_offset: vk::Offset3D { x: 0, y: 0, z: 0 },
+    image_extent: vk::Extent3D { width: 0, height: 0, depth: 1 },
+};
 
 /// A `VkImage` with one mip level, its memory and a view, freed on drop.
 pub struct Image {
@@ -21,7 +46,7 @@ pub struct Image {
     pub extent: vk::Extent2D,
     /// The format.
     pub format: vk::Format,
-    allocation: Option<Allocation>,
+    memory: Option<Memory>,
     gpu: Gpu,
 }
 
@@ -37,18 +62,12 @@ impl Image {
         let format = vk::Format::R32G32B32A32_SFLOAT;
         let image = Self::new(gpu, name, extent, format, format, usage)?;
         gpu.submit(|cmd| {
-            image.transition(cmd, vk::ImageLayout::UNDEFINED, vk::ImageLayout::GENERAL);
-            let range = whole();
+            let layout = vk::ImageLayout::GENERAL;
+            image.transition(cmd, vk::ImageLayout::UNDEFINED, layout);
             let black = vk::ClearColorValue::default();
             // SAFETY: the image is in GENERAL and outlives the submission.
             unsafe {
-                gpu.device.cmd_clear_color_image(
-                    cmd,
-                    image.handle,
-                    vk::ImageLayout::GENERAL,
-                    &black,
-                    &[range],
-                );
+                gpu.device.cmd_clear_color_image(cmd, image.handle, layout, &black, &[WHOLE]);
             }
             barrier::fill_to_trace(gpu, cmd);
             Ok(())
@@ -118,15 +137,14 @@ impl Image {
             "{width}x{height} is not a size that {} can do: each side must be 1 to {limit}",
             gpu.name
         );
-        let flags = match view_format == format {
-            true => vk::ImageCreateFlags::empty(),
-            false => vk::ImageCreateFlags::MUTABLE_FORMAT,
-        };
         let info = vk::ImageCreateInfo::default()
-            .flags(flags)
+            .flags(match view_format == format {
+                true => vk::ImageCreateFlags::empty(),
+                false => vk::ImageCreateFlags::MUTABLE_FORMAT,
+            })
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
-            .extent(vk::Extent3D { width, height, depth: 1 })
+            .extent(extent.into())
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -135,30 +153,20 @@ impl Image {
         // SAFETY: the device is alive; `image` destroys the handles on every path.
         let handle = unsafe { gpu.device.create_image(&info, None) }.with_context(too_large)?;
         let view = vk::ImageView::null();
-        let mut image = Self { handle, view, extent, format, allocation: None, gpu: gpu.clone() };
+        let mut image = Self { handle, view, extent, format, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
-        let allocation = gpu
-            .allocator
-            .lock()
-            .map_err(|_| anyhow::anyhow!("an allocating thread panicked"))?
-            .allocate(&AllocationCreateDesc {
-                name,
-                requirements,
-                location: MemoryLocation::GpuOnly,
-                linear: false,
-                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-            })
+        let memory = Memory::new(gpu, name, requirements, MemoryLocation::GpuOnly, false)
             .with_context(too_large)?;
         let info = vk::ImageViewCreateInfo::default()
             .image(handle)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(view_format)
             .subresource_range(image.range());
+        let allocation = &image.memory.insert(memory).allocation;
         // SAFETY: the allocation was made for this image and is freed after it.
         unsafe {
             gpu.device.bind_image_memory(handle, allocation.memory(), allocation.offset())?;
-            image.allocation = Some(allocation);
             image.view = gpu.device.create_image_view(&info, None)?;
         }
         gpu.name_object(handle, name);
@@ -168,7 +176,7 @@ impl Image {
 
     /// The one mip level and layer, of colour or depth.
     pub fn range(&self) -> vk::ImageSubresourceRange {
-        vk::ImageSubresourceRange { aspect_mask: aspect(self.format), ..whole() }
+        vk::ImageSubresourceRange { aspect_mask: aspect(self.format), ..WHOLE }
     }
 
     /// Changes the layout; everything before is done, and visible to everything after.
@@ -182,46 +190,17 @@ impl Image {
     /// If the copy fails.
     pub fn read(&self) -> Result<Vec<[f32; 4]>> {
         let bytes = 16 * u64::from(self.extent.width) * u64::from(self.extent.height);
-        let mut staging = Buffer::mapped(
-            &self.gpu,
-            "picture",
-            bytes,
-            vk::BufferUsageFlags::TRANSFER_DST,
-            MemoryLocation::GpuToCpu,
-        )?;
-        self.gpu.submit(|cmd| {
-            use vk::ImageLayout as Layout;
-            self.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
-            // SAFETY: the image is in the layout named; both outlive the submission.
-            unsafe {
-                self.gpu.device.cmd_copy_image_to_buffer(
-                    cmd,
-                    self.handle,
-                    Layout::TRANSFER_SRC_OPTIMAL,
-                    staging.handle,
-                    &[self.copy_region()],
-                );
-            }
-            self.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
-            barrier::after_readback(&self.gpu, cmd);
-            Ok(())
+        let mut copy = read_back(&self.gpu, "picture", bytes, |cmd, to| {
+            let region = vk::BufferImageCopy { image_extent: self.extent.into(), ..COPY };
+            let (device, layout) = (&self.gpu.device, vk::ImageLayout::GENERAL);
+            // SAFETY: the image is in GENERAL; both outlive the submission.
+            unsafe { device.cmd_copy_image_to_buffer(cmd, self.handle, layout, to, &[region]) };
         })?;
         let mut pixels = Vec::new();
         pixels.try_reserve_exact(bytes as usize / 16).context("no memory to read the picture")?;
-        pixels.extend(
-            staging.mapped_bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>),
-        );
+        let copied = copy.mapped_bytes().chunks_exact(16);
+        pixels.extend(copied.map(bytemuck::pod_read_unaligned::<[f32; 4]>));
         Ok(pixels)
-    }
-
-    fn copy_region(&self) -> vk::BufferImageCopy {
-        vk::BufferImageCopy::default()
-            .image_subresource(
-                vk::ImageSubresourceLayers::default()
-                    .aspect_mask(vk::ImageAspectFlags::COLOR)
-                    .layer_count(1),
-            )
-            .image_extent(self.extent.into())
     }
 }
 
@@ -236,7 +215,7 @@ pub fn transition(
 ) {
     let barriers = [vk::ImageMemoryBarrier2::default()
         .image(image)
-        .subresource_range(whole())
+        .subresource_range(WHOLE)
         .old_layout(from)
         .new_layout(to)
         .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
@@ -256,26 +235,12 @@ fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
     }
 }
 
-/// The one mip level and layer that every image of colour here has.
-pub fn whole() -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange::default()
-        .aspect_mask(vk::ImageAspectFlags::COLOR)
-        .level_count(1)
-        .layer_count(1)
-}
-
 impl Drop for Image {
     fn drop(&mut self) {
         // SAFETY: submissions are waited for, so the device no longer uses the image.
         unsafe {
             self.gpu.device.destroy_image_view(self.view, None);
             self.gpu.device.destroy_image(self.handle, None);
-        }
-        if let (Some(allocation), Ok(mut allocator)) =
-            (self.allocation.take(), self.gpu.allocator.lock())
-        {
-            // Freeing fails only for memory of another allocator.
-            let _ = allocator.free(allocation);
         }
     }
 }

@@ -18,14 +18,15 @@ pub mod instance;
 mod layout;
 mod limits;
 mod margin;
+mod memory;
 pub mod order;
-mod pack;
 mod pipeline;
 mod pipeline_cache;
 mod reflection;
 mod requirements;
 pub mod sbt;
 pub mod shader;
+mod staging;
 mod statistics;
 mod submit;
 mod swapchain;
@@ -34,7 +35,7 @@ mod threads;
 mod timing;
 mod validation;
 
-pub use accel::{AccelerationStructure, BuildOptions, Input};
+pub use accel::{AccelerationStructure, BuildOptions};
 pub use blueprint::{Attachments, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use context::{Gpu, GpuContext, GpuOptions};
@@ -44,12 +45,11 @@ pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
 pub use executable::Executable;
 pub use features::Features;
 pub use geometry::Geometry;
-pub use image::{Image, Texels, transition, whole};
+pub use image::{Image, Texels, transition};
 pub use instance::{WindowHandles, load};
 pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use limits::Limits;
 pub use margin::{margin, padded};
-pub use pack::Pack;
 pub use pipeline::{
     Band, Binding, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,
     PipelineBuilder, RayTracingPipeline,

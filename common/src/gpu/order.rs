@@ -16,10 +16,8 @@ pub type Bounds = (Vec3, Vec3);
 /// Which primitive of the model each one of a build is: neighbours in space beside each other, or as they
 /// come if `ordering` is off.
 pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {
-    gpu.emulation.order(match ordering {
-        true => kd_median(bounds),
-        false => (0..bounds.len() as u32).collect(),
-    })
+    let order = if ordering { kd_median(bounds) } else { (0..bounds.len() as u32).collect() };
+    gpu.emulation.order(order)
 }
 
 /// The permutation that puts neighbours in space beside each other.

@@ -24,11 +24,10 @@ impl Gpu {
     /// # Errors
     /// If recording or the device fails.
     pub fn submit<R>(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
-        self.submit_between(vk::Semaphore::null(), vk::Semaphore::null(), record)
+        self.submit_with(vk::SubmitInfo2::default(), record)
     }
 
-    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end;
-    /// either may be null.
+    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end.
     ///
     /// # Errors
     /// As [`Gpu::submit`].
@@ -36,6 +35,20 @@ impl Gpu {
         &self,
         before: vk::Semaphore,
         after: vk::Semaphore,
+        record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
+    ) -> Result<R> {
+        let [before, after] = [before, after].map(|semaphore| {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            [vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)]
+        });
+        let submit = vk::SubmitInfo2::default();
+        let submit = submit.wait_semaphore_infos(&before).signal_semaphore_infos(&after);
+        self.submit_with(submit, record)
+    }
+
+    fn submit_with<R>(
+        &self,
+        submit: vk::SubmitInfo2,
         record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
     ) -> Result<R> {
         let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
@@ -47,39 +60,22 @@ impl Gpu {
             let begin = vk::CommandBufferBeginInfo::default()
                 .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
             self.device.begin_command_buffer(cmd, &begin)?;
-            let result = record(cmd);
-            self.device.end_command_buffer(cmd)?;
-            let done = if result.is_ok() { self.run(cmd, before, after) } else { Ok(()) };
+            let done = record(cmd).and_then(|result| {
+                self.device.end_command_buffer(cmd)?;
+                let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+                self.run(submit.command_buffer_infos(&buffers))?;
+                Ok(result)
+            });
             self.device.free_command_buffers(pool, &[cmd]);
-            done?;
-            result
+            done
         }
     }
 
-    fn run(
-        &self,
-        cmd: vk::CommandBuffer,
-        before: vk::Semaphore,
-        after: vk::Semaphore,
-    ) -> Result<()> {
-        let semaphores = [before, after].map(|semaphore| {
-            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            vk::SemaphoreSubmitInfo::default().semaphore(semaphore).stage_mask(stage)
-        });
-        let [before, after] =
-            semaphores.each_ref().map(|info| match info.semaphore == vk::Semaphore::null() {
-                true => &[][..],
-                false => std::slice::from_ref(info),
-            });
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default()
-            .wait_semaphore_infos(before)
-            .command_buffer_infos(&buffers)
-            .signal_semaphore_infos(after)];
-        // SAFETY: cmd is recorded; the fence is destroyed after the wait.
+    fn run(&self, submit: vk::SubmitInfo2) -> Result<()> {
+        // SAFETY: the commands are recorded; the fence is destroyed after the wait.
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
-            let submitted = self.device.queue_submit2(self.queue, &submit, fence);
+            let submitted = self.device.queue_submit2(self.queue, &[submit], fence);
             let done = submitted.and_then(|()| self.wait(fence));
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")

@@ -5,6 +5,9 @@ use ash::{Device, vk};
 
 use super::{Gpu, Image, Texels};
 
+/// What each texture is to shaders.
+const TYPE: vk::DescriptorType = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+
 /// Set 1 of every pipeline that reads textures: binding 0, an array of combined image samplers.
 pub struct TextureTable {
     /// The layout of the set.
@@ -30,9 +33,7 @@ impl TextureTable {
         let count = textures.len() as u32;
         fits(count, gpu.limits.max_textures, &gpu.name)?;
         let images = Image::textures(gpu, textures)?;
-        let sizes = [vk::DescriptorPoolSize::default()
-            .ty(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-            .descriptor_count(count)];
+        let sizes = [vk::DescriptorPoolSize { ty: TYPE, descriptor_count: count }];
         let pool_info = vk::DescriptorPoolCreateInfo::default()
             .flags(vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND)
             .max_sets(1)
@@ -59,19 +60,15 @@ impl TextureTable {
                 .set_layouts(&layouts);
             table.set = gpu.device.allocate_descriptor_sets(&allocate)?[0];
         }
-        let infos: Vec<_> = table
-            .images
-            .iter()
-            .map(|image| {
-                vk::DescriptorImageInfo::default()
-                    .sampler(table.sampler)
-                    .image_view(image.view)
-                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
-            })
-            .collect();
+        let infos = table.images.iter().map(|image| vk::DescriptorImageInfo {
+            sampler: table.sampler,
+            image_view: image.view,
+            image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        });
+        let infos: Vec<_> = infos.collect();
         let write = vk::WriteDescriptorSet::default()
             .dst_set(table.set)
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_type(TYPE)
             .image_info(&infos);
         // SAFETY: the set is not in use; the images live beside it.
         unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
@@ -90,7 +87,7 @@ impl TextureTable {
     /// If the device has no memory left.
     pub fn layout(device: &Device, count: u32) -> Result<vk::DescriptorSetLayout> {
         let bindings = [vk::DescriptorSetLayoutBinding::default()
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_type(TYPE)
             .descriptor_count(count)
             .stage_flags(vk::ShaderStageFlags::ALL)];
         // Nothing is written after it is bound. But of descriptors that may be, a device must take

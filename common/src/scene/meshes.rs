@@ -3,9 +3,7 @@
 use anyhow::Result;
 
 use super::{InstanceRecord, Mesh, Scene, SceneOptions, Vertex, input_usage};
-use crate::gpu::{
-    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, Pack, order,
-};
+use crate::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
 
 /// Every mesh of a model in device memory.
 pub(super) struct MeshesOnGpu {
@@ -20,44 +18,41 @@ pub(super) struct MeshesOnGpu {
 impl MeshesOnGpu {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
         let meshes = &scene.model.meshes;
-        let usage = input_usage();
         let orders: Vec<_> = meshes.iter().map(|mesh| triangle_order(gpu, mesh, options)).collect();
-        let primitives = || orders.iter().map(Vec::len);
-        let lengths = meshes.iter().map(|mesh| mesh.vertices.len());
-        let mut vertices = Pack::<Vertex>::new(gpu, "vertices", lengths, usage)?;
-        let lengths = meshes.iter().map(|mesh| mesh.triangles.len());
-        let mut triangles = Pack::<[u32; 3]>::new(gpu, "triangles", lengths, usage)?;
-        let mut original = Pack::<u32>::new(gpu, "original triangles", primitives(), usage)?;
-        let mut ordered = Pack::<[u32; 3]>::new(gpu, "ordered triangles", primitives(), usage)?;
+        let vertices: Vec<_> = meshes.iter().map(|mesh| &mesh.vertices[..]).collect();
+        let triangles: Vec<_> = meshes.iter().map(|mesh| &mesh.triangles[..]).collect();
+        let usage = input_usage();
+        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", &vertices, usage)?;
+        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", &triangles, usage)?;
+        let (original, at_original) =
+            Buffer::with_arrays(gpu, "original triangles", &orders, usage)?;
+        // Only the builds read the ordered copy; it is freed at the end of this function.
+        let in_order: Vec<_> = meshes.iter().zip(&orders).map(in_order).collect();
+        let (_ordered, at_ordered) =
+            Buffer::with_arrays(gpu, "ordered triangles", &in_order, usage)?;
+        drop(in_order);
+        let (opaque, fetch) = (opaque(scene), options.position_fetch);
         let mut records = Vec::with_capacity(meshes.len());
         let mut geometries = Vec::with_capacity(meshes.len());
-        let opaque = opaque(scene);
-        for (index, (mesh, order)) in meshes.iter().zip(&orders).enumerate() {
-            let in_order: Vec<_> = order.iter().map(|&i| mesh.triangles[i as usize]).collect();
-            let first_vertex = vertices.push(&mesh.vertices)?;
+        for (index, mesh) in meshes.iter().enumerate() {
             geometries.push([Geometry::Triangles {
-                vertices: first_vertex,
+                vertices: at_vertices[index],
                 vertex_stride: size_of::<Vertex>() as u64,
                 vertex_count: mesh.vertices.len() as u32,
-                indices: ordered.push(&in_order)?,
-                count: in_order.len() as u32,
+                indices: at_ordered[index],
+                count: orders[index].len() as u32,
                 opaque: opaque[index],
                 no_duplicate_any_hit: options.no_duplicate_any_hit,
             }]);
-            let is_kept = !options.position_fetch;
             records.push(InstanceRecord {
-                vertices: if is_kept { first_vertex.into() } else { Address::default() },
-                triangles: triangles.push(&mesh.triangles)?.into(),
-                original: original.push(order)?.into(),
+                vertices: if fetch { Address::default() } else { at_vertices[index].into() },
+                triangles: at_triangles[index].into(),
+                original: at_original[index].into(),
                 material: 0,
                 mesh: index as u32,
             });
         }
-        let (vertices, triangles) = (vertices.finish()?, triangles.finish()?);
-        // Only the builds read the ordered copy; it is freed at the end of this function.
-        let (original, _ordered) = (original.finish()?, ordered.finish()?);
 
-        let fetch = options.position_fetch;
         let options = BuildOptions { compact: true, data_access: fetch, ..BuildOptions::default() };
         let inputs = meshes.iter().zip(&geometries);
         let inputs: Vec<_> = inputs.map(|(mesh, list)| (mesh.name.as_str(), &list[..])).collect();
@@ -65,6 +60,11 @@ impl MeshesOnGpu {
         let kept = (!fetch).then_some(vertices);
         Ok(Self { blas, records, buffers: [triangles, original].into_iter().chain(kept).collect() })
     }
+}
+
+/// The triangles of a mesh in the order of its build.
+fn in_order((mesh, order): (&Mesh, &Vec<u32>)) -> Vec<[u32; 3]> {
+    order.iter().map(|&i| mesh.triangles[i as usize]).collect()
 }
 
 /// Of each mesh, whether no material that it is placed with has holes: an any-hit shader is worth calling only

@@ -1,5 +1,6 @@
 //! A scene on the device: buffers that shaders reach by address, acceleration structures, textures.
 
+use std::mem;
 use std::sync::Arc;
 
 use anyhow::{Result, ensure};
@@ -140,27 +141,16 @@ pub fn build_top(
     gpu: &Gpu,
     instances: &[vk::AccelerationStructureInstanceKHR],
 ) -> Result<AccelerationStructure> {
-    let bytes: Vec<u8> = instances.iter().flat_map(instance_bytes).collect();
-    let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
-    // The specification wants instances at a multiple of 16 bytes.
-    let buffer = Buffer::aligned(gpu, "instances", bytes.len() as u64, usage, 16)?;
-    buffer.write(0, &bytes)?;
+    let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
+    let buffer = Buffer::with_data(gpu, "instances", &bytes, input_usage())?;
     let count = instances.len() as u32;
     AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())
 }
 
 /// An instance as the device reads it: 64 bytes.
 pub fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
-    let mut bytes = [0; 64];
-    bytes[..48].copy_from_slice(bytemuck::bytes_of(&instance.transform.matrix));
-    let packed = |p: vk::Packed24_8| (p.low_24() | u32::from(p.high_8()) << 24).to_ne_bytes();
-    bytes[48..52].copy_from_slice(&packed(instance.instance_custom_index_and_mask));
-    let offset_and_flags = instance.instance_shader_binding_table_record_offset_and_flags;
-    bytes[52..56].copy_from_slice(&packed(offset_and_flags));
-    // SAFETY: every instance here names its bottom level by device address, never by host handle.
-    let address = unsafe { instance.acceleration_structure_reference.device_handle };
-    bytes[56..].copy_from_slice(&address.to_ne_bytes());
-    bytes
+    // SAFETY: it is 64 bytes without padding, as Vulkan lays it out, and any bytes are an array of bytes.
+    unsafe { mem::transmute(*instance) }
 }
 
 /// A bottom level in its place, seen by every ray: its custom index, and its first hit record.

@@ -2,7 +2,7 @@
 
 use ash::vk;
 use common::gpu::{
-    AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, GpuOptions, Input, Requirements,
+    AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOptions, Vertex, input_usage, triangle_order};
 use run::{figures, render};
@@ -67,8 +67,7 @@ fn what_may_not_be_updated_is_refused_before_vulkan_is_asked() {
         AccelerationStructure::bottom(&gpu, "square", &[square.geometry(2, true)], options).unwrap()
     };
     let update = |blas: &AccelerationStructure, input: &[Geometry], scratch: &Buffer| {
-        gpu.submit(|cmd| blas.update(cmd, Input::Geometries(input), scratch))
-            .map_err(|error| error.to_string())
+        gpu.submit(|cmd| blas.update(cmd, input, scratch)).map_err(|error| error.to_string())
     };
     let (still, moving) = (build(false, false), build(true, false));
     let scratch = moving.scratch().unwrap();
@@ -109,7 +108,7 @@ fn a_structure_that_was_made_smaller_may_be_updated() {
     let options = BuildOptions { updatable: true, compact: true, ..BuildOptions::default() };
     let blas = AccelerationStructure::bottom(&gpu, "square", &input, options).unwrap();
     let scratch = blas.scratch().unwrap();
-    gpu.submit(|cmd| blas.update(cmd, Input::Geometries(&input), &scratch)).unwrap();
+    gpu.submit(|cmd| blas.update(cmd, &input, &scratch)).unwrap();
     drop((blas, scratch, square));
     assert_eq!(gpu.validation().all(), Vec::<String>::new());
 }

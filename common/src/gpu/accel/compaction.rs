@@ -3,7 +3,8 @@
 use anyhow::Result;
 use ash::vk;
 
-use super::{AccelerationStructure, batch};
+use super::AccelerationStructure;
+use super::place::place;
 use crate::gpu::{Gpu, barrier};
 
 /// The same structures, one after the other in a buffer of the size that they turned out to need.
@@ -15,7 +16,7 @@ pub(super) fn compacted(
     built: &[AccelerationStructure],
 ) -> Result<Vec<AccelerationStructure>> {
     let sizes = sizes(gpu, built)?;
-    let small = batch::lay_out(gpu, built.iter().map(|one| one.plan.clone()).collect(), &sizes)?;
+    let small = place(gpu, built.iter().map(|one| one.plan.clone()).collect(), &sizes)?;
     gpu.submit(|cmd| {
         for (large, small) in built.iter().zip(&small) {
             let info = vk::CopyAccelerationStructureInfoKHR::default()

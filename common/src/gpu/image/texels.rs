@@ -3,7 +3,8 @@
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::{Buffer, Gpu, Image, whole};
+use super::{Gpu, Image};
+use crate::gpu::staging::Staging;
 
 /// What a texture holds.
 #[derive(Clone, Copy)]
@@ -34,13 +35,11 @@ impl Image {
             })
         };
         change(Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL)?;
-        let size = all.iter().map(|one| one.rgba.len() as u64).sum::<u64>();
-        let mut upload =
-            Upload { gpu, staging: Buffer::staging(gpu, size)?, staged: 0, bands: Vec::new() };
+        let mut staging = Staging::new(gpu, all.iter().map(|one| one.rgba.len()).sum())?;
         for (image, texels) in images.iter().zip(all) {
-            upload.push(image, texels)?;
+            staging.to_image(image, texels.rgba)?;
         }
-        upload.copy()?;
+        staging.submit()?;
         change(Layout::TRANSFER_DST_OPTIMAL, Layout::SHADER_READ_ONLY_OPTIMAL)?;
         Ok(images)
     }
@@ -53,66 +52,4 @@ fn blank(gpu: &Gpu, texels: &Texels) -> Result<Image> {
     let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
     Image::new(gpu, name, extent, format, format, usage)
-}
-
-/// Bands of rows on their way to images in `TRANSFER_DST_OPTIMAL`.
-struct Upload<'a> {
-    gpu: &'a Gpu,
-    staging: Buffer,
-    /// Bytes that wait in the staging buffer, and where they belong.
-    staged: usize,
-    bands: Vec<(vk::Image, vk::BufferImageCopy)>,
-}
-
-impl Upload<'_> {
-    fn push(&mut self, image: &Image, texels: &Texels) -> Result<()> {
-        let row = 4 * texels.extent.width as usize;
-        let mut left = texels.rgba;
-        while !left.is_empty() {
-            let rows = (self.staging.size as usize - self.staged) / row;
-            if rows == 0 {
-                self.copy()?;
-                continue;
-            }
-            let (band, later) = left.split_at((rows * row).min(left.len()));
-            self.staging.mapped_bytes()[self.staged..][..band.len()].copy_from_slice(band);
-            let first = (texels.rgba.len() - left.len()) / row;
-            self.bands.push((image.handle, self.region(first, band.len() / row, texels.extent)));
-            self.staged += band.len();
-            left = later;
-        }
-        Ok(())
-    }
-
-    fn region(&self, first: usize, rows: usize, extent: vk::Extent2D) -> vk::BufferImageCopy {
-        let layers = vk::ImageSubresourceLayers::default()
-            .aspect_mask(whole().aspect_mask)
-            .layer_count(whole().layer_count);
-        vk::BufferImageCopy::default()
-            .buffer_offset(self.staged as u64)
-            .image_subresource(layers)
-            .image_offset(vk::Offset3D { x: 0, y: first as i32, z: 0 })
-            .image_extent(vk::Extent3D { width: extent.width, height: rows as u32, depth: 1 })
-    }
-
-    fn copy(&mut self) -> Result<()> {
-        self.gpu.submit(|cmd| {
-            for (image, band) in &self.bands {
-                // SAFETY: the staging buffer and the images outlive the submission.
-                unsafe {
-                    self.gpu.device.cmd_copy_buffer_to_image(
-                        cmd,
-                        self.staging.handle,
-                        *image,
-                        vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                        &[*band],
-                    );
-                }
-            }
-            Ok(())
-        })?;
-        self.bands.clear();
-        self.staged = 0;
-        Ok(())
-    }
 }

@@ -1,0 +1,151 @@
+//! Builds of many structures at a time: one buffer for them, one for their scratch, one submission.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use ash::vk;
+
+use super::place::{OFFSET_ALIGNMENT, place, together};
+use super::plan::{Plan, described};
+use super::{AccelerationStructure, BuildOptions, compaction};
+use crate::gpu::buffer::offsets;
+use crate::gpu::{Buffer, Geometry, Gpu, barrier};
+
+/// How many bytes structures and scratch of one batch may take together: enough to keep a device busy,
+/// little enough that what compaction leaves behind is no burden. A structure that takes more is built alone.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Builds structures from their names and geometries, in batches; compacted if the options say so.
+pub(super) fn build(
+    gpu: &Gpu,
+    inputs: &[(&str, &[Geometry])],
+    options: BuildOptions,
+) -> Result<Vec<AccelerationStructure>> {
+    let plans = inputs.iter().map(|(name, list)| Plan::new(gpu, name, list, options));
+    let plans: Vec<_> = plans.collect();
+    let mut all = Vec::with_capacity(inputs.len());
+    for range in batches(&plans, gpu.limits.min_scratch_offset_alignment) {
+        let built = build_batch(gpu, &plans[range])?;
+        all.extend(if options.compact { compaction::compacted(gpu, &built)? } else { built });
+    }
+    Ok(all)
+}
+
+/// Neighbours whose structures and scratch fit a batch together.
+fn batches(plans: &[Plan], scratch_alignment: u64) -> Vec<Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    let mut bytes = 0;
+    for (index, Plan { sizes, .. }) in plans.iter().enumerate() {
+        let needed = sizes.acceleration_structure_size.next_multiple_of(OFFSET_ALIGNMENT)
+            + sizes.build_scratch_size.next_multiple_of(scratch_alignment);
+        bytes += needed;
+        match all.last_mut() {
+            Some(last) if bytes <= MOST_BYTES => last.end = index + 1,
+            _ => {
+                all.push(index..index + 1);
+                bytes = needed;
+            }
+        }
+    }
+    all
+}
+
+fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> {
+    let sizes: Vec<_> = plans.iter().map(|plan| plan.sizes.acceleration_structure_size).collect();
+    let built = place(gpu, plans.to_vec(), &sizes)?;
+    // The builds of a batch may run at the same time, so none may write to the scratch of another.
+    let scratches = plans.iter().map(|plan| plan.sizes.build_scratch_size);
+    let (offsets, room) = offsets(scratches, gpu.limits.min_scratch_offset_alignment);
+    let scratch = scratch_buffer(gpu, room)?;
+    let builds = built.iter().zip(offsets).map(|(structure, offset)| Build {
+        structure,
+        geometries: &structure.plan.geometries,
+        scratch: scratch.address + offset,
+    });
+    let builds: Vec<_> = builds.collect();
+    let start = Instant::now();
+    gpu.submit(|cmd| {
+        record(gpu, cmd, vk::BuildAccelerationStructureModeKHR::BUILD, &builds);
+        Ok(())
+    })
+    .with_context(|| format!("cannot build {}", together(plans)))?;
+    gpu.count(|statistics| statistics.build_time += start.elapsed());
+    Ok(built)
+}
+
+/// A buffer for the scratch of builds.
+pub(super) fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment)
+}
+
+/// A build or an update of a structure in its place.
+pub(super) struct Build<'a> {
+    pub(super) structure: &'a AccelerationStructure,
+    pub(super) geometries: &'a [Geometry],
+    /// Address of its scratch.
+    pub(super) scratch: vk::DeviceAddress,
+}
+
+/// Records builds that do not depend on each other, each with scratch of its own; or such updates.
+pub(super) fn record(
+    gpu: &Gpu,
+    cmd: vk::CommandBuffer,
+    mode: vk::BuildAccelerationStructureModeKHR,
+    builds: &[Build],
+) {
+    let geometries: Vec<_> = builds.iter().map(|build| described(build.geometries)).collect();
+    let infos = builds.iter().zip(&geometries).map(|(build, geometries)| {
+        let structure = build.structure;
+        structure
+            .plan
+            .info(geometries)
+            .mode(mode)
+            // Only an update reads it.
+            .src_acceleration_structure(structure.handle)
+            .dst_acceleration_structure(structure.handle)
+            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: build.scratch })
+    });
+    let infos: Vec<_> = infos.collect();
+    let ranges: Vec<_> = builds.iter().map(|build| ranges(build.geometries)).collect();
+    let ranges: Vec<_> = ranges.iter().map(Vec::as_slice).collect();
+    barrier::trace_to_build(gpu, cmd);
+    barrier::between_builds(gpu, cmd);
+    // SAFETY: every address in infos belongs to a buffer that outlives the submission.
+    unsafe { gpu.acceleration_structure.cmd_build_acceleration_structures(cmd, &infos, &ranges) };
+    barrier::between_builds(gpu, cmd);
+    barrier::build_to_trace(gpu, cmd);
+}
+
+fn ranges(geometries: &[Geometry]) -> Vec<vk::AccelerationStructureBuildRangeInfoKHR> {
+    let range = vk::AccelerationStructureBuildRangeInfoKHR::default();
+    geometries.iter().map(|geometry| range.primitive_count(geometry.count())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn planned(size: u64, build_scratch: u64) -> Plan {
+        let sizes = vk::AccelerationStructureBuildSizesInfoKHR::default()
+            .acceleration_structure_size(size)
+            .build_scratch_size(build_scratch);
+        let (name, options) = ("one".into(), BuildOptions::default());
+        Plan { name, options, geometries: Vec::new(), sizes }
+    }
+
+    #[test]
+    fn neighbours_share_a_batch_as_long_as_they_fit() {
+        let half = MOST_BYTES / 4;
+        let plans = [planned(half, half), planned(half, half), planned(1, 1), planned(1, 1)];
+        assert_eq!(batches(&plans, 256), [0..2, 2..4]);
+    }
+
+    #[test]
+    fn what_fits_no_batch_is_built_alone() {
+        let plans = [planned(1, 1), planned(2 * MOST_BYTES, 1), planned(1, 1)];
+        assert_eq!(batches(&plans, 256), [0..1, 1..2, 2..3]);
+        assert_eq!(batches(&[], 256), []);
+    }
+}

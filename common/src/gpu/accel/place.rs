@@ -1,0 +1,55 @@
+//! Where structures lie: one after the other in a buffer.
+
+use std::sync::Arc;
+
+use anyhow::Result;
+use ash::vk;
+
+use super::{AccelerationStructure, Plan};
+use crate::gpu::buffer::offsets;
+use crate::gpu::{Buffer, Gpu};
+
+/// What the offset of a structure in its buffer must be a multiple of.
+pub(super) const OFFSET_ALIGNMENT: u64 = 256;
+
+/// Structures of the sizes given in one new buffer, not built yet.
+pub(super) fn place(
+    gpu: &Gpu,
+    plans: Vec<Plan>,
+    sizes: &[u64],
+) -> Result<Vec<AccelerationStructure>> {
+    let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
+        | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+    let (offsets, room) = offsets(sizes.iter().copied(), OFFSET_ALIGNMENT);
+    let name = together(&plans);
+    let buffer = Arc::new(Buffer::aligned(gpu, &name, room, usage, OFFSET_ALIGNMENT)?);
+    let mut placed = Vec::with_capacity(plans.len());
+    for ((plan, &size), offset) in plans.into_iter().zip(sizes).zip(offsets) {
+        let info = vk::AccelerationStructureCreateInfoKHR::default()
+            .ty(plan.level())
+            .buffer(buffer.handle)
+            .offset(offset)
+            .size(size);
+        let extension = &gpu.acceleration_structure;
+        // SAFETY: the buffer has room there and lives as long as the structure.
+        let handle = unsafe { extension.create_acceleration_structure(&info, None)? };
+        let of =
+            vk::AccelerationStructureDeviceAddressInfoKHR::default().acceleration_structure(handle);
+        // SAFETY: the structure is alive.
+        let address = unsafe { extension.get_acceleration_structure_device_address(&of) };
+        gpu.name_object(handle, &plan.name);
+        gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
+        let (_buffer, gpu) = (buffer.clone(), gpu.clone());
+        placed.push(AccelerationStructure { handle, address, size, plan, _buffer, gpu });
+    }
+    Ok(placed)
+}
+
+/// What to call structures that lie together.
+pub(super) fn together(plans: &[Plan]) -> String {
+    match plans {
+        [one] => one.name.clone(),
+        [first, others @ ..] => format!("{} and {} more", first.name, others.len()),
+        [] => String::from("nothing"),
+    }
+}

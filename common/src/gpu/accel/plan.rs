@@ -1,0 +1,188 @@
+//! What an acceleration structure is built from and with, and what of it an update must leave as it was.
+
+use anyhow::{Result, bail, ensure};
+use ash::vk;
+
+use super::BuildOptions;
+use crate::gpu::{Geometry, Gpu};
+
+/// What is known of a structure before it is built, and what a build in its place or an update must know.
+#[derive(Clone)]
+pub(super) struct Plan {
+    pub(super) name: String,
+    pub(super) options: BuildOptions,
+    pub(super) geometries: Vec<Geometry>,
+    /// Bytes that a build needs for the structure, more than it has once it is compacted; and bytes that a
+    /// build and an update need beside it.
+    pub(super) sizes: vk::AccelerationStructureBuildSizesInfoKHR<'static>,
+}
+
+impl Plan {
+    pub(super) fn new(
+        gpu: &Gpu,
+        name: &str,
+        geometries: &[Geometry],
+        options: BuildOptions,
+    ) -> Self {
+        let sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
+        let (name, geometries) = (name.to_owned(), geometries.to_vec());
+        let mut plan = Self { name, options, geometries, sizes };
+        let described = described(&plan.geometries);
+        let counts: Vec<_> = plan.geometries.iter().map(Geometry::count).collect();
+        // SAFETY: info and counts describe the same geometries.
+        unsafe {
+            gpu.acceleration_structure.get_acceleration_structure_build_sizes(
+                vk::AccelerationStructureBuildTypeKHR::DEVICE,
+                &plan.info(&described),
+                &counts,
+                &mut plan.sizes,
+            );
+        }
+        plan
+    }
+
+    /// Of which level the structure is.
+    pub(super) fn level(&self) -> vk::AccelerationStructureTypeKHR {
+        match self.geometries[..] {
+            [Geometry::Instances { .. }] => vk::AccelerationStructureTypeKHR::TOP_LEVEL,
+            _ => vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL,
+        }
+    }
+
+    /// What the sizes, the build and every update must say alike.
+    pub(super) fn info<'a>(
+        &self,
+        geometries: &'a [vk::AccelerationStructureGeometryKHR],
+    ) -> vk::AccelerationStructureBuildGeometryInfoKHR<'a> {
+        use vk::BuildAccelerationStructureFlagsKHR as Flags;
+        let mut flags = Flags::PREFER_FAST_TRACE;
+        if self.options.updatable {
+            flags |= Flags::ALLOW_UPDATE;
+        }
+        if self.options.compact {
+            flags |= Flags::ALLOW_COMPACTION;
+        }
+        if self.options.data_access {
+            flags |= Flags::ALLOW_DATA_ACCESS;
+        }
+        vk::AccelerationStructureBuildGeometryInfoKHR::default()
+            .ty(self.level())
+            .flags(flags)
+            .geometries(geometries)
+    }
+
+    /// Fails unless the structure may be updated to other geometries: only where they lie may differ.
+    ///
+    /// # Errors
+    /// With the first thing that differs, as it was and as it would be.
+    pub(super) fn check(&self, new: &[Geometry]) -> Result<()> {
+        let name = &self.name;
+        let is_top = |list: &[Geometry]| matches!(list, [Geometry::Instances { .. }]);
+        match (&self.geometries[..], new) {
+            ([Geometry::Instances { count: was, .. }], [Geometry::Instances { count: is, .. }]) => {
+                ensure!(
+                    was == is,
+                    "'{name}' was built of {was} instances and cannot be updated to {is}: build another"
+                )
+            }
+            (was, is) if is_top(was) != is_top(is) => {
+                bail!("'{name}' is of the other level: no update changes that")
+            }
+            (was, is) => {
+                ensure!(
+                    was.len() == is.len(),
+                    "'{name}' was built of {} geometries and cannot be updated to {}: build another",
+                    was.len(),
+                    is.len()
+                );
+                for (index, (was, is)) in was.iter().zip(is).enumerate() {
+                    ensure!(
+                        was.without_addresses() == is.without_addresses(),
+                        "geometry {index} of '{name}' was built as {was} and cannot be updated to {is}: \
+                         build another"
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Geometries as Vulkan takes them.
+pub(super) fn described(list: &[Geometry]) -> Vec<vk::AccelerationStructureGeometryKHR<'static>> {
+    list.iter().map(Geometry::described).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangles(vertex_count: u32, count: u32, opaque: bool) -> Geometry {
+        Geometry::Triangles {
+            vertices: 0x1000,
+            vertex_stride: 12,
+            vertex_count,
+            indices: 0x2000,
+            count,
+            opaque,
+            no_duplicate_any_hit: false,
+        }
+    }
+
+    fn built(name: &str, geometries: &[Geometry]) -> Plan {
+        let (name, geometries) = (name.into(), geometries.to_vec());
+        Plan { name, options: BuildOptions::default(), geometries, sizes: Default::default() }
+    }
+
+    fn refused(was: &[Geometry], is: &[Geometry]) -> String {
+        built("flag", was).check(is).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn an_update_may_move_what_there_is_and_read_it_from_elsewhere() {
+        let Geometry::Triangles { vertex_count, count, opaque, no_duplicate_any_hit, .. } =
+            triangles(9, 8, true)
+        else {
+            unreachable!()
+        };
+        let elsewhere = Geometry::Triangles {
+            vertices: 0x5000,
+            vertex_stride: 32,
+            vertex_count,
+            indices: 0x6000,
+            count,
+            opaque,
+            no_duplicate_any_hit,
+        };
+        built("flag", &[triangles(9, 8, true)]).check(&[elsewhere]).unwrap();
+    }
+
+    #[test]
+    fn what_a_build_has_fixed_no_update_changes() {
+        let flag = [triangles(9, 8, true)];
+        let boxes = [Geometry::Aabbs { boxes: 0x1000, count: 8, opaque: true }];
+        for (new, words) in [
+            (
+                &[triangles(9, 7, true)][..],
+                "8 triangles of 9 vertices, opaque and cannot be updated to 7 triangles",
+            ),
+            (&[triangles(10, 8, true)], "updated to 8 triangles of 10 vertices, opaque"),
+            (&[triangles(9, 8, false)], "updated to 8 triangles of 9 vertices, not opaque"),
+            (&boxes, "updated to 8 boxes, opaque"),
+            (&[flag[0], flag[0]], "built of 1 geometries and cannot be updated to 2"),
+            (&[], "cannot be updated to 0"),
+        ] {
+            let line = refused(&flag, new);
+            assert!(line.contains(words) && line.ends_with(": build another"), "{line}");
+        }
+        let instances = |count| [Geometry::Instances { instances: 0x1000, count }];
+        let few = built("top level", &instances(3));
+        let line = few.check(&instances(4)).unwrap_err().to_string();
+        assert_eq!(
+            line,
+            "'top level' was built of 3 instances and cannot be updated to 4: build another"
+        );
+        let level = few.check(&flag).unwrap_err();
+        assert!(level.to_string().contains("the other level"), "{level}");
+    }
+}

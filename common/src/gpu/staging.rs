@@ -1,0 +1,112 @@
+//! Staging: bytes on their way to the device and back, through a buffer that the host has mapped.
+
+use anyhow::Result;
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use super::{Buffer, Gpu, Image, barrier, image};
+
+/// How many bytes a staging buffer has at most: what is larger goes in parts, and memory does not hold it twice.
+const MOST: usize = 32 << 20;
+
+/// A mapped buffer, and the copies from it that wait to be submitted: many in one submission.
+pub(super) struct Staging {
+    gpu: Gpu,
+    buffer: Buffer,
+    /// Bytes that wait in it.
+    used: usize,
+    /// Where they belong.
+    to_buffers: Vec<(vk::Buffer, vk::BufferCopy)>,
+    to_images: Vec<(vk::Image, vk::BufferImageCopy)>,
+}
+
+impl Staging {
+    /// As large as all that is to be copied, but no larger than a few copies one after the other need.
+    pub(super) fn new(gpu: &Gpu, bytes: usize) -> Result<Self> {
+        let size = bytes.min(MOST) as u64;
+        let buffer = Buffer::mapped(gpu, "staging", size, MemoryLocation::CpuToGpu)?;
+        Ok(Self { gpu: gpu.clone(), buffer, used: 0, to_buffers: vec![], to_images: vec![] })
+    }
+
+    /// Copies bytes to a buffer, `offset` bytes from its start, with the next submission.
+    pub(super) fn to_buffer(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
+        for (number, part) in bytes.chunks(MOST).enumerate() {
+            let dst_offset = offset + (number * MOST) as u64;
+            let size = part.len() as u64;
+            let region = vk::BufferCopy { src_offset: self.put(part)?, dst_offset, size };
+            self.to_buffers.push((buffer.handle, region));
+        }
+        Ok(())
+    }
+
+    /// Copies texels of four bytes to an image in `TRANSFER_DST_OPTIMAL` with the next submission, in bands of
+    /// rows where they are too many.
+    pub(super) fn to_image(&mut self, image: &Image, rgba: &[u8]) -> Result<()> {
+        let row = 4 * image.extent.width as usize;
+        let rows = MOST / row;
+        for (number, band) in rgba.chunks(rows * row).enumerate() {
+            let region = vk::BufferImageCopy {
+                buffer_offset: self.put(band)?,
+                image_offset: vk::Offset3D { x: 0, y: (number * rows) as i32, z: 0 },
+                image_extent: vk::Extent3D {
+                    height: (band.len() / row) as u32,
+                    ..image.extent.into()
+                },
+                ..image::COPY
+            };
+            self.to_images.push((image.handle, region));
+        }
+        Ok(())
+    }
+
+    /// Puts bytes into the buffer, after a submission if there is no room; where.
+    fn put(&mut self, bytes: &[u8]) -> Result<u64> {
+        if self.used + bytes.len() > self.buffer.size as usize {
+            self.submit()?;
+        }
+        let start = self.used;
+        self.used += bytes.len();
+        self.buffer.mapped_bytes()[start..self.used].copy_from_slice(bytes);
+        Ok(start as u64)
+    }
+
+    /// Copies all that waits, and waits for it.
+    pub(super) fn submit(&mut self) -> Result<()> {
+        let (gpu, from) = (&self.gpu, self.buffer.handle);
+        gpu.submit(|cmd| {
+            let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+            // SAFETY: all buffers and images outlive the submission, which is waited for.
+            unsafe {
+                for &(to, region) in &self.to_buffers {
+                    gpu.device.cmd_copy_buffer(cmd, from, to, &[region]);
+                }
+                for &(to, region) in &self.to_images {
+                    gpu.device.cmd_copy_buffer_to_image(cmd, from, to, layout, &[region]);
+                }
+            }
+            barrier::after_upload(gpu, cmd);
+            Ok(())
+        })?;
+        self.to_buffers.clear();
+        self.to_images.clear();
+        self.used = 0;
+        Ok(())
+    }
+}
+
+/// A mapped buffer with the bytes that `copy` records into it, once all that was submitted before is done.
+pub(super) fn read_back(
+    gpu: &Gpu,
+    name: &str,
+    bytes: u64,
+    copy: impl FnOnce(vk::CommandBuffer, vk::Buffer),
+) -> Result<Buffer> {
+    let buffer = Buffer::mapped(gpu, name, bytes, MemoryLocation::GpuToCpu)?;
+    gpu.submit(|cmd| {
+        barrier::before_readback(gpu, cmd);
+        copy(cmd, buffer.handle);
+        barrier::after_readback(gpu, cmd);
+        Ok(())
+    })?;
+    Ok(buffer)
+}
