@@ -96,7 +96,7 @@ pub fn measure(
         no_compiler,
         rungs,
         forms,
-        stages: gpu.statistics().stages.into_iter().collect(),
+        stages: gpu.statistics().stages().into_iter().collect(),
         validation_messages: gpu.validation().all(),
     })
 }

@@ -53,7 +53,7 @@ impl Instrument {
     /// laboratory would make on that GPU, where it would have asked.
     pub fn blueprint(&self) -> Blueprint {
         let mut blueprint = (*self.pipeline.blueprint).clone();
-        for (constant, value) in &mut blueprint.constants {
+        for [constant, value] in &mut blueprint.constants {
             if *constant == FUSED {
                 *value = 1;
             }

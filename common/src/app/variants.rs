@@ -141,18 +141,11 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
                 }
             }
         }
-        let known = self.made.iter().position(|variant| variant.key == wanted);
-        if let Some(known) = known {
+        if let Some(known) = self.made.iter().position(|variant| variant.key == wanted) {
             let chosen = self.made.remove(known);
             self.made.push(chosen);
-            return self.current().context("no pipeline");
-        }
-        match background.filter(|_| !self.made.is_empty()) {
-            None => {
-                let pipeline = make(gpu, textures, wanted)?;
-                self.keep(frame, wanted, pipeline)?;
-            }
-            Some(background) if self.order.is_none() && self.refused != Some(wanted) => {
+        } else if let Some(background) = background.filter(|_| !self.made.is_empty()) {
+            if self.order.is_none() && self.refused != Some(wanted) {
                 match Order::begin(gpu, background, textures, wanted, make) {
                     Ok(order) => (self.order, self.refused) = (Some(order), None),
                     Err(error) => {
@@ -161,7 +154,9 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
                     }
                 }
             }
-            Some(_) => {}
+        } else {
+            let pipeline = make(gpu, textures, wanted)?;
+            self.keep(frame, wanted, pipeline)?;
         }
         self.made.last().context("no pipeline")
     }

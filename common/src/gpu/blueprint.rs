@@ -11,9 +11,30 @@ pub use graphics::Attachments;
 /// The stages that a push constant or descriptor is visible in.
 pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL;
 
+/// What a binding of set 0 holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Binding {
+    /// A top level acceleration structure.
+    AccelerationStructure,
+    /// An image that shaders write.
+    StorageImage,
+    /// A buffer that shaders read and write.
+    StorageBuffer,
+}
+
+impl Binding {
+    pub(super) fn descriptor_type(self) -> vk::DescriptorType {
+        match self {
+            Self::AccelerationStructure => vk::DescriptorType::ACCELERATION_STRUCTURE_KHR,
+            Self::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
+            Self::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
+        }
+    }
+}
+
 /// A pipeline before any driver has seen it: with attachments a graphics pipeline, with groups one that
 /// traces rays, else a compute pipeline of its one stage. Vulkan's enumerations and flags are their numbers.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Blueprint {
     /// The pipeline's name.
     pub name: String,
@@ -24,9 +45,9 @@ pub struct Blueprint {
     /// What a graphics pipeline draws to.
     pub attachments: Option<Attachments>,
     /// Specialization constants, given to every stage: number and value.
-    pub constants: Vec<(u32, u32)>,
-    /// The descriptor type of each binding of set 0, which holds push descriptors.
-    pub bindings: Vec<i32>,
+    pub constants: Vec<[u32; 2]>,
+    /// The bindings of set 0, which holds push descriptors.
+    pub bindings: Vec<Binding>,
     /// How many textures set 1 has, if there is a set 1.
     pub textures: Option<u32>,
     /// Bytes of push constants.
@@ -37,8 +58,8 @@ pub struct Blueprint {
     pub flags: u32,
 }
 
-/// A compiled stage.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// A stage. While a pipeline is put together, its path alone is known.
+#[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Stage {
     /// The shader's path below `shaders/`.
     pub path: String,
@@ -49,7 +70,7 @@ pub struct Stage {
 }
 
 /// A shader group: its type, and the stages it is made of (`VK_SHADER_UNUSED_KHR` for none).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Group {
     /// `VkRayTracingShaderGroupTypeKHR`.
     pub kind: i32,
@@ -66,10 +87,10 @@ pub struct Group {
 impl Blueprint {
     /// What the pipeline is bound as.
     pub fn bind_point(&self) -> vk::PipelineBindPoint {
-        match (&self.attachments, self.groups.is_empty()) {
-            (Some(_), _) => vk::PipelineBindPoint::GRAPHICS,
-            (None, true) => vk::PipelineBindPoint::COMPUTE,
-            (None, false) => vk::PipelineBindPoint::RAY_TRACING_KHR,
+        match &self.attachments {
+            _ if !self.groups.is_empty() => vk::PipelineBindPoint::RAY_TRACING_KHR,
+            Some(_) => vk::PipelineBindPoint::GRAPHICS,
+            None => vk::PipelineBindPoint::COMPUTE,
         }
     }
 
@@ -78,18 +99,12 @@ impl Blueprint {
     /// # Errors
     /// If the device has no memory left.
     pub fn set_layout(&self, device: &Device) -> Result<vk::DescriptorSetLayout> {
-        let slots: Vec<_> = self
-            .bindings
-            .iter()
-            .enumerate()
-            .map(|(index, &kind)| {
-                vk::DescriptorSetLayoutBinding::default()
-                    .binding(index as u32)
-                    .descriptor_type(vk::DescriptorType::from_raw(kind))
-                    .descriptor_count(1)
-                    .stage_flags(STAGES)
-            })
-            .collect();
+        let mut slots = Vec::new();
+        for (binding, kind) in (0..).zip(&self.bindings) {
+            let slot = vk::DescriptorSetLayoutBinding::default().binding(binding);
+            let slot = slot.descriptor_type(kind.descriptor_type()).descriptor_count(1);
+            slots.push(slot.stage_flags(STAGES));
+        }
         let info = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
             .bindings(&slots);
@@ -115,8 +130,7 @@ impl Blueprint {
         Ok(unsafe { device.create_pipeline_layout(&info, None)? })
     }
 
-    /// Makes the pipeline, with further flags; `name` hears of each module and its path. The cache may be
-    /// null.
+    /// Makes the pipeline; `name` hears of each module and its path. The cache may be null.
     ///
     /// # Errors
     /// If the driver cannot compile it.
@@ -126,87 +140,87 @@ impl Blueprint {
         ray_tracing_pipeline: &khr::ray_tracing_pipeline::Device,
         layout: vk::PipelineLayout,
         cache: vk::PipelineCache,
-        flags: vk::PipelineCreateFlags,
         name: impl Fn(vk::ShaderModule, &str),
     ) -> Result<vk::Pipeline> {
-        let entries: Vec<_> = (0..self.constants.len())
-            .map(|i| {
-                vk::SpecializationMapEntry::default()
-                    .constant_id(self.constants[i].0)
-                    .offset(4 * i as u32)
-                    .size(4)
-            })
-            .collect();
-        let values: Vec<u32> = self.constants.iter().map(|&(_, value)| value).collect();
+        let mut modules = Modules { device, handles: Vec::new() };
+        for stage in &self.stages {
+            let info = vk::ShaderModuleCreateInfo::default().code(&stage.words);
+            // SAFETY: the words are a valid module, compiled by glslang.
+            let module = unsafe { device.create_shader_module(&info, None)? };
+            modules.handles.push(module);
+            name(module, &stage.path);
+        }
+        // The data is the constants as they stand, each number before its value.
+        let mut entries = Vec::new();
+        for (index, &[constant_id, _]) in (0..).zip(&self.constants) {
+            let offset = 8 * index + 4;
+            entries.push(vk::SpecializationMapEntry { constant_id, offset, size: 4 });
+        }
         let specialization = vk::SpecializationInfo::default()
             .map_entries(&entries)
-            .data(bytemuck::cast_slice(&values));
-        let groups: Vec<_> = self.groups.iter().map(Group::info).collect();
-        let mut created = Vec::new();
-        let result = (|| -> Result<vk::Pipeline> {
-            let mut infos = Vec::new();
-            for stage in &self.stages {
-                let info = vk::ShaderModuleCreateInfo::default().code(&stage.words);
-                // SAFETY: the words are a valid module, compiled by glslang.
-                let module = unsafe { device.create_shader_module(&info, None)? };
-                created.push(module);
-                name(module, &stage.path);
-                infos.push(
-                    vk::PipelineShaderStageCreateInfo::default()
-                        .stage(vk::ShaderStageFlags::from_raw(stage.stage))
-                        .module(module)
-                        .name(c"main")
-                        .specialization_info(&specialization),
-                );
-            }
-            let flags = vk::PipelineCreateFlags::from_raw(self.flags) | flags;
-            let pipelines = match (self.bind_point(), &infos[..]) {
-                (vk::PipelineBindPoint::GRAPHICS, stages) => {
-                    let attachments = self.attachments.clone().unwrap_or_default();
-                    attachments.pipeline(device, stages, layout, cache, flags)
-                }
-                (vk::PipelineBindPoint::COMPUTE, [stage]) => {
-                    let info = [vk::ComputePipelineCreateInfo::default()
-                        .flags(flags)
-                        .stage(*stage)
-                        .layout(layout)];
-                    // SAFETY: all handles are alive.
-                    unsafe { device.create_compute_pipelines(cache, &info, None) }
-                }
-                (vk::PipelineBindPoint::COMPUTE, _) => bail!("a compute pipeline has one stage"),
-                _ => {
-                    let info = [vk::RayTracingPipelineCreateInfoKHR::default()
-                        .flags(flags)
-                        .stages(&infos)
-                        .groups(&groups)
-                        .max_pipeline_ray_recursion_depth(self.recursion)
-                        .layout(layout)];
-                    let deferred = vk::DeferredOperationKHR::null();
-                    // SAFETY: every stage index of the groups is within the stages; all handles are alive.
-                    unsafe {
-                        ray_tracing_pipeline
-                            .create_ray_tracing_pipelines(deferred, cache, &info, None)
-                    }
-                }
-            };
-            Ok(pipelines.map_err(|(_, error)| error)?[0])
-        })();
-        for module in created {
-            // SAFETY: a module is not needed once the pipeline is made.
-            unsafe { device.destroy_shader_module(module, None) };
+            .data(bytemuck::cast_slice(&self.constants));
+        let mut stages = Vec::new();
+        for (stage, &module) in self.stages.iter().zip(&modules.handles) {
+            let info = vk::PipelineShaderStageCreateInfo::default().module(module).name(c"main");
+            let info = info.stage(vk::ShaderStageFlags::from_raw(stage.stage));
+            stages.push(info.specialization_info(&specialization));
         }
-        result
+        let flags = vk::PipelineCreateFlags::from_raw(self.flags);
+        let pipelines = match (&self.attachments, &stages[..]) {
+            (_, stages) if !self.groups.is_empty() => {
+                let groups: Vec<_> = self.groups.iter().map(Group::info).collect();
+                let info = [vk::RayTracingPipelineCreateInfoKHR::default()
+                    .flags(flags)
+                    .stages(stages)
+                    .groups(&groups)
+                    .max_pipeline_ray_recursion_depth(self.recursion)
+                    .layout(layout)];
+                let deferred = vk::DeferredOperationKHR::null();
+                let device = ray_tracing_pipeline;
+                // SAFETY: every stage index of the groups is within the stages; all handles are alive.
+                unsafe { device.create_ray_tracing_pipelines(deferred, cache, &info, None) }
+            }
+            (Some(attachments), stages) => {
+                attachments.pipeline(device, stages, layout, cache, flags)
+            }
+            (None, &[stage]) => {
+                let info = vk::ComputePipelineCreateInfo::default();
+                let info = [info.flags(flags).stage(stage).layout(layout)];
+                // SAFETY: all handles are alive.
+                unsafe { device.create_compute_pipelines(cache, &info, None) }
+            }
+            (None, _) => bail!("a compute pipeline has one stage"),
+        };
+        Ok(pipelines.map_err(|(_, error)| error)?[0])
+    }
+}
+
+/// The modules of a pipeline, which needs them only until it is made.
+struct Modules<'a> {
+    device: &'a Device,
+    handles: Vec<vk::ShaderModule>,
+}
+
+impl Drop for Modules<'_> {
+    fn drop(&mut self) {
+        for &module in &self.handles {
+            // SAFETY: the module is this device's, and no pipeline is being made of it.
+            unsafe { self.device.destroy_shader_module(module, None) };
+        }
+    }
+}
+
+impl Default for Group {
+    /// A group of one raygen, miss or callable shader, which is not named yet.
+    fn default() -> Self {
+        let kind = vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw();
+        let unused = vk::SHADER_UNUSED_KHR;
+        let [general, intersection, any_hit, closest_hit] = [unused; 4];
+        Self { kind, general, intersection, any_hit, closest_hit }
     }
 }
 
 impl Group {
-    /// A group of one raygen, miss or callable shader.
-    pub fn general(stage: u32) -> Self {
-        let unused = vk::SHADER_UNUSED_KHR;
-        let kind = vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw();
-        Self { kind, general: stage, intersection: unused, any_hit: unused, closest_hit: unused }
-    }
-
     fn info(&self) -> vk::RayTracingShaderGroupCreateInfoKHR<'static> {
         vk::RayTracingShaderGroupCreateInfoKHR::default()
             .ty(vk::RayTracingShaderGroupTypeKHR::from_raw(self.kind))

@@ -10,7 +10,6 @@ use std::marker::PhantomData;
 use anyhow::{Result, bail, ensure};
 
 use super::layout::{EnumLayout, Known, ShaderType};
-use super::shader::{Shader, UintConstant};
 
 /// A choice that Rust, the panel and perhaps shaders know. Implemented by
 /// [`shader_enum!`](crate::shader_enum).
@@ -187,9 +186,46 @@ impl<T: ShaderEnum> ShaderType for Number<T> {
     }
 }
 
+/// A number that a shader has a name for.
+pub(super) struct Constant {
+    name: String,
+    value: u32,
+    /// Where it is: file and line.
+    place: String,
+}
+
+/// The lines `const uint NAME = 1;` of a stage's whole text, in which `#line` says what is from where.
+pub(super) fn constants(path: &str, text: &str) -> Vec<Constant> {
+    let (mut file, mut number) = (path, 0);
+    let mut found = Vec::new();
+    for line in text.lines() {
+        if let Some((next, name)) = line.strip_prefix("#line ").and_then(|at| at.split_once(' ')) {
+            file = name.trim_matches('"');
+            number = next.parse().unwrap_or(1) - 1;
+            continue;
+        }
+        number += 1;
+        if let Some((name, value)) = constant(line) {
+            found.push(Constant {
+                name: name.to_owned(),
+                value,
+                place: format!("{file}:{number}"),
+            });
+        }
+    }
+    found
+}
+
+/// Name and value of a line `const uint NAME = 1;`.
+fn constant(line: &str) -> Option<(&str, u32)> {
+    let (name, rest) = line.trim_start().strip_prefix("const uint ")?.split_once('=')?;
+    let (value, _) = rest.split_once(';')?;
+    Some((name.trim(), value.trim().trim_end_matches('u').parse().ok()?))
+}
+
 impl EnumLayout {
     /// The shaders' constants, in the order of their numbers.
-    fn constants(&self) -> impl Iterator<Item = String> {
+    fn names(&self) -> impl Iterator<Item = String> {
         let capitals = |name: &str| {
             let words = name.char_indices().map(|(i, letter)| {
                 let gap = if i > 0 && letter.is_ascii_uppercase() { "_" } else { "" };
@@ -204,15 +240,15 @@ impl EnumLayout {
     ///
     /// # Errors
     /// On the first that differs or that one side lacks, naming both.
-    pub(super) fn check(&self, pipeline: &str, shaders: &[Shader]) -> Result<()> {
+    pub(super) fn check(&self, pipeline: &str, found: &[Constant]) -> Result<()> {
         if self.prefix.is_empty() {
             return Ok(());
         }
         let (name, begin) = (self.name, format!("{}_", self.prefix));
-        let constants: Vec<_> = self.constants().collect();
-        let found = shaders.iter().flat_map(|shader| &shader.constants);
-        let found: Vec<_> = found.filter(|found| found.name.starts_with(&begin)).collect();
-        for UintConstant { name: constant, value, place } in &found {
+        let constants: Vec<_> = self.names().collect();
+        let found = found.iter().filter(|found| found.name.starts_with(&begin));
+        let found: Vec<_> = found.collect();
+        for Constant { name: constant, value, place } in &found {
             let Some(number) = constants.iter().position(|known| known == constant) else {
                 bail!(
                     "{place}: {constant} is in the shader, but Rust's {name} has no such variant"
@@ -247,26 +283,12 @@ mod tests {
         enum Preset { Board, FourSpheres }
     }
 
-    fn shader(text: &[(&str, u32)]) -> [Shader; 1] {
-        let constants = text.iter().enumerate().map(|(line, (name, value))| {
-            let place = format!("a/push.glsl:{}", line + 1);
-            UintConstant { name: (*name).to_owned(), value: *value, place }
-        });
-        [Shader {
-            path: "a/camera.rgen".to_owned(),
-            stage: ash::vk::ShaderStageFlags::RAYGEN_KHR,
-            spirv: Vec::new(),
-            files: Vec::new(),
-            constants: constants.collect(),
-        }]
-    }
-
     #[test]
     fn one_declaration_gives_words_numbers_and_constants() {
         assert_eq!(Show::LAYOUT.words, ["picture", "hit kind", "ray direction"]);
         assert_eq!(Preset::LAYOUT.words, ["board", "four spheres"]);
         assert_eq!(Show::ALL.iter().map(|show| u32::from(*show)).collect::<Vec<_>>(), [0, 1, 2]);
-        let constants: Vec<_> = Show::LAYOUT.constants().collect();
+        let constants: Vec<_> = Show::LAYOUT.names().collect();
         assert_eq!(constants, ["SHOW_PICTURE", "SHOW_HIT_KIND", "SHOW_DIRECTION"]);
         assert!(Number::from(Show::HitKind) == Show::HitKind);
         assert_eq!(bytemuck::bytes_of(&Number::from(Show::Direction)), 2u32.to_ne_bytes());
@@ -274,9 +296,15 @@ mod tests {
 
     #[test]
     fn constants_that_differ_are_named_on_both_sides() {
-        let check = |text: &[(&str, u32)]| {
-            let checked = Show::LAYOUT.check("a", &shader(text));
-            checked.map_err(|error| error.to_string())
+        let check = |lines: &[(&str, u32)]| {
+            let line = |(name, value): &(&str, u32)| format!("const uint {name} = {value};\n");
+            let lines: String = lines.iter().map(line).collect();
+            let text = format!(
+                "#version 460\n#line 1 \"a/push.glsl\"\n{lines}#line 9 \"a/camera.rgen\"\n"
+            );
+            Show::LAYOUT
+                .check("a", &constants("a/camera.rgen", &text))
+                .map_err(|error| error.to_string())
         };
         let [picture, kind, direction] =
             [("SHOW_PICTURE", 0), ("SHOW_HIT_KIND", 1), ("SHOW_DIRECTION", 2)];
@@ -293,6 +321,6 @@ mod tests {
             check(&[picture, direction]).unwrap_err(),
             "a: Rust has Show::HitKind, but no shader says `const uint SHOW_HIT_KIND = 1;`"
         );
-        assert!(Preset::LAYOUT.check("a", &shader(&[])).is_ok());
+        assert!(Preset::LAYOUT.check("a", &[]).is_ok());
     }
 }

@@ -36,7 +36,7 @@ mod timing;
 mod validation;
 
 pub use accel::{AccelerationStructure, BuildOptions};
-pub use blueprint::{Attachments, Blueprint, Group, Stage};
+pub use blueprint::{Attachments, Binding, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use context::{Gpu, GpuContext, GpuOptions};
 pub use device::{device_lines, named as named_device};
@@ -51,8 +51,8 @@ pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLay
 pub use limits::Limits;
 pub use margin::{margin, padded};
 pub use pipeline::{
-    Band, Binding, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline,
-    PipelineBuilder, RayTracingPipeline,
+    Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline, PipelineBuilder,
+    RayTracingPipeline,
 };
 pub use pipeline_cache::PipelineCache;
 pub use reflection::{Bound, Reflection};

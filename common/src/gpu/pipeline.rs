@@ -17,30 +17,9 @@ pub use compute::{Band, ComputePipeline};
 pub use graphics::GraphicsPipeline;
 pub use hit_group::HitGroup;
 
-use super::blueprint::{Blueprint, STAGES};
+use super::blueprint::{Binding, Blueprint, STAGES};
 use super::layout::ShaderStruct;
 use super::{AccelerationStructure, Buffer, Gpu, Image};
-
-/// What a binding of set 0 holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Binding {
-    /// A top level acceleration structure.
-    AccelerationStructure,
-    /// An image that shaders write.
-    StorageImage,
-    /// A buffer that shaders read and write.
-    StorageBuffer,
-}
-
-impl Binding {
-    fn descriptor_type(self) -> vk::DescriptorType {
-        match self {
-            Self::AccelerationStructure => vk::DescriptorType::ACCELERATION_STRUCTURE_KHR,
-            Self::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
-            Self::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
-        }
-    }
-}
 
 /// What is pushed to a binding for the next trace.
 #[derive(Clone, Copy)]
@@ -63,7 +42,6 @@ pub struct Pipeline {
     pub blueprint: Arc<Blueprint>,
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
-    bindings: Vec<Binding>,
     textures: Option<vk::DescriptorSet>,
     set_layout: vk::DescriptorSetLayout,
     gpu: Gpu,
@@ -102,80 +80,69 @@ impl Pipeline {
         descriptors: &[Descriptor],
         push: &T,
     ) -> Result<()> {
-        let kinds: Vec<Binding> = descriptors.iter().map(Descriptor::binding).collect();
+        let Blueprint { name, bindings, push_size, .. } = &*self.blueprint;
+        let kinds = || descriptors.iter().map(Descriptor::binding);
         ensure!(
-            kinds == self.bindings,
-            "pipeline '{}' binds {:?}, not {kinds:?}",
-            self.blueprint.name,
-            self.bindings
+            kinds().eq(bindings.iter().copied()),
+            "pipeline '{name}' binds {bindings:?}, not {:?}",
+            kinds().collect::<Vec<_>>()
         );
         let bytes = bytemuck::bytes_of(push);
         ensure!(
-            bytes.len() == self.blueprint.push_size as usize,
-            "pipeline '{}' takes {} bytes of push constants, not {}",
-            self.blueprint.name,
-            self.blueprint.push_size,
+            bytes.len() == *push_size as usize,
+            "pipeline '{name}' takes {push_size} bytes of push constants, not {}",
             bytes.len()
         );
-        for descriptor in descriptors {
-            let Descriptor::StorageBuffer(buffer) = descriptor else { continue };
-            let most = self.gpu.limits.max_storage_buffer_range;
-            ensure!(
-                buffer.size <= most,
-                "pipeline '{}' binds a buffer of {} bytes, and {} takes {most}",
-                self.blueprint.name,
-                buffer.size,
-                self.gpu.name
-            );
-        }
-        let point = self.blueprint.bind_point();
+        let (device, point) = (&self.gpu.device, self.blueprint.bind_point());
         // SAFETY: cmd is being recorded; the pipeline and its descriptors outlive the submission.
         unsafe {
-            self.gpu.device.cmd_bind_pipeline(cmd, point, self.handle);
-            if let Some(textures) = self.textures {
-                let sets = [textures];
-                self.gpu.device.cmd_bind_descriptor_sets(cmd, point, self.layout, 1, &sets, &[]);
+            device.cmd_bind_pipeline(cmd, point, self.handle);
+            if let Some(set) = self.textures {
+                device.cmd_bind_descriptor_sets(cmd, point, self.layout, 1, &[set], &[]);
             }
-            self.gpu.device.cmd_push_constants(cmd, self.layout, STAGES, 0, bytes);
+            device.cmd_push_constants(cmd, self.layout, STAGES, 0, bytes);
         }
-        for (binding, descriptor) in descriptors.iter().enumerate() {
-            self.push_descriptor(cmd, binding as u32, descriptor);
+        for (binding, descriptor) in (0..).zip(descriptors) {
+            self.push(cmd, binding, descriptor)?;
         }
         Ok(())
     }
 
-    fn push_descriptor(&self, cmd: vk::CommandBuffer, binding: u32, descriptor: &Descriptor) {
-        let (structure, image, buffer);
-        let mut in_structure;
-        let write = vk::WriteDescriptorSet::default()
-            .dst_binding(binding)
-            .descriptor_count(1)
-            .descriptor_type(descriptor.binding().descriptor_type());
+    /// Pushes one descriptor.
+    fn push(&self, cmd: vk::CommandBuffer, binding: u32, descriptor: &Descriptor) -> Result<()> {
+        let (structure, mut in_structure, image, buffer);
+        let kind = descriptor.binding().descriptor_type();
+        let write = vk::WriteDescriptorSet::default().dst_binding(binding).descriptor_type(kind);
         let write = match descriptor {
             Descriptor::AccelerationStructure(tlas) => {
                 structure = [tlas.handle];
                 in_structure = vk::WriteDescriptorSetAccelerationStructureKHR::default()
                     .acceleration_structures(&structure);
-                write.push_next(&mut in_structure)
+                write.descriptor_count(1).push_next(&mut in_structure)
             }
             Descriptor::StorageImage(target) => {
-                image = [vk::DescriptorImageInfo::default()
-                    .image_view(target.view)
-                    .image_layout(vk::ImageLayout::GENERAL)];
+                let info = vk::DescriptorImageInfo::default().image_view(target.view);
+                image = [info.image_layout(vk::ImageLayout::GENERAL)];
                 write.image_info(&image)
             }
             Descriptor::StorageBuffer(target) => {
-                buffer = [vk::DescriptorBufferInfo::default()
-                    .buffer(target.handle)
-                    .range(vk::WHOLE_SIZE)];
+                let most = self.gpu.limits.max_storage_buffer_range;
+                ensure!(
+                    target.size <= most,
+                    "pipeline '{}' binds a buffer of {} bytes, and {} takes {most}",
+                    self.blueprint.name,
+                    target.size,
+                    self.gpu.name
+                );
+                let info = vk::DescriptorBufferInfo::default().buffer(target.handle);
+                buffer = [info.range(vk::WHOLE_SIZE)];
                 write.buffer_info(&buffer)
             }
         };
-        let point = self.blueprint.bind_point();
+        let (extension, point) = (&self.gpu.push_descriptor, self.blueprint.bind_point());
         // SAFETY: set 0 was made for push descriptors of these kinds; all handles are alive.
-        unsafe {
-            self.gpu.push_descriptor.cmd_push_descriptor_set(cmd, point, self.layout, 0, &[write]);
-        }
+        unsafe { extension.cmd_push_descriptor_set(cmd, point, self.layout, 0, &[write]) };
+        Ok(())
     }
 }
 

@@ -97,7 +97,7 @@ impl ShaderBindingTable {
     /// # Errors
     /// If memory is short.
     pub fn new(gpu: &Gpu, pipeline: &RayTracingPipeline) -> Result<Self> {
-        let hit = (0..pipeline.groups[2]).map(|group| Record { group, data: Vec::new() });
+        let hit = (0..pipeline.groups[2]).map(|group| Record { group, ..Record::default() });
         Self::with_hit_records(gpu, pipeline, &hit.collect::<Vec<_>>())
     }
 
@@ -111,44 +111,36 @@ impl ShaderBindingTable {
         hit: &[Record],
     ) -> Result<Self> {
         let [raygen, miss, _, callable] = pipeline.groups;
-        let plain = |count| (0..count).map(|group| Record { group, data: Vec::new() }).collect();
-        let mut records: [Vec<Record>; 4] =
-            [plain(raygen), plain(miss), hit.to_vec(), plain(callable)];
-        for record in &mut records[0] {
-            record.data = vec![0; size_of::<[u32; 2]>()];
-        }
-        let longest = |r: &Vec<Record>| r.iter().map(|record| record.data.len()).max().unwrap_or(0);
-        let layout =
-            layout(&gpu.limits, records.each_ref().map(Vec::len), records.each_ref().map(longest))?;
-
+        let records = [raygen, miss, hit.len(), callable];
+        let longest = hit.iter().map(|record| record.data.len()).max().unwrap_or(0);
+        // The raygen record has the first pixel of a launch.
+        let layout = layout(&gpu.limits, records, [size_of::<[u32; 2]>(), 0, longest, 0])?;
         let handle_size = gpu.limits.shader_group_handle_size as usize;
         let total: usize = pipeline.groups.iter().sum();
+        let (extension, size) = (&gpu.ray_tracing_pipeline, total * handle_size);
+        let (handle, total) = (pipeline.handle, total as u32);
         // SAFETY: the pipeline is alive and has this many groups.
-        let handles = unsafe {
-            gpu.ray_tracing_pipeline.get_ray_tracing_shader_group_handles(
-                pipeline.handle,
-                0,
-                total as u32,
-                total * handle_size,
-            )?
-        };
+        let handles =
+            unsafe { extension.get_ray_tracing_shader_group_handles(handle, 0, total, size)? };
         let mut bytes = vec![0u8; layout.size as usize];
         let mut first_group = 0;
-        for (region, records) in records.iter().enumerate() {
-            let Region { offset, stride, .. } = layout.regions[region];
-            for (index, record) in records.iter().enumerate() {
-                let count = pipeline.groups[region];
+        for (kind, &count) in pipeline.groups.iter().enumerate() {
+            let Region { offset, stride, .. } = layout.regions[kind];
+            for index in 0..records[kind] {
+                let (group, data) = match kind {
+                    2 => (hit[index].group, &hit[index].data[..]),
+                    _ => (index, &[][..]),
+                };
                 ensure!(
-                    record.group < count,
-                    "a shader record names group {}; the pipeline has {count} of its kind",
-                    record.group
+                    group < count,
+                    "a shader record names group {group}; the pipeline has {count} of its kind"
                 );
-                let handle = &handles[(first_group + record.group) * handle_size..][..handle_size];
-                let start = offset as usize + index * stride as usize;
-                bytes[start..][..handle_size].copy_from_slice(handle);
-                bytes[start + handle_size..][..record.data.len()].copy_from_slice(&record.data);
+                let handle = &handles[(first_group + group) * handle_size..][..handle_size];
+                let record = &mut bytes[offset as usize + index * stride as usize..];
+                record[..handle_size].copy_from_slice(handle);
+                record[handle_size..][..data.len()].copy_from_slice(data);
             }
-            first_group += pipeline.groups[region];
+            first_group += count;
         }
         let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
@@ -157,13 +149,9 @@ impl ShaderBindingTable {
         let alignment = gpu.limits.shader_group_base_alignment;
         let buffer = Buffer::aligned(gpu, &name, layout.size, usage, alignment)?;
         buffer.write(0, &bytes).context("cannot fill the shader binding table")?;
-        let regions = layout.regions.map(|region| {
-            let address = if region.size > 0 { buffer.address + region.offset } else { 0 };
-            vk::StridedDeviceAddressRegionKHR {
-                device_address: address,
-                stride: region.stride,
-                size: region.size,
-            }
+        let regions = layout.regions.map(|Region { offset, stride, size }| {
+            let device_address = if size > 0 { buffer.address + offset } else { 0 };
+            vk::StridedDeviceAddressRegionKHR { device_address, stride, size }
         });
         Ok(Self { layout, regions, buffer, gpu: gpu.clone() })
     }
@@ -210,12 +198,9 @@ impl ShaderBindingTable {
         let vk::Rect2D { offset, extent: vk::Extent2D { width, height } } = area;
         let at = self.layout.regions[0].offset + self.gpu.limits.shader_group_handle_size;
         self.update(cmd, at, bytemuck::cast_slice(&[offset.x, offset.y]));
+        let extension = &self.gpu.ray_tracing_pipeline;
         // SAFETY: the pipeline and its descriptors are bound, and the table outlives the submission.
-        unsafe {
-            self.gpu
-                .ray_tracing_pipeline
-                .cmd_trace_rays(cmd, raygen, miss, hit, callable, width, height, 1);
-        }
+        unsafe { extension.cmd_trace_rays(cmd, raygen, miss, hit, callable, width, height, 1) };
     }
 }
 

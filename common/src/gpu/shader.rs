@@ -19,11 +19,12 @@ use glslang::{
     SpirvVersion, Target, VulkanVersion, error::GlslangError,
 };
 
-use self::source::Source;
+use super::blueprint::Blueprint;
 use super::contraction;
 use crate::files;
 
 /// A compiled shader.
+#[derive(Hash)]
 pub struct Shader {
     /// Its path below `shaders/`, such as `02_basic/camera.rgen`.
     pub path: String,
@@ -31,21 +32,8 @@ pub struct Shader {
     pub stage: vk::ShaderStageFlags,
     /// The module's words.
     pub spirv: Vec<u32>,
-    /// Every file that it is made of: itself, then its includes, below `shaders/`.
-    pub files: Vec<String>,
-    /// The lines `const uint NAME = 1;` of those files.
-    pub constants: Vec<UintConstant>,
-}
-
-/// A number that a shader has a name for.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct UintConstant {
-    /// The name.
-    pub name: String,
-    /// The number.
-    pub value: u32,
-    /// Where it is: file and line.
-    pub place: String,
+    /// Its text, includes and all.
+    pub text: String,
 }
 
 /// Whether shaders are another's than the project's.
@@ -72,8 +60,8 @@ pub struct StageText<'a> {
     pub defines: &'a [(&'a str, String)],
     /// Whether all arithmetic is to be done as it is written.
     pub as_written: bool,
-    /// A number that only identical pipelines have in common.
-    pub pipeline: u64,
+    /// The pipeline that it is for, which may lack words.
+    pub pipeline: Option<&'a Blueprint>,
 }
 
 impl StageText<'_> {
@@ -127,28 +115,36 @@ impl Shader {
         defines: &[(&str, String)],
         words: impl FnOnce(StageText) -> Result<Vec<u32>>,
     ) -> Result<Self> {
-        let (stage, _) = stage(path)?;
-        let mut source = Source::default();
-        source.splice(path, 0)?;
-        let Source { text, files, constants, .. } = source;
-        let spirv = words(StageText { path, text, defines, ..StageText::default() })?;
-        Ok(Self { path: path.to_owned(), stage, spirv, files, constants })
+        let (stage, text) = (stage(path)?, source::spliced(path)?);
+        let spirv = words(StageText { path, text: text.clone(), defines, ..StageText::default() })?;
+        Ok(Self { path: path.to_owned(), stage, spirv, text })
+    }
+
+    /// Every file that it is made of: itself, then its includes, below `shaders/`.
+    pub fn files(&self) -> Vec<String> {
+        let begun =
+            |line: &str| Some(line.strip_prefix("#line 1 \"")?.trim_end_matches('"').to_owned());
+        std::iter::once(self.path.clone()).chain(self.text.lines().filter_map(begun)).collect()
     }
 }
 
-fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
+/// The stage that a file's extension names.
+///
+/// # Errors
+/// If it names none.
+pub fn stage(path: &str) -> Result<vk::ShaderStageFlags> {
     use vk::ShaderStageFlags as Flags;
     let extension = Path::new(path).extension().and_then(|e| e.to_str()).unwrap_or_default();
     Ok(match extension {
-        "rgen" => (Flags::RAYGEN_KHR, ShaderStage::RayGeneration),
-        "rmiss" => (Flags::MISS_KHR, ShaderStage::Miss),
-        "rchit" => (Flags::CLOSEST_HIT_KHR, ShaderStage::ClosestHit),
-        "rahit" => (Flags::ANY_HIT_KHR, ShaderStage::AnyHit),
-        "rint" => (Flags::INTERSECTION_KHR, ShaderStage::Intersect),
-        "rcall" => (Flags::CALLABLE_KHR, ShaderStage::Callable),
-        "comp" => (Flags::COMPUTE, ShaderStage::Compute),
-        "vert" => (Flags::VERTEX, ShaderStage::Vertex),
-        "frag" => (Flags::FRAGMENT, ShaderStage::Fragment),
+        "rgen" => Flags::RAYGEN_KHR,
+        "rmiss" => Flags::MISS_KHR,
+        "rchit" => Flags::CLOSEST_HIT_KHR,
+        "rahit" => Flags::ANY_HIT_KHR,
+        "rint" => Flags::INTERSECTION_KHR,
+        "rcall" => Flags::CALLABLE_KHR,
+        "comp" => Flags::COMPUTE,
+        "vert" => Flags::VERTEX,
+        "frag" => Flags::FRAGMENT,
         _ => bail!(
             "shader '{path}': unknown stage '.{extension}'; known are rgen, rmiss, rchit, rahit, rint, \
              rcall, comp, vert, frag"
@@ -161,7 +157,17 @@ fn stage(path: &str) -> Result<(vk::ShaderStageFlags, ShaderStage)> {
 /// # Errors
 /// As [`StageText::words`].
 pub fn to_spirv(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
-    let (_, stage) = stage(path)?;
+    let stage = match stage(path)? {
+        vk::ShaderStageFlags::RAYGEN_KHR => ShaderStage::RayGeneration,
+        vk::ShaderStageFlags::MISS_KHR => ShaderStage::Miss,
+        vk::ShaderStageFlags::CLOSEST_HIT_KHR => ShaderStage::ClosestHit,
+        vk::ShaderStageFlags::ANY_HIT_KHR => ShaderStage::AnyHit,
+        vk::ShaderStageFlags::INTERSECTION_KHR => ShaderStage::Intersect,
+        vk::ShaderStageFlags::CALLABLE_KHR => ShaderStage::Callable,
+        vk::ShaderStageFlags::VERTEX => ShaderStage::Vertex,
+        vk::ShaderStageFlags::FRAGMENT => ShaderStage::Fragment,
+        _ => ShaderStage::Compute,
+    };
     let compiler = glslang::Compiler::acquire().context("glslang does not start")?;
     let source = ShaderSource::from(text);
     // In 1.6 a workgroup whose size is a specialization constant is `LocalSizeId`, for which a device would

@@ -15,12 +15,21 @@ pub struct Statistics {
     pub acceleration_structure_bytes: u64,
     /// Host time of compiling shaders and making pipelines.
     pub pipeline_time: Duration,
-    /// Shader stages compiled, by path below `shaders/`.
-    pub stages: Vec<String>,
-    /// Shader groups in all pipelines.
-    pub groups: usize,
     /// What every pipeline was made from, in the order in which they were made.
     pub blueprints: Vec<Arc<Blueprint>>,
     /// What the driver's compiler says of the last pipeline, where it was wished for and does.
     pub executables: Vec<Executable>,
+}
+
+impl Statistics {
+    /// The stages of all pipelines, by path below `shaders/`.
+    pub fn stages(&self) -> Vec<String> {
+        let stages = self.blueprints.iter().flat_map(|blueprint| &blueprint.stages);
+        stages.map(|stage| stage.path.clone()).collect()
+    }
+
+    /// How many shader groups there are in all pipelines.
+    pub fn groups(&self) -> usize {
+        self.blueprints.iter().map(|blueprint| blueprint.groups.len()).sum()
+    }
 }

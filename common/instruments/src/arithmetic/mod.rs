@@ -71,26 +71,27 @@ impl Arithmetic {
         ))
     }
 
-    /// The module as the driver gets it; `path` tells one module's places from another's, and where there is a
-    /// [`seed`], so does the `pipeline` that it is for.
+    /// The stage's module as the driver gets it; its path tells one module's places from another's, and where
+    /// there is a [`seed`], so does the pipeline that it is for.
     ///
     /// # Errors
     /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
-    pub fn applied(self, path: &str, pipeline: u64, words: Vec<u32>) -> Result<Vec<u32>> {
+    pub fn applied(self, stage: &StageText, words: Vec<u32>) -> Result<Vec<u32>> {
         let seed = match self {
             Self::Driver => return Ok(words),
             Self::Worst => None,
             Self::WorstByPlace => {
                 let mut hasher = DefaultHasher::new();
-                path.hash(&mut hasher);
+                stage.path.hash(&mut hasher);
                 if let Some(seed) = seed() {
-                    (seed, pipeline).hash(&mut hasher);
+                    (seed, stage.pipeline, stage.defines, stage.as_written).hash(&mut hasher);
                 }
                 Some(hasher.finish() as u32)
             }
         };
-        let rewritten = rewrite::worst(&words, seed)
-            .with_context(|| format!("shader '{path}' cannot be had in the worst arithmetic"))?;
+        let rewritten = rewrite::worst(&words, seed).with_context(|| {
+            format!("shader '{}' cannot be had in the worst arithmetic", stage.path)
+        })?;
         // What the worst arithmetic computes itself, the driver must not rearrange.
         contraction::without(&rewritten)
     }
@@ -117,7 +118,7 @@ impl Emulation for Arithmetic {
         let text = Self::prepared(&stage.text, &plain)
             .with_context(|| format!("shader '{}' is not for the worst arithmetic", stage.path))?;
         let words = StageText { text, ..stage.clone() }.words()?;
-        self.applied(stage.path, stage.pipeline, words)
+        self.applied(stage, words)
     }
 
     /// By place, the device cannot, so that both kinds of shaders are tried.

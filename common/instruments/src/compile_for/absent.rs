@@ -71,9 +71,10 @@ fn one(
             sets.push(TextureTable::layout(device, count)?);
         }
         let layout = blueprint.layout(device, &sets)?;
-        let flags = vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR;
+        let mut blueprint = blueprint.clone();
+        blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
         let cache = vk::PipelineCache::null();
-        let made = blueprint.create(device, ray_tracing_pipeline, layout, cache, flags, |_, _| {});
+        let made = blueprint.create(device, ray_tracing_pipeline, layout, cache, |_, _| {});
         let made = made.with_context(|| format!("cannot make the pipeline '{}'", blueprint.name));
         let executables = made.and_then(|pipeline| {
             let executables = Executable::all(properties, pipeline);

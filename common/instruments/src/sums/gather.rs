@@ -344,9 +344,7 @@ fn crc_of(pipelines: &[Arc<Blueprint>]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     for Blueprint { stages, constants, .. } in pipelines.iter().map(AsRef::as_ref) {
         stages.iter().for_each(|stage| hasher.update(bytemuck::cast_slice(&stage.words)));
-        for (number, value) in constants {
-            hasher.update(bytemuck::bytes_of(&[*number, *value]));
-        }
+        hasher.update(bytemuck::cast_slice(constants));
     }
     hasher.finalize()
 }

@@ -59,7 +59,7 @@ impl Reload {
         for stage in &self.stages {
             // They have just been compiled, so this reads the cache.
             let shader = shader::compile(stage)?;
-            files.extend(shader.files);
+            files.extend(shader.files());
             bound.extend(Reflection::of(&shader.spirv)?.descriptors());
         }
         (self.files, self.bound) = (files, bound);

@@ -340,7 +340,7 @@ impl Session {
     /// Watches the shaders of the pipelines that there are by now.
     fn learn(&mut self) {
         let statistics = self.stage.gpu.take_statistics();
-        if let Err(error) = self.reload.learn(&statistics.stages) {
+        if let Err(error) = self.reload.learn(&statistics.stages()) {
             self.panel.error = Some(format!("{error:#}"));
         }
         if !statistics.blueprints.is_empty() {

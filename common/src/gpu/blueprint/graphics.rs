@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The attachments of a graphics pipeline, which draws triangles of both sides to the whole of them, one
 /// sample a pixel, and takes no vertex input: its vertex shader reads by address.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Attachments {
     /// `VkFormat` of each colour attachment.
     pub colors: Vec<i32>,

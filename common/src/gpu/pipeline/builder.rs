@@ -1,6 +1,5 @@
 //! A pipeline put together line by line.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -8,89 +7,85 @@ use anyhow::{Context, Result, ensure};
 use ash::vk;
 
 use super::hit_group::HitGroup;
-use super::{Binding, ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
+use super::{ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
 use crate::gpu::agreement;
-use crate::gpu::blueprint::{Attachments, Blueprint, Group, Stage};
+use crate::gpu::blueprint::{Binding, Blueprint, Group, Stage};
 use crate::gpu::enumeration::ShaderConstant;
 use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
-use crate::gpu::shader::{Shader, StageText};
+use crate::gpu::shader::{self, Shader, StageText};
 use crate::gpu::texture::TextureTable;
 use crate::gpu::{Executable, Gpu};
 
-/// Collects what a pipeline is made of. Begin with [`RayTracingPipeline::builder`],
+/// Fills a [`Blueprint`] line by line. Begin with [`RayTracingPipeline::builder`],
 /// [`ComputePipeline::builder`] or [`GraphicsPipeline::builder`].
+#[derive(Default)]
 pub struct PipelineBuilder<'a> {
-    name: &'a str,
-    raygen: Vec<&'a str>,
-    miss: Vec<&'a str>,
-    hit: Vec<HitGroup<'a>>,
-    callable: Vec<&'a str>,
-    compute: Option<&'a str>,
+    /// What the pipeline is made from; its stages get their words last.
+    blueprint: Blueprint,
+    /// How many groups it has of each kind: raygen, miss, hit, callable.
+    groups: [usize; 4],
     workgroup: [u32; 2],
-    raster: Vec<&'a str>,
-    attachments: Attachments,
-    bindings: Vec<Binding>,
     textures: Option<&'a TextureTable>,
-    push: Option<StructLayout>,
     known: Known,
-    constants: Vec<(u32, u32)>,
     defines: Vec<(&'a str, String)>,
-    recursion: u32,
-    flags: vk::PipelineCreateFlags,
     as_written: bool,
 }
 
 impl<'a> PipelineBuilder<'a> {
-    pub(super) fn new(name: &'a str) -> Self {
-        Self {
-            name,
-            raygen: Vec::new(),
-            miss: Vec::new(),
-            hit: Vec::new(),
-            callable: Vec::new(),
-            compute: None,
-            workgroup: [1, 1],
-            raster: Vec::new(),
-            attachments: Attachments::default(),
-            bindings: Vec::new(),
-            textures: None,
-            push: None,
-            known: Known::default(),
-            constants: Vec::new(),
-            defines: Vec::new(),
-            recursion: 1,
-            flags: vk::PipelineCreateFlags::empty(),
-            as_written: false,
-        }
+    pub(super) fn new(name: &str) -> Self {
+        let blueprint = Blueprint { name: name.to_owned(), recursion: 1, ..Blueprint::default() };
+        Self { blueprint, workgroup: [1, 1], ..Self::default() }
     }
 
     /// Adds a ray generation shader; `vkCmdTraceRaysKHR` starts the first.
-    pub fn raygen(mut self, shader: &'a str) -> Self {
-        self.raygen.push(shader);
-        self
+    pub fn raygen(self, shader: &str) -> Self {
+        self.general(0, shader)
     }
 
     /// Adds a miss shader; `traceRayEXT` chooses by position.
-    pub fn miss(mut self, shader: &'a str) -> Self {
-        self.miss.push(shader);
-        self
+    pub fn miss(self, shader: &str) -> Self {
+        self.general(1, shader)
     }
 
     /// Adds a hit group.
-    pub fn hit(mut self, group: HitGroup<'a>) -> Self {
-        self.hit.push(group);
-        self
+    pub fn hit(mut self, group: HitGroup) -> Self {
+        let group = group.of_stages(|shader| self.stage(shader));
+        self.group(2, group)
     }
 
     /// Adds a callable shader; `executeCallableEXT` chooses by position.
-    pub fn callable(mut self, shader: &'a str) -> Self {
-        self.callable.push(shader);
+    pub fn callable(self, shader: &str) -> Self {
+        self.general(3, shader)
+    }
+
+    /// Adds a group of one shader.
+    fn general(mut self, kind: usize, shader: &str) -> Self {
+        let general = self.stage(shader);
+        self.group(kind, Group { general, ..Group::default() })
+    }
+
+    /// Adds a group behind those of its kind.
+    fn group(mut self, kind: usize, group: Group) -> Self {
+        let at = self.groups[..=kind].iter().sum();
+        self.blueprint.groups.insert(at, group);
+        self.groups[kind] += 1;
         self
     }
 
+    /// The number of a stage: each is compiled once, however many groups have it.
+    fn stage(&mut self, shader: &str) -> u32 {
+        let Blueprint { name, stages, .. } = &mut self.blueprint;
+        let path = format!("{name}/{shader}");
+        if let Some(known) = stages.iter().position(|stage| stage.path == path) {
+            return known as u32;
+        }
+        stages.push(Stage { path, ..Stage::default() });
+        stages.len() as u32 - 1
+    }
+
     /// Sets the compute shader.
-    pub fn compute(mut self, shader: &'a str) -> Self {
-        self.compute = Some(shader);
+    pub fn compute(mut self, shader: &str) -> Self {
+        self.stage(shader);
         self
     }
 
@@ -98,49 +93,53 @@ impl<'a> PipelineBuilder<'a> {
     /// compute shader names as its `local_size_x_id` and `local_size_y_id`.
     pub fn workgroup(mut self, id: u32, size: [u32; 2]) -> Self {
         self.workgroup = size;
-        self.constants.extend([(id, size[0]), (id + 1, size[1])]);
+        self.blueprint.constants.extend([[id, size[0]], [id + 1, size[1]]]);
         self
     }
 
     /// Sets the vertex shader.
-    pub fn vertex(mut self, shader: &'a str) -> Self {
-        self.raster.insert(0, shader);
+    pub fn vertex(mut self, shader: &str) -> Self {
+        self.stage(shader);
+        self.blueprint.stages.rotate_right(1);
         self
     }
 
     /// Sets the fragment shader.
-    pub fn fragment(mut self, shader: &'a str) -> Self {
-        self.raster.push(shader);
+    pub fn fragment(mut self, shader: &str) -> Self {
+        self.stage(shader);
         self
     }
 
     /// Adds the next colour attachment, which takes the place of what was there: nothing is blended.
     pub fn color(mut self, format: vk::Format) -> Self {
-        self.attachments.colors.push(format.as_raw());
+        let attachments = self.blueprint.attachments.get_or_insert_default();
+        attachments.colors.push(format.as_raw());
         self
     }
 
     /// Sets the depth attachment, and what a fragment's depth has to be against the one that is there.
     pub fn depth(mut self, format: vk::Format, compare: vk::CompareOp) -> Self {
-        self.attachments.depth = Some((format.as_raw(), compare.as_raw()));
+        let attachments = self.blueprint.attachments.get_or_insert_default();
+        attachments.depth = Some((format.as_raw(), compare.as_raw()));
         self
     }
 
     /// Adds the next binding of set 0.
     pub fn binding(mut self, binding: Binding) -> Self {
-        self.bindings.push(binding);
+        self.blueprint.bindings.push(binding);
         self
     }
 
     /// Makes set 1 the texture table.
     pub fn textures(mut self, textures: &'a TextureTable) -> Self {
+        self.blueprint.textures = Some(textures.count());
         self.textures = Some(textures);
         self
     }
 
     /// Declares the push constants, checked against the block of the same name in every shader.
     pub fn push_constants<T: ShaderStruct>(mut self) -> Self {
-        self.push = Some(T::LAYOUT);
+        self.blueprint.push_size = T::LAYOUT.size as u32;
         T::reach(&mut self.known);
         self
     }
@@ -160,7 +159,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Sets the specialization constant `id` in every stage that has it. The names that shaders have for
     /// an enumeration's numbers are checked against it.
     pub fn constant<T: ShaderConstant>(mut self, id: u32, value: T) -> Self {
-        self.constants.push((id, value.bits()));
+        self.blueprint.constants.push([id, value.bits()]);
         T::ENUM.into_iter().for_each(|layout| self.known.add_enum(layout));
         self
     }
@@ -173,7 +172,7 @@ impl<'a> PipelineBuilder<'a> {
 
     /// How deep `traceRayEXT` nests: 1 is a ray from the raygen shader, 2 a ray from its hit.
     pub fn recursion(mut self, depth: u32) -> Self {
-        self.recursion = depth;
+        self.blueprint.recursion = depth;
         self
     }
 
@@ -196,7 +195,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Promises that rays shall skip all triangles, or all boxes: where the device has
     /// [`Limits::primitive_culling`](super::Limits), and only one of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
-        self.flags |= flags;
+        self.blueprint.flags |= flags.as_raw();
         self
     }
 
@@ -207,29 +206,14 @@ impl<'a> PipelineBuilder<'a> {
     /// has not declared what lies at an address, the device allows less recursion, or there are more push
     /// constants than the sample's requirements say.
     pub fn build(self, gpu: &Gpu) -> Result<RayTracingPipeline> {
-        let start = Instant::now();
+        let Blueprint { name, recursion, .. } = &self.blueprint;
         let limit = gpu.limits.max_ray_recursion_depth;
         ensure!(
-            self.recursion <= limit,
-            "pipeline '{}' needs a recursion depth of {}; {} allows {limit}",
-            self.name,
-            self.recursion,
+            *recursion <= limit,
+            "pipeline '{name}' needs a recursion depth of {recursion}; {} allows {limit}",
             gpu.name
         );
-        let (mut shaders, mut groups) = (Vec::new(), Vec::new());
-        let mut number = |file: &str| self.add(gpu, file, &mut shaders);
-        for shader in self.raygen.iter().chain(&self.miss) {
-            groups.push(Group::general(number(shader)?));
-        }
-        for hit in &self.hit {
-            groups.push(hit.group(&mut number)?);
-        }
-        for shader in &self.callable {
-            groups.push(Group::general(number(shader)?));
-        }
-        let count = [self.raygen.len(), self.miss.len(), self.hit.len(), self.callable.len()];
-        let pipeline = self.make(gpu, start, shaders, groups, None)?;
-        Ok(RayTracingPipeline { groups: count, pipeline })
+        Ok(RayTracingPipeline { groups: self.groups, pipeline: self.pipeline(gpu)? })
     }
 
     /// Compiles the compute shader and makes the pipeline.
@@ -238,146 +222,86 @@ impl<'a> PipelineBuilder<'a> {
     /// As [`build`](Self::build); if there is no compute shader, or a workgroup is larger than the device
     /// takes.
     pub fn build_compute(self, gpu: &Gpu) -> Result<ComputePipeline> {
-        let start = Instant::now();
-        let workgroup @ [width, height] = self.workgroup;
+        let (name, workgroup @ [width, height]) = (&self.blueprint.name, self.workgroup);
         let limit = gpu.limits.max_compute_work_group_invocations;
         ensure!(
             width * height <= limit,
-            "pipeline '{}' has workgroups of {width}x{height} invocations; {} takes {limit}",
-            self.name,
+            "pipeline '{name}' has workgroups of {width}x{height} invocations; {} takes {limit}",
             gpu.name
         );
-        let shader = self.compute.context("a compute pipeline without a shader")?;
-        let mut shaders = Vec::new();
-        self.add(gpu, shader, &mut shaders)?;
-        let pipeline = self.make(gpu, start, shaders, Vec::new(), None)?;
-        Ok(ComputePipeline { workgroup, pipeline })
+        ensure!(!self.blueprint.stages.is_empty(), "a compute pipeline without a shader");
+        Ok(ComputePipeline { workgroup, pipeline: self.pipeline(gpu)? })
     }
 
     /// Compiles the vertex and the fragment shader and makes the pipeline.
     ///
     /// # Errors
     /// As [`build`](Self::build); if there is no vertex or no fragment shader.
-    pub fn build_graphics(self, gpu: &Gpu) -> Result<GraphicsPipeline> {
-        let start = Instant::now();
-        let mut shaders = Vec::new();
-        for shader in &self.raster {
-            self.add(gpu, shader, &mut shaders)?;
-        }
-        let kinds: Vec<_> = shaders.iter().map(|shader| shader.stage).collect();
+    pub fn build_graphics(mut self, gpu: &Gpu) -> Result<GraphicsPipeline> {
+        let Blueprint { name, stages, attachments, .. } = &mut self.blueprint;
+        let kinds = stages.iter().map(|stage| shader::stage(&stage.path));
+        let kinds: Vec<_> = kinds.collect::<Result<_>>()?;
         ensure!(
             kinds == [vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT],
-            "pipeline '{}' has the stages {kinds:?}; a vertex and a fragment shader are right",
-            self.name
+            "pipeline '{name}' has the stages {kinds:?}; a vertex and a fragment shader are right"
         );
-        let attachments = Some(self.attachments.clone());
-        let pipeline = self.make(gpu, start, shaders, Vec::new(), attachments)?;
-        Ok(GraphicsPipeline { pipeline })
+        attachments.get_or_insert_default();
+        Ok(GraphicsPipeline { pipeline: self.pipeline(gpu)? })
     }
 
-    /// The number of a stage among the pipeline's shaders: each is compiled once, however many groups have it.
-    fn add(&self, gpu: &Gpu, file: &str, shaders: &mut Vec<Shader>) -> Result<u32> {
-        let path = format!("{}/{file}", self.name);
-        if let Some(known) = shaders.iter().position(|shader| shader.path == path) {
-            return Ok(known as u32);
+    /// Compiles each stage and makes the pipeline of what has been filled in.
+    fn pipeline(self, gpu: &Gpu) -> Result<Pipeline> {
+        let start = Instant::now();
+        let Self { mut blueprint, textures, known, defines, as_written, .. } = self;
+        let mut shaders = Vec::new();
+        for Stage { path, .. } in &blueprint.stages {
+            shaders.push(Shader::of(path, &defines, |stage| {
+                let pipeline = Some(&blueprint);
+                gpu.emulation.words(&StageText { as_written, pipeline, ..stage })
+            })?);
         }
-        let (as_written, pipeline) = (self.as_written, self.number());
-        shaders.push(Shader::of(&path, &self.defines, |stage| {
-            gpu.emulation.words(&StageText { as_written, pipeline, ..stage })
-        })?);
-        Ok(shaders.len() as u32 - 1)
-    }
-
-    /// A number that pipelines share only if they are identical: made of the same stages and state.
-    fn number(&self) -> u64 {
-        let mut hasher = DefaultHasher::new();
-        (self.name, &self.raygen, &self.miss, &self.hit, &self.callable).hash(&mut hasher);
-        (self.compute, self.workgroup, &self.raster).hash(&mut hasher);
-        (&self.constants, &self.defines, self.recursion).hash(&mut hasher);
-        (self.flags.as_raw(), self.as_written).hash(&mut hasher);
-        hasher.finish()
-    }
-
-    /// The pipeline of these shaders; without groups and attachments it is a compute pipeline.
-    fn make(
-        &self,
-        gpu: &Gpu,
-        start: Instant,
-        shaders: Vec<Shader>,
-        groups: Vec<Group>,
-        attachments: Option<Attachments>,
-    ) -> Result<Pipeline> {
-        let push_size = self.push.map_or(0, |push| push.size);
-        let most = gpu.requirements.push_constants;
+        let (push_size, most) = (blueprint.push_size, gpu.requirements.push_constants);
         ensure!(
-            push_size <= most as usize,
+            push_size <= most,
             "pipeline '{}' has {push_size} bytes of push constants, and its sample asks for {most}: more \
              is to be said in requirements(), so that devices are chosen by it",
-            self.name
+            blueprint.name
         );
-        let bindings = (self.bindings.len(), self.textures.is_some());
-        agreement::check(self.name, &shaders, &self.known, bindings)?;
-        let stage = |shader: Shader| Stage {
-            path: shader.path,
-            stage: shader.stage.as_raw(),
-            words: shader.spirv,
-        };
-        let blueprint = Arc::new(Blueprint {
-            name: self.name.to_owned(),
-            stages: shaders.into_iter().map(stage).collect(),
-            groups,
-            attachments,
-            constants: self.constants.clone(),
-            bindings: self.bindings.iter().map(|kind| kind.descriptor_type().as_raw()).collect(),
-            textures: self.textures.map(TextureTable::count),
-            push_size: push_size as u32,
-            recursion: self.recursion,
-            flags: self.flags.as_raw(),
-        });
+        agreement::check(&blueprint, &shaders, &known)?;
+        for (stage, shader) in blueprint.stages.iter_mut().zip(shaders) {
+            (stage.stage, stage.words) = (shader.stage.as_raw(), shader.spirv);
+        }
+        if gpu.executable_properties.is_some() {
+            blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
+        }
         let mut pipeline = Pipeline {
             handle: vk::Pipeline::null(),
             layout: vk::PipelineLayout::null(),
-            build_time: Duration::ZERO,
-            textures: self.textures.map(|table| table.set),
             set_layout: blueprint.set_layout(&gpu.device)?,
-            bindings: self.bindings.clone(),
-            blueprint,
+            textures: textures.map(|table| table.set),
+            blueprint: Arc::new(blueprint),
+            build_time: Duration::ZERO,
             gpu: gpu.clone(),
         };
-        let sets: Vec<_> = std::iter::once(pipeline.set_layout)
-            .chain(self.textures.map(|table| table.layout))
-            .collect();
-        pipeline.layout = pipeline.blueprint.layout(&gpu.device, &sets)?;
-        let flags = match gpu.executable_properties {
-            Some(_) => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
-            None => vk::PipelineCreateFlags::empty(),
-        };
-        let name_module = |module, path: &str| gpu.name_object(module, path);
-        pipeline.handle = pipeline
-            .blueprint
-            .create(
-                &gpu.device,
-                &gpu.ray_tracing_pipeline,
-                pipeline.layout,
-                gpu.pipeline_cache.handle,
-                flags,
-                name_module,
-            )
-            .with_context(|| format!("cannot make the pipeline '{}'", self.name))?;
-        gpu.name_object(pipeline.handle, self.name);
-        gpu.name_object(pipeline.layout, self.name);
+        let blueprint = pipeline.blueprint.clone();
+        let mut sets = vec![pipeline.set_layout];
+        sets.extend(textures.map(|table| table.layout));
+        pipeline.layout = blueprint.layout(&gpu.device, &sets)?;
+        let (layout, cache) = (pipeline.layout, gpu.pipeline_cache.handle);
+        let name = |module, path: &str| gpu.name_object(module, path);
+        pipeline.handle = blueprint
+            .create(&gpu.device, &gpu.ray_tracing_pipeline, layout, cache, name)
+            .with_context(|| format!("cannot make the pipeline '{}'", blueprint.name))?;
+        gpu.name_object(pipeline.handle, &blueprint.name);
+        gpu.name_object(pipeline.layout, &blueprint.name);
         pipeline.build_time = start.elapsed();
-        let executables = match &gpu.executable_properties {
-            Some(device) => Executable::all(device, pipeline.handle)?,
-            None => Vec::new(),
-        };
+        if let Some(device) = &gpu.executable_properties {
+            let executables = Executable::all(device, pipeline.handle)?;
+            gpu.count(|statistics| statistics.executables = executables);
+        }
         gpu.count(|statistics| {
-            let Blueprint { stages, groups, .. } = &*pipeline.blueprint;
             statistics.pipeline_time += pipeline.build_time;
-            statistics.stages.extend(stages.iter().map(|stage| stage.path.clone()));
-            statistics.groups += groups.len();
-            statistics.blueprints.push(pipeline.blueprint.clone());
-            statistics.executables = executables;
+            statistics.blueprints.push(blueprint);
         });
         Ok(pipeline)
     }

@@ -1,12 +1,11 @@
 //! Hit groups: the shaders of one kind of geometry.
 
-use anyhow::Result;
 use ash::vk;
 
 use crate::gpu::blueprint::Group;
 
 /// A hit group: what happens where a ray meets one kind of geometry.
-#[derive(Clone, Copy, Default, Hash)]
+#[derive(Clone, Copy, Default)]
 pub struct HitGroup<'a> {
     intersection: Option<&'a str>,
     any_hit: Option<&'a str>,
@@ -37,18 +36,18 @@ impl<'a> HitGroup<'a> {
 
 impl HitGroup<'_> {
     /// The group, of stages that `number` gives numbers to.
-    pub(super) fn group(&self, mut number: impl FnMut(&str) -> Result<u32>) -> Result<Group> {
+    pub(super) fn of_stages(self, mut number: impl FnMut(&str) -> u32) -> Group {
+        let mut stage = |file: Option<&str>| file.map_or(vk::SHADER_UNUSED_KHR, &mut number);
         let kind = match self.intersection {
             Some(_) => vk::RayTracingShaderGroupTypeKHR::PROCEDURAL_HIT_GROUP,
             None => vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP,
         };
-        let mut stage = |file: Option<&str>| file.map_or(Ok(vk::SHADER_UNUSED_KHR), &mut number);
-        Ok(Group {
+        Group {
             kind: kind.as_raw(),
-            general: vk::SHADER_UNUSED_KHR,
-            intersection: stage(self.intersection)?,
-            any_hit: stage(self.any_hit)?,
-            closest_hit: stage(self.closest_hit)?,
-        })
+            intersection: stage(self.intersection),
+            any_hit: stage(self.any_hit),
+            closest_hit: stage(self.closest_hit),
+            ..Group::default()
+        }
     }
 }

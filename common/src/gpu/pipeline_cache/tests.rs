@@ -8,7 +8,7 @@ use instruments::compile_for::{manifest, ways};
 use serde_json::json;
 
 use super::*;
-use crate::gpu::blueprint::{Blueprint, Group, Stage};
+use crate::gpu::blueprint::{Binding, Blueprint, Group, Stage};
 use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, shader};
 
 /// A device, and what it says of itself.
@@ -160,26 +160,14 @@ fn make_a_pipeline_for_radv() {
         let shader = shader::compile(&format!("26_leaving_a_surface/{file}")).unwrap();
         Stage { path: shader.path, stage: shader.stage.as_raw(), words: shader.spirv }
     });
-    let unused = vk::SHADER_UNUSED_KHR;
-    let general = |stage| Group {
-        kind: vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw(),
-        general: stage,
-        intersection: unused,
-        any_hit: unused,
-        closest_hit: unused,
-    };
-    let hit = Group {
-        kind: vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP.as_raw(),
-        general: unused,
-        closest_hit: 2,
-        ..general(unused)
-    };
-    let kinds = [vk::DescriptorType::ACCELERATION_STRUCTURE_KHR, vk::DescriptorType::STORAGE_IMAGE];
+    let general = |general| Group { general, ..Group::default() };
+    let kind = vk::RayTracingShaderGroupTypeKHR::TRIANGLES_HIT_GROUP.as_raw();
+    let hit = Group { kind, closest_hit: 2, ..Group::default() };
     let blueprint = Blueprint {
         name: "26".to_owned(),
         stages: stages.into(),
         groups: vec![general(0), general(1), hit],
-        bindings: kinds.map(|kind| kind.as_raw()).into(),
+        bindings: vec![Binding::AccelerationStructure, Binding::StorageImage],
         push_size: 128,
         recursion: 1,
         ..Blueprint::default()
@@ -191,8 +179,7 @@ fn make_a_pipeline_for_radv() {
     let layout = blueprint.layout(&device, &sets).unwrap();
     let ray_tracing = khr::ray_tracing_pipeline::Device::new(&instance, &device);
     let start = Instant::now();
-    let none = vk::PipelineCreateFlags::empty();
-    blueprint.create(&device, &ray_tracing, layout, cache.handle, none, |_, _| {}).unwrap();
+    blueprint.create(&device, &ray_tracing, layout, cache.handle, |_, _| {}).unwrap();
     println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, chosen.driver);
     // The rest goes with the process: nothing runs on a card that is not there.
     cache.close(&device);
