@@ -17,7 +17,7 @@ common::shader_struct! {
 /// # Errors
 /// If the device has no room for it in one buffer.
 pub fn list(gpu: &Gpu, rays: u64) -> Result<Buffer> {
-    let most = gpu.limits.max_buffer_size / size(1);
+    let most = gpu.limits.max_buffer_size() / size(1);
     ensure!(
         rays <= most,
         "a list of all hits takes {} bytes a pixel: {} has room for {most} pixels, not for {rays}; a \

@@ -1,5 +1,6 @@
 //! The ladders: what can be asked, and the ways of answering, from cheap to exact.
 
+use ash::vk;
 use common::gpu::Gpu;
 
 /// What a ray, or a sum, is asked of. The order is that of `PRIMITIVE` in `query.glsl`.
@@ -79,16 +80,18 @@ pub enum Code {
 impl Code {
     /// Why this device cannot run it; `None` if it can.
     pub fn unavailable(self, gpu: &Gpu) -> Option<String> {
-        let limits = &gpu.limits;
+        let (floats, features) = (&gpu.limits.vulkan12, &gpu.features.core);
         let lacks = |what: &str| Some(format!("{} does not offer {what}", gpu.name));
         match self {
-            Self::Exact | Self::Float64 if !limits.rounding_to_nearest_even => {
+            Self::Exact | Self::Float64 if floats.shader_rounding_mode_rte_float32 == vk::FALSE => {
                 lacks("shaderRoundingModeRTEFloat32")
             }
-            Self::Exact | Self::Float64 if !limits.signed_zero_inf_nan => {
+            Self::Exact | Self::Float64
+                if floats.shader_signed_zero_inf_nan_preserve_float32 == vk::FALSE =>
+            {
                 lacks("shaderSignedZeroInfNanPreserveFloat32")
             }
-            Self::Float64 if !limits.float64 => lacks("shaderFloat64"),
+            Self::Float64 if features.shader_float64 == vk::FALSE => lacks("shaderFloat64"),
             _ => None,
         }
     }

@@ -115,7 +115,8 @@ impl Recipe {
         let kinds = self.kinds();
         let meshes = kinds.contains(&GeometryKind::Mesh);
         let shapes = kinds.iter().any(|&kind| kind != GeometryKind::Mesh);
-        match (gpu.limits.primitive_culling, meshes, shapes) {
+        let culling = gpu.features.ray_tracing_pipeline.ray_traversal_primitive_culling;
+        match (culling == vk::TRUE, meshes, shapes) {
             (true, true, false) => vk::PipelineCreateFlags::RAY_TRACING_SKIP_AABBS_KHR,
             (true, false, true) => vk::PipelineCreateFlags::RAY_TRACING_SKIP_TRIANGLES_KHR,
             _ => vk::PipelineCreateFlags::empty(),

@@ -249,7 +249,7 @@ const CARD: &str = r#"{
 "#;
 
 fn card() -> String {
-    let limits = serde_json::to_string(&common::gpu::Limits::default()).expect("JSON");
+    let limits = serde_json::to_string(&instruments::report::Limits::default()).expect("JSON");
     CARD.replace("LIMITS", &limits)
 }
 

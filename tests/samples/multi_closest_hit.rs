@@ -123,13 +123,11 @@ fn the_printed_table_is_the_layout_for_the_device_s_limits() {
     let Run { report, .. } = render(NAME, SIZE, &[]);
     let table = table(&report);
     let [handle, alignment, base] = numbers(table[0])[..] else { panic!("{}", table[0]) };
-    let limits = Limits {
-        shader_group_handle_size: handle,
-        shader_group_handle_alignment: alignment,
-        shader_group_base_alignment: base,
-        max_shader_group_stride: 4096,
-        ..Limits::default()
-    };
+    let mut limits = Limits::default();
+    limits.ray_tracing_pipeline.shader_group_handle_size = handle as u32;
+    limits.ray_tracing_pipeline.shader_group_handle_alignment = alignment as u32;
+    limits.ray_tracing_pipeline.shader_group_base_alignment = base as u32;
+    limits.ray_tracing_pipeline.max_shader_group_stride = 4096;
     let scene = Scene::chess().unwrap();
     let records = scene.instances.len() * RAY_TYPES as usize;
     figures::hold_exact("07_multi_closest_hit/table", json!({ "records": records }));

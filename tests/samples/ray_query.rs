@@ -90,7 +90,7 @@ fn no_workgroup_s_shape_leaves_out_a_pixel_or_traces_another() {
 fn a_workgroup_larger_than_the_device_takes_is_refused_in_one_line() {
     let requirements = Requirements::ray_tracing().ray_query();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
-    let limit = gpu.limits.max_compute_work_group_invocations;
+    let limit = gpu.limits.core.max_compute_work_group_invocations;
     let builder = ComputePipeline::builder(NAME).compute("trace.comp").workgroup(3, [limit + 1, 1]);
     let error = builder.build_compute(&gpu).err().expect("it is refused").to_string();
     let words = format!("has workgroups of {}x1 invocations; ", limit + 1);

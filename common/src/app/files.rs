@@ -62,7 +62,7 @@ pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
         return Ok(());
     }
     let (side, rays) =
-        (gpu.limits.max_image_dimension, gpu.limits.max_ray_dispatch_invocation_count);
+        (gpu.limits.core.max_image_dimension2_d, gpu.limits.max_ray_dispatch_invocation_count);
     let (width, height) = (size.width, size.height);
     Err(Usage(format!(
         "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",

@@ -71,7 +71,7 @@ impl AccelerationStructure {
         inputs: &[(&str, &[Geometry])],
         options: BuildOptions,
     ) -> Result<Vec<Self>> {
-        let limit = gpu.limits.max_primitive_count;
+        let limit = gpu.limits.acceleration_structure.max_primitive_count;
         for (name, geometries) in inputs {
             let total: u64 = geometries.iter().map(|geometry| u64::from(geometry.count())).sum();
             ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
@@ -102,7 +102,7 @@ impl AccelerationStructure {
         count: u32,
         options: BuildOptions,
     ) -> Result<Self> {
-        let limit = gpu.limits.max_instance_count;
+        let limit = gpu.limits.acceleration_structure.max_instance_count;
         ensure!(
             u64::from(count) <= limit,
             "'{name}' has {count} instances; {} takes {limit}",

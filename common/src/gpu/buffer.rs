@@ -111,7 +111,7 @@ impl Buffer {
     ) -> Result<Self> {
         // Vulkan has no empty buffers; an empty mesh or table still wants an address.
         let size = size.max(1);
-        let most = gpu.limits.max_buffer_size;
+        let most = gpu.limits.max_buffer_size();
         ensure!(
             size <= most,
             "the buffer '{name}' takes {size} bytes, and {} has room for {most} in one",

@@ -10,18 +10,17 @@ use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
-use ash::{Device, Entry, Instance, ext, khr, nv, vk};
+use ash::{Device, Entry, Instance, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::device::{self, Candidate};
 use super::emulation::{Emulation, Plain};
 use super::instance::{self, WindowHandles};
-use super::limits::Limits;
 use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
-use super::validation::Messages;
+use super::validation::{Messages, Messenger};
 
 /// How a [`Gpu`] shall be made.
 #[derive(Clone)]
@@ -55,7 +54,8 @@ impl Default for GpuOptions<'_> {
 #[derive(Clone)]
 pub struct Gpu(Arc<GpuContext>);
 
-/// What a [`Gpu`] gives access to. Raw handles are public: a chapter may call Vulkan itself.
+/// What a [`Gpu`] gives access to, with all that is known of the chosen device. Raw handles are public: a
+/// chapter may call Vulkan itself.
 pub struct GpuContext {
     /// The device's commands.
     pub device: Device,
@@ -71,20 +71,10 @@ pub struct GpuContext {
     pub instance: Instance,
     /// The loader.
     pub entry: Entry,
-    /// The chosen device.
-    pub physical_device: vk::PhysicalDevice,
+    /// The chosen device: its name, its limits, and the features that it was opened with.
+    pub chosen: Candidate,
     /// The one queue in use: compute, and graphics where the device has it.
     pub queue: vk::Queue,
-    /// The queue's family.
-    pub queue_family: u32,
-    /// The device's name.
-    pub name: String,
-    /// Its driver, in its maker's words.
-    pub driver: String,
-    /// Whether it is a driver that runs on the CPU.
-    pub software: bool,
-    /// The limits that ray tracing code must heed.
-    pub limits: Limits,
     /// Whether shaders may sort rays by what they met: the device offers it, and the sample asks for it.
     pub invocation_reorder: bool,
     /// What the driver has compiled in earlier runs, and in this one.
@@ -97,12 +87,16 @@ pub struct GpuContext {
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
     pub(super) command_pool: Mutex<vk::CommandPool>,
-    debug: Option<Debug>,
+    names: Option<ext::debug_utils::Device>,
+    messenger: Option<Messenger>,
 }
 
-struct Debug {
-    names: ext::debug_utils::Device,
-    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT, Arc<Messages>)>,
+impl Deref for GpuContext {
+    type Target = Candidate;
+
+    fn deref(&self) -> &Candidate {
+        &self.chosen
+    }
 }
 
 impl Deref for Gpu {
@@ -130,110 +124,82 @@ impl Gpu {
             }
             device::choose(found, options.device.or(device::named()))
         });
-        let chosen = match chosen {
-            Ok(chosen) => chosen,
-            Err(error) => {
-                // SAFETY: nothing else has been made from this instance.
-                unsafe { instance.destroy_instance(None) };
-                return Err(error);
-            }
-        };
-        Self::open(entry, instance, &chosen, &wanted, messages, has_debug_utils, options)
-            .with_context(|| format!("cannot open {}", chosen.name))
+        // SAFETY: nothing else has been made from this instance.
+        let chosen = chosen.inspect_err(|_| unsafe { instance.destroy_instance(None) })?;
+        let cannot = format!("cannot open {}", chosen.name);
+        let (emulation, names) = (options.emulation.clone(), has_debug_utils);
+        Self::open(entry, instance, chosen, wanted, emulation, names, messages).context(cannot)
     }
 
     fn open(
         entry: Entry,
         instance: Instance,
-        chosen: &Candidate,
-        requirements: &Requirements,
-        messages: Option<Arc<Messages>>,
+        chosen: Candidate,
+        requirements: Requirements,
+        emulation: Arc<dyn Emulation>,
         has_debug_utils: bool,
-        options: &GpuOptions,
+        messages: Option<Arc<Messages>>,
     ) -> Result<Self> {
-        let software = chosen.kind == vk::PhysicalDeviceType::CPU;
-        if software {
+        if chosen.software {
             threads::ensure_threads()?;
         }
-        let physical_device = chosen.handle;
-        let queue_family = chosen.queue_family.context("no compute queue")?;
         // Before the device, so that what is said of its creation counts.
-        let messenger = match messages {
-            Some(messages) => {
-                let utils = ext::debug_utils::Instance::new(&entry, &instance);
-                let info = messages.messenger_info();
-                // SAFETY: the user data is kept beside the messenger.
-                let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
-                Some((utils, handle, messages))
-            }
-            None => None,
-        };
-        let device = device::create(&instance, chosen, requirements)?;
+        let messenger = messages.map(|m| Messenger::new(&entry, &instance, m)).transpose()?;
+        let device = device::create(&instance, &chosen)?;
         // SAFETY: the device was created with one queue of this family.
-        let queue = unsafe { device.get_device_queue(queue_family, 0) };
+        let queue = unsafe { device.get_device_queue(chosen.queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.clone(),
             device: device.clone(),
-            physical_device,
+            physical_device: chosen.physical_device,
             debug_settings: Default::default(),
             buffer_device_address: true,
             allocation_sizes: Default::default(),
         })?;
-        // SAFETY: the physical device belongs to the live instance.
-        let properties = unsafe { instance.get_physical_device_properties(physical_device) };
         let pool = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)
-            .queue_family_index(queue_family);
+            .queue_family_index(chosen.queue_family);
         // SAFETY: the queue family belongs to this device.
         let command_pool = unsafe { device.create_command_pool(&pool, None)? };
-        let debug = has_debug_utils
-            .then(|| Debug { names: ext::debug_utils::Device::new(&instance, &device), messenger });
+        let features = &chosen.features;
+        let tells_executables = features.executable.pipeline_executable_info == vk::TRUE;
         Ok(Self(Arc::new(GpuContext {
             acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
-            executable_properties: requirements
-                .extensions(&chosen.offered)
-                .contains(&khr::pipeline_executable_properties::NAME)
+            executable_properties: tells_executables
                 .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
-            invocation_reorder: requirements
-                .extensions(&chosen.offered)
-                .contains(&nv::ray_tracing_invocation_reorder::NAME),
-            limits: Limits::of(&instance, physical_device, queue_family),
-            pipeline_cache: PipelineCache::open(&device, &properties),
-            requirements: requirements.clone(),
-            name: chosen.name.clone(),
-            driver: chosen.driver.clone(),
-            software,
-            emulation: options.emulation.clone(),
+            invocation_reorder: features.reorder.ray_tracing_invocation_reorder == vk::TRUE,
+            pipeline_cache: PipelineCache::open(&device, &chosen.properties),
+            names: has_debug_utils.then(|| ext::debug_utils::Device::new(&instance, &device)),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
             command_pool: Mutex::new(command_pool),
+            requirements,
+            emulation,
             device,
             instance,
             entry,
-            physical_device,
+            chosen,
             queue,
-            queue_family,
-            debug,
+            messenger,
         })))
     }
 
     /// Gives an object a name that validation messages and debuggers show.
     pub fn name_object<T: vk::Handle>(&self, handle: T, name: &str) {
-        let Some(debug) = &self.debug else { return };
+        let Some(names) = &self.names else { return };
         let name = CString::new(name).unwrap_or_default();
         let info =
             vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
         // SAFETY: the handle is alive and belongs to this device. A name that cannot be set is no
         // reason to stop.
-        let _ = unsafe { debug.names.set_debug_utils_object_name(&info) };
+        let _ = unsafe { names.set_debug_utils_object_name(&info) };
     }
 
     /// What validation says, now and after the device is gone: a leak is said last.
     pub fn validation(&self) -> Arc<Messages> {
-        let messenger = self.debug.as_ref().and_then(|debug| debug.messenger.as_ref());
-        messenger.map_or_else(Arc::default, |(_, _, messages)| messages.clone())
+        self.messenger.as_ref().map_or_else(Arc::default, |messenger| messenger.messages.clone())
     }
 
     /// What has been made so far, since [`Gpu::take_statistics`] if that was called.
@@ -274,9 +240,7 @@ impl Drop for GpuContext {
                 self.device.destroy_command_pool(*pool, None);
             }
             self.device.destroy_device(None);
-            if let Some((utils, messenger, _)) = self.debug.take().and_then(|d| d.messenger) {
-                utils.destroy_debug_utils_messenger(messenger, None);
-            }
+            drop(self.messenger.take());
             self.instance.destroy_instance(None);
         }
     }

@@ -3,7 +3,7 @@
 use std::ffi::CStr;
 use std::sync::LazyLock;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context as _, Result, bail, ensure};
 use ash::{Device, Entry, Instance, khr, vk};
 
 use super::instance::{self, WindowHandles};
@@ -11,24 +11,31 @@ use super::limits::Limits;
 use super::{Features, Requirements};
 use crate::usage::Usage;
 
-/// A physical device, described well enough to choose it or to say why not.
+/// A physical device, described well enough to choose it or to say why not, and to open it.
+#[derive(Default)]
 pub struct Candidate {
     /// The Vulkan handle.
-    pub handle: vk::PhysicalDevice,
+    pub physical_device: vk::PhysicalDevice,
     /// Its position in Vulkan's enumeration, which `--device N` names.
     pub index: usize,
     /// Its name, as the driver gives it.
     pub name: String,
     /// The driver's name and version in its maker's words.
     pub driver: String,
-    /// Discrete, integrated, virtual or CPU.
-    pub kind: vk::PhysicalDeviceType,
-    /// A queue family with compute (and so with ray tracing), graphics where there is one.
-    pub queue_family: Option<u32>,
+    /// Whether it is a driver that runs on the CPU.
+    pub software: bool,
+    /// Its version, kind and identity.
+    pub properties: vk::PhysicalDeviceProperties,
+    /// The limits that ray tracing code must heed.
+    pub limits: Limits,
+    /// The family of a queue with compute (and so with ray tracing), with graphics where there is one.
+    pub queue_family: u32,
     /// Whether that family has graphics.
     pub graphics: bool,
-    /// The features that it has.
-    pub offered: Features,
+    /// The features to open it with: what the sample asks for, and what it wishes for and the device offers.
+    pub features: Features,
+    /// The extensions to open it with.
+    pub extensions: Vec<&'static CStr>,
     /// What this device lacks for the sample at hand; empty if it will do.
     pub missing: Vec<String>,
 }
@@ -40,19 +47,26 @@ impl Candidate {
             [] => "suitable".to_owned(),
             missing => format!("lacks {}", missing.join(", ")),
         };
-        format!("{}: {} ({}; {}): {verdict}", self.index, self.name, kind(self.kind), self.driver)
+        let kind = KINDS[self.rank()].1;
+        format!("{}: {} ({kind}; {}): {verdict}", self.index, self.name, self.driver)
+    }
+
+    /// The position of its kind among [`KINDS`].
+    fn rank(&self) -> usize {
+        let kind = self.properties.device_type;
+        KINDS.iter().position(|(known, _)| *known == kind).unwrap_or(OTHER)
     }
 }
 
-fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
-    match device_type {
-        vk::PhysicalDeviceType::DISCRETE_GPU => "discrete GPU",
-        vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated GPU",
-        vk::PhysicalDeviceType::VIRTUAL_GPU => "virtual GPU",
-        vk::PhysicalDeviceType::CPU => "software",
-        _ => "other",
-    }
-}
+/// Kinds of devices, the best first.
+const KINDS: [(vk::PhysicalDeviceType, &str); 5] = [
+    (vk::PhysicalDeviceType::DISCRETE_GPU, "discrete GPU"),
+    (vk::PhysicalDeviceType::INTEGRATED_GPU, "integrated GPU"),
+    (vk::PhysicalDeviceType::VIRTUAL_GPU, "virtual GPU"),
+    (vk::PhysicalDeviceType::OTHER, "other"),
+    (vk::PhysicalDeviceType::CPU, "software"),
+];
+const OTHER: usize = 3;
 
 /// Every device of the instance, judged against what the sample asks for.
 ///
@@ -75,24 +89,20 @@ pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Cand
 fn judge(
     instance: &Instance,
     index: usize,
-    handle: vk::PhysicalDevice,
+    physical_device: vk::PhysicalDevice,
     wanted: &Requirements,
 ) -> Result<Candidate> {
-    // SAFETY: handle belongs to the live instance, here and below.
-    let properties = unsafe { instance.get_physical_device_properties(handle) };
-    let text = |name: Result<&CStr, _>| {
-        name.map_or_else(|_| String::new(), |n| n.to_string_lossy().into())
-    };
+    // SAFETY: the physical device belongs to the live instance, here and below.
+    let properties = unsafe { instance.get_physical_device_properties(physical_device) };
+    let name = properties.device_name_as_c_str().unwrap_or_default().to_string_lossy();
     let mut candidate = Candidate {
-        handle,
+        physical_device,
         index,
-        name: text(properties.device_name_as_c_str()),
-        driver: String::new(),
-        kind: properties.device_type,
-        queue_family: None,
-        graphics: false,
-        offered: Features::default(),
-        missing: Vec::new(),
+        name: name.into_owned(),
+        software: properties.device_type == vk::PhysicalDeviceType::CPU,
+        properties,
+        queue_family: vk::QUEUE_FAMILY_IGNORED,
+        ..Candidate::default()
     };
     let version = properties.api_version;
     if version < vk::API_VERSION_1_3 {
@@ -102,44 +112,38 @@ fn judge(
         return Ok(candidate);
     }
 
-    let mut driver = vk::PhysicalDeviceDriverProperties::default();
-    let mut more = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-    // SAFETY: as above; driver properties are core since Vulkan 1.2.
-    unsafe { instance.get_physical_device_properties2(handle, &mut more) };
-    let (name, info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
-    candidate.driver = format!("{name} {info}");
-
     // SAFETY: as above.
-    let extensions = unsafe { instance.enumerate_device_extension_properties(handle)? };
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical_device)? };
     let has = |name: &CStr| extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(name));
-    let mut offered = Features::default();
-    offered.with_chain(has, |features| {
-        // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
-        unsafe { instance.get_physical_device_features2(handle, features) }
-    });
-    candidate.offered = offered;
+    let mut limits = Limits::of(instance, physical_device, has);
+    let driver = [limits.vulkan12.driver_name_as_c_str(), limits.vulkan12.driver_info_as_c_str()];
+    candidate.driver = driver.map(|text| text.unwrap_or_default().to_string_lossy()).join(" ");
+    let offered = Features::of(instance, physical_device, has);
+    candidate.features = wanted.features(&offered);
+    candidate.extensions = wanted.extensions(&offered);
 
     // SAFETY: as above.
-    let families = unsafe { instance.get_physical_device_queue_family_properties(handle) };
-    let family =
-        |flags| families.iter().position(|f| f.queue_flags.contains(flags)).map(|i| i as u32);
+    let families = unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
+    let family = |flags| families.iter().position(|family| family.queue_flags.contains(flags));
     // The window's panel needs graphics; a headless run does with compute, as data-centre GPUs have it.
     let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
     candidate.graphics = graphics.is_some();
-    candidate.queue_family = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
+    let queue = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
+    if let Some(family) = queue {
+        candidate.queue_family = family as u32;
+        limits.timestamp_bits = families[family].timestamp_valid_bits;
+    }
     let carried = [khr::acceleration_structure::NAME, khr::ray_tracing_pipeline::NAME];
-    let limits = candidate
-        .queue_family
-        .filter(|_| carried.iter().all(|name| has(name)))
-        .map(|family| Limits::of(instance, handle, family));
-    candidate.missing = wanted.missing(has, &offered, limits.as_ref());
-    if candidate.queue_family.is_none() {
+    let is_judged = queue.is_some() && carried.iter().all(|name| has(name));
+    candidate.missing = wanted.missing(has, &offered, is_judged.then_some(&limits));
+    candidate.limits = limits;
+    if queue.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }
     if wanted.raster {
         // SAFETY: as above.
         let depth = unsafe {
-            instance.get_physical_device_format_properties(handle, vk::Format::D32_SFLOAT)
+            instance.get_physical_device_format_properties(physical_device, vk::Format::D32_SFLOAT)
         };
         let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
         let needed = [
@@ -180,16 +184,18 @@ pub fn require_presentation(
         let surface =
             ash_window::create_surface(entry, instance, window.display, window.window, None)?;
         for candidate in candidates {
-            let Some(family) = candidate.queue_family else { continue };
-            let presents =
-                surfaces.get_physical_device_surface_support(candidate.handle, family, surface);
+            let (device, family) = (candidate.physical_device, candidate.queue_family);
+            if family == vk::QUEUE_FAMILY_IGNORED {
+                continue;
+            }
+            let presents = surfaces.get_physical_device_surface_support(device, family, surface);
             if !candidate.graphics || !presents.unwrap_or(false) {
                 candidate.missing.push("a queue that draws to this window".to_owned());
                 continue;
             }
             // Pictures are copied to the window's images, which a device must let them be drawn to alone.
             let usage = surfaces
-                .get_physical_device_surface_capabilities(candidate.handle, surface)
+                .get_physical_device_surface_capabilities(device, surface)
                 .map(|capabilities| capabilities.supported_usage_flags);
             if usage.is_ok_and(|usage| !usage.contains(vk::ImageUsageFlags::TRANSFER_DST)) {
                 candidate.missing.push("copies to this window's images (TRANSFER_DST)".to_owned());
@@ -212,37 +218,27 @@ pub fn named() -> Option<&'static str> {
 ///
 /// # Errors
 /// If none fits: one line that lists every device and what it lacks, and what to install.
-pub fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
+pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
     let list = |all: &[Candidate]| all.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
     ensure_some(&candidates)?;
-    if let Some(asked) = asked {
-        let matches = |candidate: &Candidate| match asked.parse::<usize>() {
-            Ok(number) => candidate.index == number,
-            Err(_) => candidate.name.to_lowercase().contains(&asked.to_lowercase()),
+    let Some(asked) = asked else {
+        let suitable = (0..candidates.len()).filter(|&at| candidates[at].missing.is_empty());
+        return match suitable.min_by_key(|&at| candidates[at].rank()) {
+            Some(best) => Ok(candidates.swap_remove(best)),
+            None => bail!("no device can run this: {}; {INSTALL}", list(&candidates)),
         };
-        let Some(position) = candidates.iter().position(matches) else {
-            return Err(
-                Usage(format!("no device '{asked}'; there is {}", list(&candidates))).into()
-            );
-        };
-        if !candidates[position].missing.is_empty() {
-            bail!("device '{asked}' cannot run this: {}", list(&candidates[position..=position]));
-        }
-        return Ok(candidates.into_iter().nth(position).expect("the position was just found"));
-    }
-    let rank = |candidate: &Candidate| match candidate.kind {
-        vk::PhysicalDeviceType::DISCRETE_GPU => 0,
-        vk::PhysicalDeviceType::INTEGRATED_GPU => 1,
-        vk::PhysicalDeviceType::VIRTUAL_GPU => 2,
-        vk::PhysicalDeviceType::CPU => 4,
-        _ => 3,
     };
-    let explained = list(&candidates);
-    let suitable = candidates.into_iter().filter(|candidate| candidate.missing.is_empty());
-    match suitable.min_by_key(rank) {
-        Some(best) => Ok(best),
-        None => bail!("no device can run this: {explained}; {INSTALL}"),
+    let matches = |candidate: &Candidate| match asked.parse::<usize>() {
+        Ok(number) => candidate.index == number,
+        Err(_) => candidate.name.to_lowercase().contains(&asked.to_lowercase()),
+    };
+    let Some(position) = candidates.iter().position(matches) else {
+        return Err(Usage(format!("no device '{asked}'; there is {}", list(&candidates))).into());
+    };
+    if !candidates[position].missing.is_empty() {
+        bail!("device '{asked}' cannot run this: {}", list(&candidates[position..=position]));
     }
+    Ok(candidates.swap_remove(position))
 }
 
 /// One line a device: what it is, and what it lacks for `wanted`.
@@ -264,29 +260,19 @@ pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
 ///
 /// # Errors
 /// If the device cannot be opened.
-pub fn create(
-    instance: &Instance,
-    chosen: &Candidate,
-    requirements: &Requirements,
-) -> Result<Device> {
-    let priorities = [1.0];
+pub fn create(instance: &Instance, chosen: &Candidate) -> Result<Device> {
     let queues = [vk::DeviceQueueCreateInfo::default()
-        .queue_family_index(chosen.queue_family.context("no compute queue")?)
-        .queue_priorities(&priorities)];
-    let extensions = requirements.extensions(&chosen.offered);
-    let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
-    let device = requirements.features(&chosen.offered).with_chain(
-        |name| extensions.contains(&name),
-        |features| {
-            let info = vk::DeviceCreateInfo::default()
-                .queue_create_infos(&queues)
-                .enabled_extension_names(&names)
-                .push_next(features);
-            // SAFETY: the device offers these features and extensions: `candidates` has checked.
-            unsafe { instance.create_device(chosen.handle, &info, None) }
-        },
-    );
-    Ok(device?)
+        .queue_family_index(chosen.queue_family)
+        .queue_priorities(&[1.0])];
+    let names: Vec<_> = chosen.extensions.iter().map(|name| name.as_ptr()).collect();
+    let mut features = chosen.features;
+    let mut features = features.chain(|name| chosen.extensions.contains(&name));
+    let info = vk::DeviceCreateInfo::default()
+        .queue_create_infos(&queues)
+        .enabled_extension_names(&names)
+        .push_next(&mut features);
+    // SAFETY: the device offers these features and extensions: `judge` has checked.
+    Ok(unsafe { instance.create_device(chosen.physical_device, &info, None) }?)
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ impl Image {
         format: vk::Format,
         usage: vk::ImageUsageFlags,
     ) -> Result<Self> {
-        let limit = gpu.limits.max_attachment_side;
+        let limit = gpu.limits.max_attachment_side();
         ensure!(
             extent.width.max(extent.height) <= limit,
             "{}x{} is more than {} can draw to: each side must be at most {limit}",
@@ -131,7 +131,7 @@ impl Image {
         usage: vk::ImageUsageFlags,
     ) -> Result<Self> {
         let (width, height) = (extent.width, extent.height);
-        let limit = gpu.limits.max_image_dimension;
+        let limit = gpu.limits.core.max_image_dimension2_d;
         ensure!(
             (1..=limit).contains(&width) && (1..=limit).contains(&height),
             "{width}x{height} is not a size that {} can do: each side must be 1 to {limit}",

@@ -20,13 +20,10 @@ pub struct WindowHandles {
 /// # Errors
 /// If there is none, with what to install.
 pub fn load() -> Result<Entry> {
-    let path = std::env::var_os("VULKAN_LOADER");
     // SAFETY: the Vulkan loader's initialisation has no preconditions.
-    let entry = unsafe {
-        match &path {
-            Some(path) => Entry::load_from(path),
-            None => Entry::load(),
-        }
+    let entry = match std::env::var_os("VULKAN_LOADER") {
+        Some(path) => unsafe { Entry::load_from(path) },
+        None => unsafe { Entry::load() },
     };
     entry.map_err(|error| {
         anyhow!("no Vulkan loader ({error}): run ./setup, or install your system's libvulkan")
@@ -51,6 +48,7 @@ pub fn create(
     let has_debug_utils =
         offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
     let mut extensions = Vec::new();
+    let mut layers = Vec::new();
     if let Some(window) = window {
         let needed = ash_window::enumerate_required_extensions(window.display)
             .context("Vulkan does not know this window system")?;
@@ -59,29 +57,32 @@ pub fn create(
     if has_debug_utils || messages.is_some() {
         extensions.push(ext::debug_utils::NAME.as_ptr());
     }
-    let mut layers: Vec<*const std::ffi::c_char> = Vec::new();
-    let application = vk::ApplicationInfo::default()
-        .application_name(c"ray tracing")
-        .api_version(vk::API_VERSION_1_3);
-    let mut features =
-        vk::ValidationFeaturesEXT::default().enabled_validation_features(&validation::FEATURES);
-    let settings = validation::settings();
-    let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
-    let mut messenger;
     if let Some(messages) = messages {
         layers.push(validation::LAYER.as_ptr());
         extensions.push(messages.way().extension().as_ptr());
     }
+    let application = vk::ApplicationInfo::default()
+        .application_name(c"ray tracing")
+        .api_version(vk::API_VERSION_1_3);
     let mut info = vk::InstanceCreateInfo::default()
         .application_info(&application)
         .enabled_layer_names(&layers)
         .enabled_extension_names(&extensions);
+    let (setting, mut settings, mut features, mut messenger);
     if let Some(messages) = messages {
-        messenger = messages.messenger_info();
         info = match messages.way() {
-            Way::Settings => info.push_next(&mut settings),
-            Way::Features => info.push_next(&mut features),
+            Way::Settings => {
+                setting = validation::settings();
+                settings = vk::LayerSettingsCreateInfoEXT::default().settings(&setting);
+                info.push_next(&mut settings)
+            }
+            Way::Features => {
+                features = vk::ValidationFeaturesEXT::default()
+                    .enabled_validation_features(&validation::FEATURES);
+                info.push_next(&mut features)
+            }
         };
+        messenger = messages.messenger_info();
         info = info.push_next(&mut messenger);
     }
     // SAFETY: every name and structure of the chain lives until the call returns.

@@ -126,7 +126,7 @@ impl Pipeline {
                 write.image_info(&image)
             }
             Descriptor::StorageBuffer(target) => {
-                let most = self.gpu.limits.max_storage_buffer_range;
+                let most = self.gpu.limits.core.max_storage_buffer_range.into();
                 ensure!(
                     target.size <= most,
                     "pipeline '{}' binds a buffer of {} bytes, and {} takes {most}",

@@ -19,11 +19,50 @@ pub struct Requirement {
     bit: fn(&mut Features) -> &mut vk::Bool32,
 }
 
+impl Requirement {
+    fn is_in(&self, features: &Features) -> bool {
+        let mut features = *features;
+        *(self.bit)(&mut features) == vk::TRUE
+    }
+}
+
 macro_rules! requirement {
     ($extension:expr, $name:literal, $($field:ident).+) => {
         Requirement { name: $name, extension: $extension, bit: |features| &mut features.$($field).+ }
     };
 }
+
+/// What every chapter asks for.
+const BASELINE: [Requirement; 5] = [
+    requirement!(
+        Some(khr::acceleration_structure::NAME),
+        "accelerationStructure",
+        acceleration_structure.acceleration_structure
+    ),
+    requirement!(
+        Some(khr::ray_tracing_pipeline::NAME),
+        "rayTracingPipeline",
+        ray_tracing_pipeline.ray_tracing_pipeline
+    ),
+    requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
+    requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
+    requirement!(None, "synchronization2", vulkan13.synchronization2),
+];
+
+/// What a table of textures takes.
+const TEXTURES: [Requirement; 3] = [
+    requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
+    requirement!(
+        None,
+        "descriptorBindingSampledImageUpdateAfterBind",
+        vulkan12.descriptor_binding_sampled_image_update_after_bind
+    ),
+    requirement!(
+        None,
+        "shaderSampledImageArrayNonUniformIndexing",
+        vulkan12.shader_sampled_image_array_non_uniform_indexing
+    ),
+];
 
 /// A list of requirements, begun with [`Requirements::ray_tracing`] and extended by the chapter.
 #[derive(Clone, Default)]
@@ -45,31 +84,13 @@ impl Requirements {
     /// layout, buffer addresses, `synchronization2` and push descriptors; and of the limits, what Vulkan
     /// promises of each device: a recursion depth of 1, and 128 bytes of push constants.
     pub fn ray_tracing() -> Self {
-        let acceleration = Some(khr::acceleration_structure::NAME);
-        let pipeline = Some(khr::ray_tracing_pipeline::NAME);
         Self {
             recursion: 1,
             push_constants: 128,
-            raster: false,
-            exact_floats: false,
-            list: vec![
-                requirement!(
-                    acceleration,
-                    "accelerationStructure",
-                    acceleration_structure.acceleration_structure
-                ),
-                requirement!(
-                    pipeline,
-                    "rayTracingPipeline",
-                    ray_tracing_pipeline.ray_tracing_pipeline
-                ),
-                requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
-                requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
-                requirement!(None, "synchronization2", vulkan13.synchronization2),
-            ],
-            wishes: Vec::new(),
+            list: BASELINE.to_vec(),
             // Acceleration structures depend on deferred host operations, even where none is used.
             extensions: vec![khr::deferred_host_operations::NAME, khr::push_descriptor::NAME],
+            ..Self::default()
         }
     }
 
@@ -94,19 +115,7 @@ impl Requirements {
     /// The bindless texture table: one array of sampled images, indexed differently by each ray. Of those
     /// that may be written after they are bound, a device has to take far more.
     pub fn textures(mut self) -> Self {
-        self.list.extend([
-            requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
-            requirement!(
-                None,
-                "descriptorBindingSampledImageUpdateAfterBind",
-                vulkan12.descriptor_binding_sampled_image_update_after_bind
-            ),
-            requirement!(
-                None,
-                "shaderSampledImageArrayNonUniformIndexing",
-                vulkan12.shader_sampled_image_array_non_uniform_indexing
-            ),
-        ]);
+        self.list.extend(TEXTURES);
         self
     }
 
@@ -116,7 +125,7 @@ impl Requirements {
         self
     }
 
-    /// 64-bit floats in shaders, where the device has them: [`Limits::float64`](super::Limits) tells.
+    /// 64-bit floats in shaders, where the device has them: its [`Features`] tell.
     pub fn float64_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
         self
@@ -151,8 +160,7 @@ impl Requirements {
         self
     }
 
-    /// Rays that skip all triangles or all boxes, where the device has it:
-    /// [`Limits::primitive_culling`](super::Limits) tells.
+    /// Rays that skip all triangles or all boxes, where the device has it: its [`Features`] tell.
     pub fn primitive_culling_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(
             Some(khr::ray_tracing_pipeline::NAME),
@@ -193,8 +201,8 @@ impl Requirements {
 
     /// Every extension to enable, each once: of the wishes, those that `offered` grants.
     pub fn extensions(&self, offered: &Features) -> Vec<&'static CStr> {
-        let mut all = self.extensions.clone();
-        all.extend(self.granted(offered).filter_map(|requirement| requirement.extension));
+        let carried = self.granted(offered).filter_map(|requirement| requirement.extension);
+        let mut all: Vec<_> = self.extensions.iter().copied().chain(carried).collect();
         all.sort_unstable();
         all.dedup();
         all
@@ -211,9 +219,7 @@ impl Requirements {
 
     /// What is asked for, and what is wished for and offered.
     fn granted(&self, offered: &Features) -> impl Iterator<Item = &Requirement> {
-        let mut offered = *offered;
-        let wishes = self.wishes.iter().filter(move |wish| *(wish.bit)(&mut offered) == vk::TRUE);
-        self.list.iter().chain(wishes)
+        self.list.iter().chain(self.wishes.iter().filter(|wish| wish.is_in(offered)))
     }
 
     /// What a device with these extensions, features and limits lacks, by name; empty if it is suitable.
@@ -225,32 +231,33 @@ impl Requirements {
         offered: &Features,
         limits: Option<&Limits>,
     ) -> Vec<String> {
-        let mut offered = *offered;
-        let extensions = self.extensions(&Features::default());
-        let lacking = extensions.iter().filter(|name| !has_extension(name));
-        let mut missing: Vec<String> =
-            lacking.map(|name| name.to_string_lossy().into_owned()).collect();
+        let mut missing = Vec::new();
+        for name in self.extensions(&Features::default()) {
+            if !has_extension(name) {
+                missing.push(name.to_string_lossy().into_owned());
+            }
+        }
         for requirement in &self.list {
             let carried = requirement.extension.is_none_or(&has_extension);
-            if carried && *(requirement.bit)(&mut offered) == vk::FALSE {
+            if carried && !requirement.is_in(offered) {
                 missing.push(format!("feature {}", requirement.name));
             }
         }
         let Some(limits) = limits else { return missing };
-        for (name, needed, has) in [
-            ("maxRayRecursionDepth", self.recursion, limits.max_ray_recursion_depth),
-            ("maxPushConstantsSize", self.push_constants, limits.max_push_constants_size),
-        ] {
-            if needed > has {
-                missing.push(format!("{name} {needed} (it has {has})"));
-            }
+        let (depth, bytes) = (limits.max_ray_recursion_depth, limits.core.max_push_constants_size);
+        if self.recursion > depth {
+            missing.push(format!("maxRayRecursionDepth {} (it has {depth})", self.recursion));
         }
-        for (name, has) in [
-            ("shaderRoundingModeRTEFloat32", limits.rounding_to_nearest_even),
-            ("shaderSignedZeroInfNanPreserveFloat32", limits.signed_zero_inf_nan),
-        ] {
-            if self.exact_floats && !has {
-                missing.push(name.to_owned());
+        if self.push_constants > bytes {
+            missing.push(format!("maxPushConstantsSize {} (it has {bytes})", self.push_constants));
+        }
+        if self.exact_floats {
+            let floats = &limits.vulkan12;
+            if floats.shader_rounding_mode_rte_float32 == vk::FALSE {
+                missing.push("shaderRoundingModeRTEFloat32".to_owned());
+            }
+            if floats.shader_signed_zero_inf_nan_preserve_float32 == vk::FALSE {
+                missing.push("shaderSignedZeroInfNanPreserveFloat32".to_owned());
             }
         }
         missing
@@ -282,11 +289,9 @@ mod tests {
 
     #[test]
     fn limits_are_judged_with_features() {
-        let limits = Limits {
-            max_ray_recursion_depth: 1,
-            max_push_constants_size: 128,
-            ..Limits::default()
-        };
+        let mut limits = Limits::default();
+        limits.ray_tracing_pipeline.max_ray_recursion_depth = 1;
+        limits.core.max_push_constants_size = 128;
         let missing = |wanted: Requirements| {
             wanted.missing(|_| true, &wanted.features(&Features::default()), Some(&limits))
         };

@@ -42,15 +42,15 @@ pub struct SbtLayout {
 pub fn layout(limits: &Limits, records: [usize; 4], data: [usize; 4]) -> Result<SbtLayout> {
     let mut result = SbtLayout::default();
     for (region, slot) in result.regions.iter_mut().enumerate() {
-        let bytes = limits.shader_group_handle_size + data[region] as u64;
-        let stride = bytes.next_multiple_of(limits.shader_group_handle_alignment);
+        let bytes = u64::from(limits.shader_group_handle_size) + data[region] as u64;
+        let stride = bytes.next_multiple_of(limits.shader_group_handle_alignment.into());
         ensure!(
-            stride <= limits.max_shader_group_stride,
+            stride <= limits.max_shader_group_stride.into(),
             "a shader record of {bytes} bytes is longer than the device's {}",
             limits.max_shader_group_stride
         );
         if records[region] > 0 {
-            let offset = result.size.next_multiple_of(limits.shader_group_base_alignment);
+            let offset = result.size.next_multiple_of(limits.shader_group_base_alignment.into());
             let size = stride * records[region] as u64;
             *slot = Region { offset, stride, size };
             result.size = offset + size;
@@ -146,7 +146,7 @@ impl ShaderBindingTable {
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
             | vk::BufferUsageFlags::TRANSFER_DST;
         let name = format!("{} shader binding table", pipeline.blueprint.name);
-        let alignment = gpu.limits.shader_group_base_alignment;
+        let alignment = gpu.limits.shader_group_base_alignment.into();
         let buffer = Buffer::aligned(gpu, &name, layout.size, usage, alignment)?;
         buffer.write(0, &bytes).context("cannot fill the shader binding table")?;
         let regions = layout.regions.map(|Region { offset, stride, size }| {
@@ -163,7 +163,7 @@ impl ShaderBindingTable {
     /// If there is no such record, or the data is longer than the record or not whole `u32`s.
     pub fn write_hit_data(&self, cmd: vk::CommandBuffer, record: usize, data: &[u8]) -> Result<()> {
         let Region { offset, stride, size } = self.layout.regions[2];
-        let handle = self.gpu.limits.shader_group_handle_size;
+        let handle = u64::from(self.gpu.limits.shader_group_handle_size);
         let start = record as u64 * stride;
         ensure!(
             start < size,
@@ -196,7 +196,8 @@ impl ShaderBindingTable {
     pub fn trace(&self, cmd: vk::CommandBuffer, area: vk::Rect2D) {
         let [raygen, miss, hit, callable] = &self.regions;
         let vk::Rect2D { offset, extent: vk::Extent2D { width, height } } = area;
-        let at = self.layout.regions[0].offset + self.gpu.limits.shader_group_handle_size;
+        let handle = u64::from(self.gpu.limits.shader_group_handle_size);
+        let at = self.layout.regions[0].offset + handle;
         self.update(cmd, at, bytemuck::cast_slice(&[offset.x, offset.y]));
         let extension = &self.gpu.ray_tracing_pipeline;
         // SAFETY: the pipeline and its descriptors are bound, and the table outlives the submission.
@@ -209,21 +210,20 @@ mod tests {
     use super::*;
 
     /// Handle size, handle alignment, base alignment, largest stride, as drivers report them.
-    const VENDORS: [(&str, [u64; 4]); 4] = [
+    const VENDORS: [(&str, [u32; 4]); 4] = [
         ("NVIDIA", [32, 32, 64, 4096]),
         ("AMD (RADV)", [32, 32, 32, 4096]),
         ("Intel (ANV)", [32, 32, 64, 4096]),
         ("an extreme of the specification", [32, 64, 4096, 4096]),
     ];
 
-    fn limits([size, alignment, base, stride]: [u64; 4]) -> Limits {
-        Limits {
-            shader_group_handle_size: size,
-            shader_group_handle_alignment: alignment,
-            shader_group_base_alignment: base,
-            max_shader_group_stride: stride,
-            ..Limits::default()
-        }
+    fn limits([size, alignment, base, stride]: [u32; 4]) -> Limits {
+        let mut limits = Limits::default();
+        limits.ray_tracing_pipeline.shader_group_handle_size = size;
+        limits.ray_tracing_pipeline.shader_group_handle_alignment = alignment;
+        limits.ray_tracing_pipeline.shader_group_base_alignment = base;
+        limits.ray_tracing_pipeline.max_shader_group_stride = stride;
+        limits
     }
 
     #[test]
@@ -233,23 +233,16 @@ mod tests {
             for records in [[1, 1, 1, 0], [1, 2, 7, 3], [1, 0, 1, 0], [1, 5, 100, 9]] {
                 for data in [[0; 4], [0, 0, 4, 0], [0, 12, 33, 1]] {
                     let layout = layout(&limits, records, data).unwrap();
+                    let [size, alignment, base, _] = numbers.map(u64::from);
                     let mut end = 0;
                     for (r, region) in layout.regions.iter().enumerate() {
                         if records[r] == 0 {
                             assert_eq!(*region, Region::default(), "{vendor}");
                             continue;
                         }
-                        assert_eq!(
-                            region.offset % limits.shader_group_base_alignment,
-                            0,
-                            "{vendor}"
-                        );
-                        assert_eq!(
-                            region.stride % limits.shader_group_handle_alignment,
-                            0,
-                            "{vendor}"
-                        );
-                        assert!(region.stride >= limits.shader_group_handle_size + data[r] as u64);
+                        assert_eq!(region.offset % base, 0, "{vendor}");
+                        assert_eq!(region.stride % alignment, 0, "{vendor}");
+                        assert!(region.stride >= size + data[r] as u64);
                         assert_eq!(region.size, region.stride * records[r] as u64, "{vendor}");
                         assert!(region.offset >= end, "{vendor}: regions overlap");
                         end = region.offset + region.size;

@@ -31,7 +31,7 @@ impl TextureTable {
         let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
         let textures = if textures.is_empty() { &none } else { textures };
         let count = textures.len() as u32;
-        fits(count, gpu.limits.max_textures, &gpu.name)?;
+        fits(count, gpu.limits.max_textures(), &gpu.name)?;
         let images = Image::textures(gpu, textures)?;
         let sizes = [vk::DescriptorPoolSize { ty: TYPE, descriptor_count: count }];
         let pool_info = vk::DescriptorPoolCreateInfo::default()

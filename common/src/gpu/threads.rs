@@ -1,7 +1,7 @@
 //! Threads of a driver that computes on the processor.
 
 use std::num::NonZero;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::thread::{self, Builder};
 
 use anyhow::{Context, Result};
@@ -21,9 +21,9 @@ pub fn ensure_threads() -> Result<()> {
     thread::scope(|scope| {
         let _closed = gate.lock();
         for _ in 0..wanted.min(MOST) {
-            let wait = || drop(gate.lock().unwrap_or_else(PoisonError::into_inner));
-            let small = Builder::new().stack_size(1 << 16);
-            small
+            let wait = || drop(gate.lock());
+            Builder::new()
+                .stack_size(1 << 16)
                 .spawn_scoped(scope, wait)
                 .context("it needs threads, and the system starts no more (ulimit -u)")?;
         }

@@ -37,21 +37,21 @@ impl Timer {
         if self.gpu.limits.has_timestamps() {
             // SAFETY: the pool is alive until the submission is done, here and in `stamp`.
             unsafe { self.gpu.device.cmd_reset_query_pool(cmd, self.pool, 0, 2) };
+            self.stamp(cmd, 0);
         }
-        self.stamp(cmd, 0);
     }
 
     /// Stops it when the commands recorded since are done.
     pub fn stop(&self, cmd: vk::CommandBuffer) {
-        self.stamp(cmd, 1);
+        if self.gpu.limits.has_timestamps() {
+            self.stamp(cmd, 1);
+        }
     }
 
     fn stamp(&self, cmd: vk::CommandBuffer, query: u32) {
-        if self.gpu.limits.has_timestamps() {
-            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            // SAFETY: as in `start`.
-            unsafe { self.gpu.device.cmd_write_timestamp2(cmd, stage, self.pool, query) };
-        }
+        let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+        // SAFETY: as in `start`.
+        unsafe { self.gpu.device.cmd_write_timestamp2(cmd, stage, self.pool, query) };
     }
 
     /// Milliseconds between start and stop, to be asked for as soon as the commands are done.
@@ -67,8 +67,9 @@ impl Timer {
         // SAFETY: both queries were written by a submission that is done.
         unsafe { self.gpu.device.get_query_pool_results(self.pool, 0, &mut stamps, flags)? };
         // Some queues count in fewer than 64 bits, and start again from 0.
-        let ticks = stamps[1].wrapping_sub(stamps[0]) & self.gpu.limits.timestamp_mask;
-        Ok(ticks as f64 * f64::from(self.gpu.limits.timestamp_period) * 1e-6)
+        let limits = &self.gpu.limits;
+        let ticks = stamps[1].wrapping_sub(stamps[0]) & u64::MAX >> (64 - limits.timestamp_bits);
+        Ok(ticks as f64 * f64::from(limits.core.timestamp_period) * 1e-6)
     }
 }
 

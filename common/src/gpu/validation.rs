@@ -6,7 +6,7 @@ use std::io::Write;
 use std::sync::{Arc, Mutex};
 
 use anyhow::{Result, bail};
-use ash::{Entry, ext, vk};
+use ash::{Entry, Instance, ext, vk};
 
 /// The Khronos layer, which holds core and synchronization validation.
 pub const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -119,6 +119,35 @@ impl Messages {
             let _ = writeln!(std::io::stderr(), "{message}");
         }
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(message);
+    }
+}
+
+/// What reports to [`Messages`] while an instance lives; dropped before it.
+pub struct Messenger {
+    /// What it has reported.
+    pub messages: Arc<Messages>,
+    handle: vk::DebugUtilsMessengerEXT,
+    utils: ext::debug_utils::Instance,
+}
+
+impl Messenger {
+    /// A messenger of an instance.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn new(entry: &Entry, instance: &Instance, messages: Arc<Messages>) -> Result<Self> {
+        let utils = ext::debug_utils::Instance::new(entry, instance);
+        let info = messages.messenger_info();
+        // SAFETY: the user data is kept beside the messenger.
+        let handle = unsafe { utils.create_debug_utils_messenger(&info, None)? };
+        Ok(Self { messages, handle, utils })
+    }
+}
+
+impl Drop for Messenger {
+    fn drop(&mut self) {
+        // SAFETY: the instance is alive, and its last message has been said.
+        unsafe { self.utils.destroy_debug_utils_messenger(self.handle, None) };
     }
 }
 

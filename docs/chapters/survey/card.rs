@@ -3,7 +3,8 @@
 //! `chapters survey` makes it. Cards that readers send in lie in `docs/devices`, one file a device, and
 //! are held to what a card may say.
 
-use common::gpu::{Executable, Limits};
+use common::gpu::Executable;
+use instruments::report::Limits;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
 use serde::{Deserialize, Serialize};

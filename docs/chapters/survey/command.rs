@@ -12,9 +12,9 @@ use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
 use common::files::Folder;
-use common::gpu::Limits;
 use common::output::print;
 use common::usage::Usage;
+use instruments::report::Limits;
 use manuscript::project::Chapter;
 use patience::Limit;
 use serde_json::Value;

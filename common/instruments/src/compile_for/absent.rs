@@ -43,7 +43,7 @@ pub fn compile(
             return Ok(None);
         };
         ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
-        let device = device::create(&instance, &card, &requirements)?;
+        let device = device::create(&instance, &card)?;
         let ray_tracing_pipeline = khr::ray_tracing_pipeline::Device::new(&instance, &device);
         let properties = khr::pipeline_executable_properties::Device::new(&instance, &device);
         let pipelines: Result<_> = blueprints

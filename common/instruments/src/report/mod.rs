@@ -7,12 +7,16 @@ use serde::Serialize;
 
 use common::app::Run;
 use common::files::write_whole;
-use common::gpu::{Executable, Limits};
+use common::gpu::Executable;
 use common::output;
 use common::usage::Usage;
 
 use crate::compare::Comparison;
 use crate::compile_for::CompiledFor;
+
+mod limits;
+
+pub use limits::Limits;
 
 /// What is to be told.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -145,7 +149,7 @@ impl Report {
             sample: run.name.to_owned(),
             device: gpu.name.clone(),
             driver: gpu.driver.clone(),
-            limits: gpu.limits,
+            limits: Limits::of(gpu),
             arithmetic: gpu.emulation.name().to_owned(),
             width,
             height,

@@ -51,7 +51,7 @@ impl Stage {
                 &window,
                 Some(window.scale_factor() as f32),
                 None,
-                Some(gpu.limits.max_image_dimension as usize),
+                Some(gpu.limits.core.max_image_dimension2_d as usize),
             ),
             gpu,
             window,

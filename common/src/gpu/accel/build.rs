@@ -25,7 +25,7 @@ pub(super) fn build(
     let plans = inputs.iter().map(|(name, list)| Plan::new(gpu, name, list, options));
     let plans: Vec<_> = plans.collect();
     let mut all = Vec::with_capacity(inputs.len());
-    for range in batches(&plans, gpu.limits.min_scratch_offset_alignment) {
+    for range in batches(&plans, gpu.limits.min_scratch_offset_alignment()) {
         let built = build_batch(gpu, &plans[range])?;
         all.extend(if options.compact { compaction::compacted(gpu, &built)? } else { built });
     }
@@ -56,7 +56,7 @@ fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> 
     let built = place(gpu, plans.to_vec(), &sizes)?;
     // The builds of a batch may run at the same time, so none may write to the scratch of another.
     let scratches = plans.iter().map(|plan| plan.sizes.build_scratch_size);
-    let (offsets, room) = offsets(scratches, gpu.limits.min_scratch_offset_alignment);
+    let (offsets, room) = offsets(scratches, gpu.limits.min_scratch_offset_alignment());
     let scratch = scratch_buffer(gpu, room)?;
     let builds = built.iter().zip(offsets).map(|(structure, offset)| Build {
         structure,
@@ -77,7 +77,7 @@ fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> 
 /// A buffer for the scratch of builds.
 pub(super) fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment)
+    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment())
 }
 
 /// A build or an update of a structure in its place.

@@ -8,17 +8,10 @@ fn candidate(
     kind: vk::PhysicalDeviceType,
     missing: &[&str],
 ) -> Candidate {
-    Candidate {
-        handle: vk::PhysicalDevice::null(),
-        index,
-        name: name.to_owned(),
-        driver: "driver 1.0".to_owned(),
-        kind,
-        queue_family: Some(0),
-        graphics: true,
-        offered: Features::default(),
-        missing: missing.iter().map(|&m| m.to_owned()).collect(),
-    }
+    let mut candidate = Candidate { index, name: name.to_owned(), ..Candidate::default() };
+    candidate.properties.device_type = kind;
+    candidate.missing = missing.iter().map(|&m| m.to_owned()).collect();
+    candidate
 }
 
 fn three() -> Vec<Candidate> {

@@ -186,14 +186,15 @@ impl<'a> PipelineBuilder<'a> {
     /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
     /// by `#ifdef ROUNDING_MODE_RTE`.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
-        match gpu.limits.rounding_to_nearest_even && gpu.emulation.rounds_to_nearest_even() {
+        let can = gpu.limits.vulkan12.shader_rounding_mode_rte_float32 == vk::TRUE;
+        match can && gpu.emulation.rounds_to_nearest_even() {
             true => self.define("ROUNDING_MODE_RTE", 1),
             false => self,
         }
     }
 
     /// Promises that rays shall skip all triangles, or all boxes: where the device has
-    /// [`Limits::primitive_culling`](super::Limits), and only one of the two.
+    /// `rayTraversalPrimitiveCulling`, and only one of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
         self.blueprint.flags |= flags.as_raw();
         self
@@ -223,7 +224,7 @@ impl<'a> PipelineBuilder<'a> {
     /// takes.
     pub fn build_compute(self, gpu: &Gpu) -> Result<ComputePipeline> {
         let (name, workgroup @ [width, height]) = (&self.blueprint.name, self.workgroup);
-        let limit = gpu.limits.max_compute_work_group_invocations;
+        let limit = gpu.limits.core.max_compute_work_group_invocations;
         ensure!(
             width * height <= limit,
             "pipeline '{name}' has workgroups of {width}x{height} invocations; {} takes {limit}",

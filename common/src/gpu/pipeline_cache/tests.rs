@@ -151,9 +151,9 @@ fn make_a_pipeline_for_radv() {
     let entry = instance::load().unwrap();
     let (instance, _) = instance::create(&entry, None, None).unwrap();
     let chosen = device::candidates(&instance, &wanted).unwrap().remove(0);
-    let device = device::create(&instance, &chosen, &wanted).unwrap();
+    let device = device::create(&instance, &chosen).unwrap();
     // SAFETY: the device belongs to the live instance.
-    let properties = unsafe { instance.get_physical_device_properties(chosen.handle) };
+    let properties = unsafe { instance.get_physical_device_properties(chosen.physical_device) };
     let folder = std::env::var_os("KEPT_IN").unwrap();
     let mut cache = PipelineCache::open_in(Path::new(&folder), MOST, &device, &properties);
     let stages = ["camera.rgen", "sky.rmiss", "shade.rchit"].map(|file| {

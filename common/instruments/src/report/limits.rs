@@ -1,0 +1,111 @@
+//! The limits of a device that chapters heed, as a report tells them and a report card keeps them.
+
+use ash::vk;
+use common::gpu::Gpu;
+use serde::{Deserialize, Serialize};
+
+/// Properties of the device that decide sizes, alignments and depths.
+///
+/// As text, a limit that an older program did not know of may be left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Limits {
+    /// The version of Vulkan that the device has: major, minor, patch.
+    pub vulkan: [u32; 3],
+    /// Who made the device, by its number at PCI-SIG or Khronos, and its maker's number for it.
+    pub vendor_and_device: [u32; 2],
+    /// Bytes of an opaque shader group handle (32 on every known device).
+    pub shader_group_handle_size: u64,
+    /// What the stride of a shader binding table's region is a multiple of.
+    pub shader_group_handle_alignment: u64,
+    /// What each region's address is a multiple of.
+    pub shader_group_base_alignment: u64,
+    /// The largest stride of a region.
+    pub max_shader_group_stride: u64,
+    /// How deep `traceRayEXT` may nest; the pipeline declares how deep it does.
+    pub max_ray_recursion_depth: u32,
+    /// The most rays of one `vkCmdTraceRaysKHR`.
+    pub max_ray_dispatch_invocation_count: u32,
+    /// The most invocations of a compute shader's workgroup.
+    pub max_compute_work_group_invocations: u32,
+    /// What the scratch address of an acceleration structure build is a multiple of.
+    pub min_scratch_offset_alignment: u64,
+    /// The most instances of a top level.
+    pub max_instance_count: u64,
+    /// The most primitives of a bottom level.
+    pub max_primitive_count: u64,
+    /// The largest side of a two-dimensional image.
+    pub max_image_dimension: u32,
+    /// The largest side of an image that is drawn to.
+    pub max_attachment_side: u32,
+    /// Bits of a pixel's fraction that the rasteriser rounds a vertex to.
+    pub sub_pixel_precision_bits: u32,
+    /// The most bytes of push constants.
+    pub max_push_constants_size: u32,
+    /// The most textures of a table: descriptors that may be written after they are bound.
+    pub max_textures: u32,
+    /// The most bytes of a buffer that is bound as a descriptor.
+    pub max_storage_buffer_range: u64,
+    /// The most bytes of a buffer in device memory: by the limits of buffers and of allocations, and by the
+    /// memory that there is.
+    pub max_buffer_size: u64,
+    /// Nanoseconds a tick of a timestamp.
+    pub timestamp_period: f32,
+    /// The bits of a timestamp that count; none where the queue has no timestamps.
+    pub timestamp_mask: u64,
+    /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
+    pub float64: bool,
+    /// Whether rays may skip all triangles or all boxes, if the sample asks for it.
+    pub primitive_culling: bool,
+    /// Whether a shader may demand that 32-bit floats are rounded to nearest even.
+    pub rounding_to_nearest_even: bool,
+    /// Whether a shader may demand that signs of zeros, infinities and NaN are kept.
+    pub signed_zero_inf_nan: bool,
+}
+
+impl Limits {
+    /// Those of an open device.
+    pub fn of(gpu: &Gpu) -> Self {
+        let mut culling = vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default();
+        let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut culling);
+        // SAFETY: the device belongs to the live instance and has ray tracing pipelines.
+        unsafe {
+            gpu.instance.get_physical_device_features2(gpu.physical_device, &mut offered);
+        }
+        let float64 = offered.features.shader_float64 == vk::TRUE;
+        let (properties, limits) = (&gpu.properties, &gpu.limits);
+        let (core, version) = (&limits.core, properties.api_version);
+        let (acceleration, floats) = (&limits.acceleration_structure, &limits.vulkan12);
+        Self {
+            vulkan: [
+                vk::api_version_major(version),
+                vk::api_version_minor(version),
+                vk::api_version_patch(version),
+            ],
+            vendor_and_device: [properties.vendor_id, properties.device_id],
+            shader_group_handle_size: limits.shader_group_handle_size.into(),
+            shader_group_handle_alignment: limits.shader_group_handle_alignment.into(),
+            shader_group_base_alignment: limits.shader_group_base_alignment.into(),
+            max_shader_group_stride: limits.max_shader_group_stride.into(),
+            max_ray_recursion_depth: limits.max_ray_recursion_depth,
+            max_ray_dispatch_invocation_count: limits.max_ray_dispatch_invocation_count,
+            max_compute_work_group_invocations: core.max_compute_work_group_invocations,
+            min_scratch_offset_alignment: limits.min_scratch_offset_alignment(),
+            max_instance_count: acceleration.max_instance_count,
+            max_primitive_count: acceleration.max_primitive_count,
+            max_image_dimension: core.max_image_dimension2_d,
+            max_attachment_side: limits.max_attachment_side(),
+            sub_pixel_precision_bits: core.sub_pixel_precision_bits,
+            max_push_constants_size: core.max_push_constants_size,
+            max_textures: limits.max_textures(),
+            max_storage_buffer_range: core.max_storage_buffer_range.into(),
+            max_buffer_size: limits.max_buffer_size(),
+            timestamp_period: core.timestamp_period,
+            timestamp_mask: u64::MAX.checked_shr(64 - limits.timestamp_bits).unwrap_or(0),
+            float64,
+            primitive_culling: culling.ray_traversal_primitive_culling == vk::TRUE,
+            rounding_to_nearest_even: floats.shader_rounding_mode_rte_float32 == vk::TRUE,
+            signed_zero_inf_nan: floats.shader_signed_zero_inf_nan_preserve_float32 == vk::TRUE,
+        }
+    }
+}
