@@ -26,8 +26,8 @@ pub enum Arithmetic {
     Driver,
     /// As inexactly as Vulkan allows: the same operation on the same operands gives the same result.
     Worst,
-    /// The same, but the result also depends on the place of the operation in the code, and on the pipeline
-    /// if there is a [`seed`].
+    /// The same, but the result also depends on the place of the operation in the code
+    // If there is a `seed`, on the pipeline, too.
     WorstByPlace,
 }
 
