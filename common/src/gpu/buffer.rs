@@ -88,7 +88,7 @@ impl Buffer {
         let buffer = Self::new(gpu, name, size, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
         let mut staging = Staging::new(gpu, size as usize)?;
         for (array, &offset) in arrays.iter().zip(&offsets) {
-            staging.to_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
+            staging.fill_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
         }
         staging.submit()?;
         let addresses = offsets.iter().map(|offset| buffer.address + offset).collect();
@@ -167,7 +167,7 @@ impl Buffer {
             self.size
         );
         let mut staging = Staging::new(&self.gpu, bytes.len())?;
-        staging.to_buffer(self, offset, bytes)?;
+        staging.fill_buffer(self, offset, bytes)?;
         staging.submit()
     }
 

@@ -29,7 +29,7 @@ impl Staging {
     }
 
     /// Copies bytes to a buffer, `offset` bytes from its start, with the next submission.
-    pub(super) fn to_buffer(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
+    pub(super) fn fill_buffer(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
         for (number, part) in bytes.chunks(MOST).enumerate() {
             let dst_offset = offset + (number * MOST) as u64;
             let size = part.len() as u64;
@@ -40,18 +40,16 @@ impl Staging {
     }
 
     /// Copies texels of four bytes to an image in `TRANSFER_DST_OPTIMAL` with the next submission, in bands of
-    /// rows where they are too many.
-    pub(super) fn to_image(&mut self, image: &Image, rgba: &[u8]) -> Result<()> {
+    /// rows where they are too many. Where texels wait, no bytes of a buffer may: a texel lies at a multiple of 4.
+    pub(super) fn fill_image(&mut self, image: &Image, rgba: &[u8]) -> Result<()> {
         let row = 4 * image.extent.width as usize;
         let rows = MOST / row;
         for (number, band) in rgba.chunks(rows * row).enumerate() {
+            let height = (band.len() / row) as u32;
             let region = vk::BufferImageCopy {
                 buffer_offset: self.put(band)?,
                 image_offset: vk::Offset3D { x: 0, y: (number * rows) as i32, z: 0 },
-                image_extent: vk::Extent3D {
-                    height: (band.len() / row) as u32,
-                    ..image.extent.into()
-                },
+                image_extent: vk::Extent3D { height, ..image.extent.into() },
                 ..image::COPY
             };
             self.to_images.push((image.handle, region));

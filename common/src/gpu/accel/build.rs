@@ -97,14 +97,10 @@ pub(super) fn record(
 ) {
     let geometries: Vec<_> = builds.iter().map(|build| described(build.geometries)).collect();
     let infos = builds.iter().zip(&geometries).map(|(build, geometries)| {
-        let structure = build.structure;
-        structure
-            .plan
-            .info(geometries)
-            .mode(mode)
-            // Only an update reads it.
-            .src_acceleration_structure(structure.handle)
-            .dst_acceleration_structure(structure.handle)
+        let AccelerationStructure { plan, handle, .. } = build.structure;
+        let info = plan.info(geometries).mode(mode).dst_acceleration_structure(*handle);
+        // Only an update reads its source.
+        info.src_acceleration_structure(*handle)
             .scratch_data(vk::DeviceOrHostAddressKHR { device_address: build.scratch })
     });
     let infos: Vec<_> = infos.collect();

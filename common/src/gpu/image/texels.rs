@@ -37,7 +37,7 @@ impl Image {
         change(Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL)?;
         let mut staging = Staging::new(gpu, all.iter().map(|one| one.rgba.len()).sum())?;
         for (image, texels) in images.iter().zip(all) {
-            staging.to_image(image, texels.rgba)?;
+            staging.fill_image(image, texels.rgba)?;
         }
         staging.submit()?;
         change(Layout::TRANSFER_DST_OPTIMAL, Layout::SHADER_READ_ONLY_OPTIMAL)?;
