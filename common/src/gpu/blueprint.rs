@@ -137,19 +137,11 @@ impl Blueprint {
     pub fn create(
         &self,
         device: &Device,
-        ray_tracing_pipeline: &khr::ray_tracing_pipeline::Device,
+        ray_tracing: &khr::ray_tracing_pipeline::Device,
         layout: vk::PipelineLayout,
         cache: vk::PipelineCache,
         name: impl Fn(vk::ShaderModule, &str),
     ) -> Result<vk::Pipeline> {
-        let mut modules = Modules { device, handles: Vec::new() };
-        for stage in &self.stages {
-            let info = vk::ShaderModuleCreateInfo::default().code(&stage.words);
-            // SAFETY: the words are a valid module, compiled by glslang.
-            let module = unsafe { device.create_shader_module(&info, None)? };
-            modules.handles.push(module);
-            name(module, &stage.path);
-        }
         // The data is the constants as they stand, each number before its value.
         let mut entries = Vec::new();
         for (index, &[constant_id, _]) in (0..).zip(&self.constants) {
@@ -159,11 +151,16 @@ impl Blueprint {
         let specialization = vk::SpecializationInfo::default()
             .map_entries(&entries)
             .data(bytemuck::cast_slice(&self.constants));
-        let mut stages = Vec::new();
-        for (stage, &module) in self.stages.iter().zip(&modules.handles) {
-            let info = vk::PipelineShaderStageCreateInfo::default().module(module).name(c"main");
-            let info = info.stage(vk::ShaderStageFlags::from_raw(stage.stage));
-            stages.push(info.specialization_info(&specialization));
+        let (mut modules, mut stages) = (Modules { device, handles: Vec::new() }, Vec::new());
+        for Stage { path, stage, words } in &self.stages {
+            let info = vk::ShaderModuleCreateInfo::default().code(words);
+            // SAFETY: the words are a valid module, compiled by glslang.
+            let module = unsafe { device.create_shader_module(&info, None)? };
+            modules.handles.push(module);
+            name(module, path);
+            let stage = vk::ShaderStageFlags::from_raw(*stage);
+            let info = vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module);
+            stages.push(info.name(c"main").specialization_info(&specialization));
         }
         let flags = vk::PipelineCreateFlags::from_raw(self.flags);
         let pipelines = match (&self.attachments, &stages[..]) {
@@ -176,9 +173,8 @@ impl Blueprint {
                     .max_pipeline_ray_recursion_depth(self.recursion)
                     .layout(layout)];
                 let deferred = vk::DeferredOperationKHR::null();
-                let device = ray_tracing_pipeline;
                 // SAFETY: every stage index of the groups is within the stages; all handles are alive.
-                unsafe { device.create_ray_tracing_pipelines(deferred, cache, &info, None) }
+                unsafe { ray_tracing.create_ray_tracing_pipelines(deferred, cache, &info, None) }
             }
             (Some(attachments), stages) => {
                 attachments.pipeline(device, stages, layout, cache, flags)
