@@ -32,15 +32,17 @@ impl Sources {
 
 /// The hash of a chapter in which some files hold something else.
 pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String {
-    let mut files = project.files(&format!("samples/{chapter}"));
+    let mut files = with_borrowed(project, project.files(&format!("samples/{chapter}")));
     let says = |word: &str| {
         files.iter().any(|file| project.read(file).is_ok_and(|text| text.contains(word)))
     };
     // A chapter that opens scene files shows what they hold; to the others they are nothing.
     let (scene, scene_files) = (says("common::scene"), says("Composition"));
     if scene {
-        // Where the pieces stand and how the light falls is framework code.
-        files.extend(project.files("common/src/scene"));
+        // Where the pieces stand and how the light falls is framework code. How all that comes to the device
+        // is seen in no picture: tests hold it.
+        let shown = |file: &String| !UPLOAD.iter().any(|name| file.ends_with(name));
+        files.extend(project.files("common/src/scene").into_iter().filter(shown));
         let asset = |path: &String| {
             path.matches('/').count() == 2
                 || scene_files && path.starts_with("samples/assets/scenes/")
@@ -59,6 +61,30 @@ pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String
     let stages = stages.map(|stage| essence::shader(&shader::spliced(&read, stage)));
     parts.extend(stages.map(|stage| fnv(FNV_OFFSET, stage.as_bytes())));
     of_parts(parts)
+}
+
+/// The files of `common/src/scene` that carry a scene to the device, and change nothing of it.
+const UPLOAD: [&str; 3] = ["/upload.rs", "/meshes.rs", "/records.rs"];
+
+/// Files of a chapter and those of other chapters that it takes by `#[path = "…"]`.
+fn with_borrowed(project: &Project, mut files: Vec<String>) -> Vec<String> {
+    let mut next = 0;
+    while let Some(file) = files.get(next).cloned() {
+        let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let text = project.read(&file).unwrap_or_default();
+        let paths = text
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("#[path = \"../")?.strip_suffix("\"]"));
+        for path in paths {
+            let above = folder.rsplit_once('/').map_or("", |(above, _)| above);
+            let borrowed = format!("{above}/{path}");
+            if !files.contains(&borrowed) {
+                files.push(borrowed);
+            }
+        }
+        next += 1;
+    }
+    files
 }
 
 /// A hash of files, wherever they lie.
