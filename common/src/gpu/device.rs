@@ -118,7 +118,11 @@ fn judge(
     let mut limits = Limits::of(instance, physical_device, has);
     let driver = [limits.vulkan12.driver_name_as_c_str(), limits.vulkan12.driver_info_as_c_str()];
     candidate.driver = driver.map(|text| text.unwrap_or_default().to_string_lossy()).join(" ");
-    let offered = Features::of(instance, physical_device, has);
+    let mut offered = Features::default();
+    let mut chain = offered.chain(has);
+    // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
+    unsafe { instance.get_physical_device_features2(physical_device, &mut chain) };
+    offered.core = chain.features;
     candidate.features = wanted.features(&offered);
     candidate.extensions = wanted.extensions(&offered);
 

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use ash::{Instance, khr, nv, vk};
+use ash::{khr, nv, vk};
 
 /// The feature structures that a chapter may ask for, as the device fills them or as it is opened with them.
 #[derive(Clone, Copy, Default)]
@@ -20,23 +20,10 @@ pub struct Features {
 }
 
 impl Features {
-    /// What a device with Vulkan 1.3 and the extensions that `has` confirms offers: to be read, for its
-    /// structures are in no chain any more, but point to where they have been in one.
-    pub(super) fn of(
-        instance: &Instance,
-        physical_device: vk::PhysicalDevice,
-        has: impl Fn(&CStr) -> bool,
-    ) -> Self {
-        let mut offered = Self::default();
-        let mut chain = offered.chain(has);
-        // SAFETY: the chain holds only structures of core 1.3 and of extensions that the device has.
-        unsafe { instance.get_physical_device_features2(physical_device, &mut chain) };
-        offered.core = chain.features;
-        offered
-    }
-
     /// The chain of the structures whose extensions `has` confirms: one of an extension that the device lacks
     /// must stay out of it.
+    ///
+    /// To be made once: afterwards the structures point to where they have been in the chain.
     pub(super) fn chain(&mut self, has: impl Fn(&CStr) -> bool) -> vk::PhysicalDeviceFeatures2<'_> {
         let mut chain = vk::PhysicalDeviceFeatures2::default()
             .features(self.core)
