@@ -196,12 +196,12 @@ pub(super) struct Constant {
 
 /// The lines `const uint NAME = 1;` of a stage's whole text, in which `#line` says what is from where.
 pub(super) fn constants(path: &str, text: &str) -> Vec<Constant> {
-    let (mut file, mut number) = (path, 0);
+    let (mut file, mut number) = (path, 0_i64);
     let mut found = Vec::new();
     for line in text.lines() {
         if let Some((next, name)) = line.strip_prefix("#line ").and_then(|at| at.split_once(' ')) {
             file = name.trim_matches('"');
-            number = next.parse().unwrap_or(1) - 1;
+            number = next.parse::<u32>().map_or(0, |next| i64::from(next) - 1);
             continue;
         }
         number += 1;
