@@ -214,6 +214,7 @@ impl Buffer {
     pub fn read<T: Pod>(&self) -> Result<Vec<T>> {
         let mut copy = read_back(&self.gpu, "readback", self.size, |cmd, to| {
             let region = vk::BufferCopy::default().size(self.size);
+            barrier::before_readback(&self.gpu, cmd);
             // SAFETY: both buffers outlive the submission, which is waited for.
             unsafe { self.gpu.device.cmd_copy_buffer(cmd, self.handle, to, &[region]) };
         })?;

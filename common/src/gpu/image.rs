@@ -191,10 +191,13 @@ impl Image {
     pub fn read(&self) -> Result<Vec<[f32; 4]>> {
         let bytes = 16 * u64::from(self.extent.width) * u64::from(self.extent.height);
         let mut copy = read_back(&self.gpu, "picture", bytes, |cmd, to| {
+            use vk::ImageLayout as Layout;
+            let (device, layout) = (&self.gpu.device, Layout::TRANSFER_SRC_OPTIMAL);
             let region = vk::BufferImageCopy { image_extent: self.extent.into(), ..COPY };
-            let (device, layout) = (&self.gpu.device, vk::ImageLayout::GENERAL);
-            // SAFETY: the image is in GENERAL; both outlive the submission.
+            self.transition(cmd, Layout::GENERAL, layout);
+            // SAFETY: the image is in the layout named; both outlive the submission.
             unsafe { device.cmd_copy_image_to_buffer(cmd, self.handle, layout, to, &[region]) };
+            self.transition(cmd, layout, Layout::GENERAL);
         })?;
         let mut pixels = Vec::new();
         pixels.try_reserve_exact(bytes as usize / 16).context("no memory to read the picture")?;

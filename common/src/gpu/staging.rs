@@ -92,7 +92,7 @@ impl Staging {
     }
 }
 
-/// A mapped buffer with the bytes that `copy` records into it, once all that was submitted before is done.
+/// A mapped buffer with the bytes that `copy` puts there; what it reads, it has to wait for.
 pub(super) fn read_back(
     gpu: &Gpu,
     name: &str,
@@ -101,7 +101,6 @@ pub(super) fn read_back(
 ) -> Result<Buffer> {
     let buffer = Buffer::mapped(gpu, name, bytes, MemoryLocation::GpuToCpu)?;
     gpu.submit(|cmd| {
-        barrier::before_readback(gpu, cmd);
         copy(cmd, buffer.handle);
         barrier::after_readback(gpu, cmd);
         Ok(())
