@@ -14,7 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use anyhow::{Context, Result, anyhow, ensure};
 use tempfile::NamedTempFile;
 
-pub use self::folder::Folder;
+pub use self::folder::NewFolder;
 pub use self::several::write_all;
 
 /// Writes `bytes` to `path`: into a temporary file beside it, then renamed.

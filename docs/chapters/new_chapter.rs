@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use common::files::{Folder, folder, write_all};
+use common::files::{NewFolder, folder, write_all};
 use common::usage::Usage;
 use manuscript::project::{Chapter, Project};
 use manuscript::shader;
@@ -87,7 +87,7 @@ impl<'a> NewChapter<'a> {
         let root = &self.project.root;
         let own = ["samples", "shaders"].map(|folder| format!("{folder}/{}/", self.chapter.name));
         let is_new = |own: &&String| files.iter().any(|(path, _)| path.starts_with(own.as_str()));
-        let folders = own.iter().filter(is_new).map(|own| Folder::at(&root.join(own)));
+        let folders = own.iter().filter(is_new).map(|own| NewFolder::at(&root.join(own)));
         let folders = folders.collect::<Result<Vec<_>>>()?;
         let places: Vec<PathBuf> = files.iter().map(|(path, _)| root.join(path)).collect();
         for place in &places {

@@ -17,7 +17,7 @@ pub fn make(path: &Path) -> Result<()> {
     fs::create_dir_all(path).with_context(|| format!("cannot make '{}'", path.display()))
 }
 
-/// Writes a file of a [`Folder`], and makes the folders above it, unless the process is about to end.
+/// Writes a file of a [`NewFolder`], and makes the folders above it, unless the process is about to end.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -31,12 +31,12 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// A folder that is being made. Its files are removed at the end of its owner, and where a signal ends the
 /// process, unless it is kept; so is the folder, unless it was there before.
-pub struct Folder {
+pub struct NewFolder {
     path: PathBuf,
     is_kept: bool,
 }
 
-impl Folder {
+impl NewFolder {
     /// An empty folder with this path, which is made if it is not there.
     ///
     /// # Errors
@@ -73,14 +73,14 @@ impl Folder {
         self.is_kept = true;
     }
 
-    /// As [`Folder::keep`], for who holds what is unfinished.
+    /// As [`NewFolder::keep`], for who holds what is unfinished.
     pub(super) fn keep_in(&mut self, unfinished: &mut BTreeMap<PathBuf, Made>) {
         unfinished.remove(&self.path);
         self.is_kept = true;
     }
 }
 
-impl Drop for Folder {
+impl Drop for NewFolder {
     fn drop(&mut self) {
         let mut unfinished = unfinished();
         if let Some(made) = unfinished.remove(&self.path).filter(|_| !self.is_kept) {
@@ -97,18 +97,18 @@ mod tests {
     fn a_folder_stays_if_it_is_kept() {
         let work = tempfile::tempdir().unwrap();
         let path = work.path().join("a/b");
-        let folder = Folder::at(&path).unwrap();
+        let folder = NewFolder::at(&path).unwrap();
         fs::write(folder.path().join("file"), "text").unwrap();
         drop(folder);
         assert!(!path.exists() && work.path().join("a").is_dir());
-        Folder::at(&path).unwrap().keep();
+        NewFolder::at(&path).unwrap().keep();
         assert!(path.is_dir());
         // One that was there stays, empty as it was.
-        let folder = Folder::at(&path).unwrap();
+        let folder = NewFolder::at(&path).unwrap();
         write(&folder.path().join("c/file"), b"text").unwrap();
         drop(folder);
         assert!(path.is_dir() && path.read_dir().unwrap().next().is_none());
-        let folder = Folder::temporary().unwrap();
+        let folder = NewFolder::temporary().unwrap();
         let path = folder.path().to_owned();
         assert!(path.is_dir());
         drop(folder);

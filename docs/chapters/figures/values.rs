@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use common::files::Folder;
+use common::files::NewFolder;
 use patience::Limit;
 use serde_json::{Map, Value, json};
 
@@ -26,7 +26,7 @@ pub type Values = BTreeMap<String, Record>;
 /// # Errors
 /// If it is neither, cannot be run, or fails; in one line.
 pub fn run(programs: &Programs, command: &str) -> Result<Values> {
-    let folder = Folder::temporary()?;
+    let folder = NewFolder::temporary()?;
     let words = shlex::split(command).unwrap_or_default();
     // What stands before is the environment, `NAME=value`.
     let start = words.iter().take_while(|word| word.contains('=')).count();

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Result;
-use common::files::Folder;
+use common::files::NewFolder;
 use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
@@ -195,7 +195,7 @@ impl Mistake {
         if folder.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
             return Err(refused(folder, "is not empty").into());
         }
-        let whole = Folder::at(folder)?;
+        let whole = NewFolder::at(folder)?;
         self.patch.copy_to(project, whole.path())?;
         whole.keep();
         Ok(())

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::ExitStatus;
 
 use anyhow::{Context, Result, bail, ensure};
-use common::files::Folder;
+use common::files::NewFolder;
 use image::RgbImage;
 use panels::{Panel, sheet};
 use patience::Limit;
@@ -87,7 +87,7 @@ impl<'a> Reproduction<'a> {
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
         let hash = self.mistake.sources(project);
-        let folder = Folder::temporary()?;
+        let folder = NewFolder::temporary()?;
         let plain = folder.path().join("sheet.png");
         sheet.save(&plain)?;
         let bytes = stamp::stamped(&plain, &self.mistake.command(), &hash, &device)?;

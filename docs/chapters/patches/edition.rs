@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
-use common::files::Folder;
+use common::files::NewFolder;
 use manuscript::project::Project;
 use patience::{ASLEEP, Limit};
 
@@ -39,7 +39,7 @@ pub enum Edition {
 pub struct Patched {
     /// The edition.
     pub edition: Edition,
-    _shaders: Option<Folder>,
+    _shaders: Option<NewFolder>,
     _lock: Option<File>,
 }
 
@@ -51,7 +51,7 @@ impl Patched {
     /// If the patch does not fit, or the copy cannot be written.
     pub fn of(project: &Project, patch: &Patch) -> Result<Self> {
         if patch.is_in_shaders() {
-            let folder = Folder::temporary()?;
+            let folder = NewFolder::temporary()?;
             patch.copy_to(project, folder.path())?;
             let edition = Edition::Shaders(folder.path().to_owned());
             return Ok(Self { edition, _shaders: Some(folder), _lock: None });

@@ -3,7 +3,7 @@
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use common::files::Folder;
+use common::files::NewFolder;
 use image::RgbImage;
 use manuscript::fault::Fault;
 use manuscript::page::{Page, PictureMark};
@@ -113,7 +113,7 @@ impl Picture {
     /// If the program is missing or fails, or panels differ in size or are narrower than their labels.
     pub fn render(&self, programs: &Programs, sources: &mut Sources) -> Result<String> {
         let failed = || format!("{}:{}: {} is not made", self.page, self.line, self.file());
-        let folder = Folder::temporary()?;
+        let folder = NewFolder::temporary()?;
         let mut files = Vec::new();
         let mut device = String::new();
         for (index, rendering) in self.renderings.iter().enumerate() {

@@ -5,7 +5,7 @@ use std::process::{Command, ExitStatus};
 
 use anyhow::Result;
 use common::app::Picture;
-use common::files::Folder;
+use common::files::NewFolder;
 use patience::Limit;
 use serde_json::Value;
 
@@ -33,7 +33,7 @@ impl RunResult {
     /// # Errors
     /// If it does not start.
     pub fn of(mut command: Command, arguments: &[String], limit: Limit) -> Result<Self> {
-        let folder = Folder::temporary()?;
+        let folder = NewFolder::temporary()?;
         let (out, report) = (folder.path().join("out.exr"), folder.path().join("report.json"));
         command.args(["--headless", "--validate"]).args(arguments);
         command.arg("--out").arg(&out).arg("--report").arg(&report);

@@ -11,7 +11,7 @@ use std::process::Command;
 use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, bail};
-use common::files::Folder;
+use common::files::NewFolder;
 use common::output::print;
 use common::usage::Usage;
 use instruments::report::Limits;
@@ -94,7 +94,7 @@ impl Survey<'_> {
         common::files::check_writable(&out.join("card.md"))?;
         self.build()?;
         self.check_device()?;
-        let folder = Folder::temporary()?;
+        let folder = NewFolder::temporary()?;
         let laboratory = accuracy::runs(project, folder.path());
         let mut countdown = Countdown::new(project.chapters.len() + laboratory.len());
         let limit = self.limit;

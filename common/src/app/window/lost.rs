@@ -8,8 +8,8 @@ use egui::{Align2, Area, Context, Id, Key, RichText, Ui, ViewportId};
 use winit::event::WindowEvent;
 
 use super::panel::Panel;
-use super::stage::Stage;
 use super::style;
+use super::window_on_gpu::WindowOnGpu;
 use crate::app::args::Args;
 use crate::app::controls::Listed;
 use crate::output;
@@ -44,7 +44,7 @@ pub enum Choice {
 /// A window without a sample.
 pub struct Lost {
     /// The window, and the new device.
-    pub stage: Stage,
+    pub on_gpu: WindowOnGpu,
     /// What the sample is to get back.
     pub kept: Kept,
     /// What has happened.
@@ -60,17 +60,17 @@ pub fn is_loss(error: &Error) -> bool {
 
 impl Lost {
     /// Says what has happened, on the terminal and as the window's title.
-    pub fn new(stage: Stage, name: &str, kept: Kept, error: Error) -> Self {
+    pub fn new(on_gpu: WindowOnGpu, name: &str, kept: Kept, error: Error) -> Self {
         output::complain(&format!("warning: {error:#}; Enter in the window goes on, Esc leaves"));
-        stage.window.set_title(&format!("{name} · the device was lost"));
-        stage.window.request_redraw();
-        Self { stage, kept, error, redraw_at: None }
+        on_gpu.window.set_title(&format!("{name} · the device was lost"));
+        on_gpu.window.request_redraw();
+        Self { on_gpu, kept, error, redraw_at: None }
     }
 
     /// Takes an event other than a redraw.
     pub fn take(&mut self, event: &WindowEvent) {
-        if self.stage.take(event) {
-            self.stage.window.request_redraw();
+        if self.on_gpu.take(event) {
+            self.on_gpu.window.request_redraw();
         }
     }
 
@@ -78,7 +78,7 @@ impl Lost {
     pub fn sleep(&mut self) -> Option<Instant> {
         if self.redraw_at.is_some_and(|at| at <= Instant::now()) {
             self.redraw_at = None;
-            self.stage.window.request_redraw();
+            self.on_gpu.window.request_redraw();
         }
         self.redraw_at
     }
@@ -88,10 +88,10 @@ impl Lost {
     /// # Errors
     /// If the new device fails, too.
     pub fn draw(&mut self) -> Result<Choice> {
-        let Some(extent) = self.stage.fit()? else { return Ok(Choice::None) };
-        let (device, error) = (self.stage.gpu.name.clone(), format!("{:#}", self.error));
+        let Some(extent) = self.on_gpu.fit()? else { return Ok(Choice::None) };
+        let (device, error) = (self.on_gpu.gpu.name.clone(), format!("{:#}", self.error));
         let mut choice = Choice::None;
-        let drawing = self.stage.over(|ui| {
+        let drawing = self.on_gpu.over(|ui| {
             let made = sheet(ui.ctx(), &device, &error);
             if made != Choice::None {
                 choice = made;
@@ -99,7 +99,7 @@ impl Lost {
         })?;
         let viewport = drawing.viewport_output.get(&ViewportId::ROOT);
         let delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        let shown = self.stage.present(extent, None, drawing)?;
+        let shown = self.on_gpu.present(extent, None, drawing)?;
         let delay = if shown == Some(true) { delay } else { Duration::ZERO };
         self.redraw_at = Instant::now().checked_add(delay);
         Ok(choice)

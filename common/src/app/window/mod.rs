@@ -18,10 +18,10 @@ mod panel;
 mod reload;
 mod rows;
 mod session;
-mod stage;
 mod style;
 mod transport;
 mod view;
+mod window_on_gpu;
 
 use anyhow::{Context, Error, Result, anyhow};
 use winit::application::ApplicationHandler;
@@ -156,8 +156,8 @@ impl Shows<'_> {
                 self.show(events, session.map(|session| Shown::Session(Box::new(session))));
             }
             (Choice::Leave, Shown::Lost(lost)) => {
-                let Lost { stage, error, .. } = *lost;
-                let closed = stage.close().map(drop);
+                let Lost { on_gpu, error, .. } = *lost;
+                let closed = on_gpu.close().map(drop);
                 self.fail(events, closed.err().unwrap_or(error));
             }
             (_, shown) => self.shown = shown,
@@ -219,7 +219,7 @@ impl ApplicationHandler<Wake> for Shows<'_> {
         // The surface must go before the connection to the window system does.
         let closed = match self.take_shown() {
             Shown::Session(session) => session.close(),
-            Shown::Lost(lost) => lost.stage.close().map(drop),
+            Shown::Lost(lost) => lost.on_gpu.close().map(drop),
             Shown::Nothing => Ok(()),
         };
         if self.outcome.is_ok() {

@@ -18,8 +18,8 @@ use super::lost::{Kept, Lost};
 use super::panel::{Outcome, Panel};
 use super::reload::Reload;
 use super::rows::Hidden;
-use super::stage::Stage;
 use super::view::{Stepped, View};
+use super::window_on_gpu::WindowOnGpu;
 use super::{Of, Wake};
 use crate::app::controls::Listed;
 use crate::app::files::check_size;
@@ -45,7 +45,7 @@ pub struct Session {
     presented: u32,
     titled: Option<Instant>,
     lag: Lag,
-    stage: Stage,
+    on_gpu: WindowOnGpu,
 }
 
 impl Session {
@@ -61,17 +61,17 @@ impl Session {
             .with_visible(false)
             .with_inner_size(PhysicalSize::new(args.size.width, args.size.height));
         let window = events.create_window(attributes).context("cannot open a window")?;
-        let stage = Stage::new(window, of)?;
-        check_size(&stage.gpu, args.size)?;
+        let on_gpu = WindowOnGpu::new(window, of)?;
+        check_size(&on_gpu.gpu, args.size)?;
         let setup = Setup::new(args);
-        let mut sample = (program.make)(&stage.gpu, &setup)?;
+        let mut sample = (program.make)(&on_gpu.gpu, &setup)?;
         setup.check()?;
         let mut panel = Panel::new(program.name);
         // The camera that the chapter chose is home, whatever `--set` makes of it.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let kept = Kept { args: args.clone(), panel, values: Vec::new(), presented: 0 };
-        Self::on(stage, of, kept, sample, proxy)
+        Self::on(on_gpu, of, kept, sample, proxy)
     }
 
     /// Goes on with the device that came after a lost one.
@@ -79,20 +79,20 @@ impl Session {
     /// # Errors
     /// If the sample cannot be made on it.
     pub fn go_on(lost: Lost, of: Of, proxy: EventLoopProxy<Wake>) -> Result<Self> {
-        let Lost { stage, mut kept, .. } = lost;
+        let Lost { on_gpu, mut kept, .. } = lost;
         let make = of.program.make;
-        let sample = again(make, &stage.gpu, &kept.args, &mut kept.panel, &kept.values)?;
-        Self::on(stage, of, kept, sample, proxy)
+        let sample = again(make, &on_gpu.gpu, &kept.args, &mut kept.panel, &kept.values)?;
+        Self::on(on_gpu, of, kept, sample, proxy)
     }
 
     fn on(
-        stage: Stage,
+        on_gpu: WindowOnGpu,
         of: Of,
         kept: Kept,
         sample: Box<dyn Sample>,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self> {
-        let gpu = &stage.gpu;
+        let gpu = &on_gpu.gpu;
         let mut session = Self {
             view: View::new(gpu, sample)?,
             panel: kept.panel,
@@ -111,13 +111,13 @@ impl Session {
             presented: kept.presented,
             titled: None,
             lag: Lag::default(),
-            stage,
+            on_gpu,
         };
         // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
         while let Stepped::Part = session.view.step(session.args.size)? {}
         session.learn();
-        session.stage.window.set_visible(true);
-        session.stage.window.request_redraw();
+        session.on_gpu.window.set_visible(true);
+        session.on_gpu.window.request_redraw();
         Ok(session)
     }
 
@@ -125,7 +125,7 @@ impl Session {
     pub fn wake(&mut self, due: bool) {
         self.lag.wake();
         if due {
-            self.stage.window.request_redraw();
+            self.on_gpu.window.request_redraw();
         }
     }
 
@@ -135,7 +135,7 @@ impl Session {
         let reload_at = self.reload.poll(now);
         if self.redraw_at.is_some_and(|at| at <= now) {
             self.redraw_at = None;
-            self.stage.window.request_redraw();
+            self.on_gpu.window.request_redraw();
         }
         self.lag.sleep();
         [reload_at, self.redraw_at].into_iter().flatten().min()
@@ -148,9 +148,9 @@ impl Session {
     pub fn close(self) -> Result<()> {
         let longest = self.lag.longest.as_millis();
         tracing::info!("{} frames; longest wait for a frame {longest} ms", self.presented);
-        let Self { view, stage, .. } = self;
+        let Self { view, on_gpu, .. } = self;
         drop(view);
-        stage.close().map(drop)
+        on_gpu.close().map(drop)
     }
 
     /// The device is lost: frees what was made from it, and takes another.
@@ -159,13 +159,13 @@ impl Session {
     /// If there is no other, or validation had something to say.
     pub fn lose(mut self, of: Of, error: Error) -> Result<Lost> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let Self { view, mut panel, args, presented, stage, .. } = self;
+        let Self { view, mut panel, args, presented, on_gpu, .. } = self;
         drop(view);
         panel.error = None;
         let again = Of { args: &args, ..of };
-        let stage =
-            Stage::new(stage.close()?, again).with_context(|| format!("{error:#}; and then"))?;
-        Ok(Lost::new(stage, of.program.name, Kept { args, panel, values, presented }, error))
+        let on_gpu = WindowOnGpu::new(on_gpu.close()?, again)
+            .with_context(|| format!("{error:#}; and then"))?;
+        Ok(Lost::new(on_gpu, of.program.name, Kept { args, panel, values, presented }, error))
     }
 
     /// A file below `shaders/` was written.
@@ -185,8 +185,8 @@ impl Session {
             | WindowEvent::KeyboardInput { .. } => self.lag.input(),
             _ => {}
         }
-        if self.stage.take(event) || matches!(event, WindowEvent::Occluded(_)) {
-            self.stage.window.request_redraw();
+        if self.on_gpu.take(event) || matches!(event, WindowEvent::Occluded(_)) {
+            self.on_gpu.window.request_redraw();
         }
     }
 
@@ -195,7 +195,7 @@ impl Session {
     /// # Errors
     /// If the sample, the device or the window system fails.
     pub fn draw(&mut self) -> Result<bool> {
-        let extent = match self.stage.fit()? {
+        let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.
             _ => return Ok(true),
@@ -234,7 +234,7 @@ impl Session {
     /// Shows the panel, and answers the keys that ask something of the window.
     fn panel(&mut self) -> Result<(Outcome, FullOutput)> {
         let mut outcome = Outcome::default();
-        let drawing = self.stage.over(|ui| {
+        let drawing = self.on_gpu.over(|ui| {
             let sample = &mut self.view.sample;
             outcome.merge(self.panel.show(ui, &self.facts, &mut |c| sample.controls(c)));
         })?;
@@ -251,7 +251,7 @@ impl Session {
     /// Puts picture and panel on the window.
     fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<()> {
         let area = self.area(extent, drawing.pixels_per_point);
-        let presented = self.stage.present(extent, Some((&self.view.image, area)), drawing)?;
+        let presented = self.on_gpu.present(extent, Some((&self.view.image, area)), drawing)?;
         if presented.is_some() {
             self.presented += 1;
             let waited = self.lag.present();
@@ -285,7 +285,7 @@ impl Session {
         let resting = picture_at.is_none();
         if self.titled.is_none_or(|at| resting || now > at + TITLE) {
             self.titled = Some(now);
-            self.stage.window.set_title(&self.facts.title());
+            self.on_gpu.window.set_title(&self.facts.title());
         }
         let counted = self.args.frames_given.then_some(now);
         let panel_at = now.checked_add(panel_delay);
@@ -307,14 +307,14 @@ impl Session {
             self.panel.tell(format!("shaders reloaded in {seconds:.1} s"));
         }
         self.panel.error = result.err();
-        self.stage.window.request_redraw();
+        self.on_gpu.window.request_redraw();
     }
 
     /// Opens a file that was dropped on the window, as if `--scene` had named it.
     fn open(&mut self, file: &Path) {
         let args = Args { scene: Some(file.to_owned()), ..self.args.clone() };
         let setup = Setup::new(&args);
-        let made = (self.make)(&self.stage.gpu, &setup).and_then(|mut sample| {
+        let made = (self.make)(&self.on_gpu.gpu, &setup).and_then(|mut sample| {
             setup.check()?;
             self.panel.navigation.forget_home();
             sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
@@ -327,19 +327,19 @@ impl Session {
             }
             Err(error) => self.panel.error = Some(format!("{error:#}")),
         }
-        self.stage.window.request_redraw();
+        self.on_gpu.window.request_redraw();
     }
 
     /// Makes the sample anew and gives it the values that its controls had.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let sample = again(self.make, &self.stage.gpu, &self.args, &mut self.panel, &values)?;
+        let sample = again(self.make, &self.on_gpu.gpu, &self.args, &mut self.panel, &values)?;
         self.view.replace(sample)
     }
 
     /// Watches the shaders of the pipelines that there are by now.
     fn learn(&mut self) {
-        let statistics = self.stage.gpu.take_statistics();
+        let statistics = self.on_gpu.gpu.take_statistics();
         if let Err(error) = self.reload.learn(&statistics.stages()) {
             self.panel.error = Some(format!("{error:#}"));
         }

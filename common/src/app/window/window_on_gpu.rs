@@ -14,7 +14,7 @@ use crate::app::check_validation;
 use crate::gpu::{Gpu, Image, Swapchain, WindowHandles};
 
 /// What draws to a window. It is dropped in this order, the window last.
-pub struct Stage {
+pub struct WindowOnGpu {
     painter: Painter,
     swapchain: Swapchain,
     egui: egui_winit::State,
@@ -24,7 +24,7 @@ pub struct Stage {
     pub window: Window,
 }
 
-impl Stage {
+impl WindowOnGpu {
     /// Opens the device that the arguments name, to draw to a window.
     ///
     /// # Errors
