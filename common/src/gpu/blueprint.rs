@@ -142,15 +142,14 @@ impl Blueprint {
         cache: vk::PipelineCache,
         name: impl Fn(vk::ShaderModule, &str),
     ) -> Result<vk::Pipeline> {
-        // The data is the constants as they stand, each number before its value.
-        let mut entries = Vec::new();
-        for (index, &[constant_id, _]) in (0..).zip(&self.constants) {
-            let offset = 8 * index + 4;
-            entries.push(vk::SpecializationMapEntry { constant_id, offset, size: 4 });
+        let (mut entries, mut values) = (Vec::new(), Vec::new());
+        for (index, &[constant_id, value]) in (0..).zip(&self.constants) {
+            entries.push(vk::SpecializationMapEntry { constant_id, offset: 4 * index, size: 4 });
+            values.push(value);
         }
         let specialization = vk::SpecializationInfo::default()
             .map_entries(&entries)
-            .data(bytemuck::cast_slice(&self.constants));
+            .data(bytemuck::cast_slice(&values));
         let (mut modules, mut stages) = (Modules { device, handles: Vec::new() }, Vec::new());
         for Stage { path, stage, words } in &self.stages {
             let info = vk::ShaderModuleCreateInfo::default().code(words);
