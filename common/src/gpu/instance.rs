@@ -20,9 +20,10 @@ pub struct WindowHandles {
 /// # Errors
 /// If there is none, with what to install.
 pub fn load() -> Result<Entry> {
-    // SAFETY: the Vulkan loader's initialisation has no preconditions.
     let entry = match std::env::var_os("VULKAN_LOADER") {
+        // SAFETY: the Vulkan loader's initialisation has no preconditions, here and below.
         Some(path) => unsafe { Entry::load_from(path) },
+        // SAFETY: as above.
         None => unsafe { Entry::load() },
     };
     entry.map_err(|error| {
