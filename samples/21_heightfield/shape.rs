@@ -29,10 +29,10 @@ common::shader_struct! {
 
 impl HeightfieldShape {
     // ANCHOR: shape
-    /// Hills and ridges: of each the height, and how many a unit of x and of z.
+    /// From `k`, and for the hills and the ridges: their height, and how many a unit of x and of z.
     ///
-    /// No slope is steeper than the hills' and the ridges' together: |∇(S(u)·S(v))| is 8 at most, as the page
-    /// of chapter 21 shows, and the slope of S is.
+    /// No slope is steeper than the hills' and the ridges' together. |∇(S(u)·S(v))| is 8 at most, as the page of
+    /// chapter 21 shows, and so is the slope of S.
     pub fn new(k: f32, [a, fx, fz]: [f32; 3], [b, gx, gz]: [f32; 3]) -> Self {
         let hills = f64::from(a) * f64::from(fx).max(f64::from(fz));
         let ridges = f64::from(b) * f64::from(gx).hypot(f64::from(gz));

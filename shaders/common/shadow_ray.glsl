@@ -1,4 +1,4 @@
-// Like shadow.glsl in 05_shadow_miss, but for rays that any hit ends: the shadow ray.
+// Like shadow.glsl in 05_shadow_miss, but the first hit always ends the shadow ray.
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
