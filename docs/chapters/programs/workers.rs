@@ -1,26 +1,29 @@
-//! Work that is shared among as many threads as there are processors.
+//! Work that is shared among as many threads as there are processors, this one among them.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, Builder};
 
 /// What `work` makes of each item, in the order of the items.
 pub fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let found = Mutex::new(BTreeMap::new());
+    let worker = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(index) else { break };
+            let result = work(item);
+            found.lock().unwrap_or_else(PoisonError::into_inner).insert(index, result);
+        }
+    };
     let workers = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
-        for _ in 0..workers.min(items.len()) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(index) else { break };
-                    let result = work(item);
-                    found.lock().unwrap_or_else(PoisonError::into_inner).insert(index, result);
-                }
-            });
+        // Where the system starts no more threads, there are fewer.
+        for _ in 1..workers.min(items.len()) {
+            let _ = Builder::new().spawn_scoped(scope, worker);
         }
+        worker();
     });
     found.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
 }

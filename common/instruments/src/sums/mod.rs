@@ -44,7 +44,7 @@ const FRACTION: i32 = 64;
 /// Bits of a colour's whole part: what is not below 2^31 is added as black.
 const COLOR: i32 = 31;
 
-/// SampleSet that had a colour that is no number to add, and were added as black.
+/// Samples that had a colour that is no number to add, and were added as black.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spoiled {
