@@ -98,10 +98,11 @@ pub(super) fn record(
     let geometries: Vec<_> = builds.iter().map(|build| described(build.geometries)).collect();
     let infos = builds.iter().zip(&geometries).map(|(build, geometries)| {
         let AccelerationStructure { plan, handle, .. } = build.structure;
-        let info = plan.info(geometries).mode(mode).dst_acceleration_structure(*handle);
-        // Only an update reads its source.
-        info.src_acceleration_structure(*handle)
-            .scratch_data(vk::DeviceOrHostAddressKHR { device_address: build.scratch })
+        let mut info = plan.info(geometries).mode(mode).dst_acceleration_structure(*handle);
+        if mode == vk::BuildAccelerationStructureModeKHR::UPDATE {
+            info = info.src_acceleration_structure(*handle);
+        }
+        info.scratch_data(vk::DeviceOrHostAddressKHR { device_address: build.scratch })
     });
     let infos: Vec<_> = infos.collect();
     let ranges: Vec<_> = builds.iter().map(|build| ranges(build.geometries)).collect();
