@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::ptr::NonNull;
 
 use anyhow::{Context, Result, ensure};
-use ash::vk;
+use ash::vk::{self, BufferUsageFlags as Usage};
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
 
@@ -15,9 +15,9 @@ use super::{Gpu, barrier};
 /// What `vkCmdUpdateBuffer` takes at most, in bytes.
 const MOST_UPDATED: usize = 65_536;
 
-/// What the address of every addressed buffer is a multiple of: what shaders may promise of the addresses
-/// that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what builds
-/// ask of their input, 16 for instances and 8 for boxes.
+/// What the address of every addressed buffer is a multiple of on any device: what shaders may promise of the
+/// addresses that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what
+/// builds ask of their input, 16 for instances and 8 for boxes.
 pub const ADDRESS_ALIGNMENT: u64 = 16;
 
 /// A `VkBuffer` bound to memory of its own, freed on drop.
@@ -33,39 +33,21 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    /// An uninitialised buffer of at least one byte in device memory.
+    /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
+    /// what the device asks of any: [`Limits::address_alignment`](super::Limits::address_alignment).
     ///
     /// # Errors
     /// If the device has no memory left for it.
-    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Self> {
-        Self::in_memory(gpu, name, size, usage, MemoryLocation::GpuOnly, 1)
-    }
-
-    /// As [`Buffer::new`], its address a multiple of `alignment` bytes (a power of two).
-    ///
-    /// # Errors
-    /// As [`Buffer::new`].
-    pub fn aligned(
-        gpu: &Gpu,
-        name: &str,
-        size: u64,
-        usage: vk::BufferUsageFlags,
-        alignment: u64,
-    ) -> Result<Self> {
-        Self::in_memory(gpu, name, size, usage, MemoryLocation::GpuOnly, alignment)
+    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: Usage) -> Result<Self> {
+        Self::make(gpu, name, size, usage, MemoryLocation::GpuOnly)
     }
 
     /// A buffer in device memory that holds `data`.
     ///
     /// # Errors
     /// As [`Buffer::new`], or if the copy fails.
-    pub fn with_data<T: Pod>(
-        gpu: &Gpu,
-        name: &str,
-        data: &[T],
-        usage: vk::BufferUsageFlags,
-    ) -> Result<Self> {
-        Ok(Self::with_arrays(gpu, name, &[data], usage)?.0)
+    pub fn with_data<T: Pod>(gpu: &Gpu, name: &str, data: &[T], usage: Usage) -> Result<Self> {
+        Ok(Self::with_arrays(gpu, name, [data], usage)?.0)
     }
 
     /// A buffer in device memory that holds arrays one after the other, and the address of each, a multiple of
@@ -79,13 +61,14 @@ impl Buffer {
     pub fn with_arrays<T: Pod, A: AsRef<[T]>>(
         gpu: &Gpu,
         name: &str,
-        arrays: &[A],
-        usage: vk::BufferUsageFlags,
+        arrays: impl IntoIterator<Item = A>,
+        usage: Usage,
     ) -> Result<(Self, Vec<vk::DeviceAddress>)> {
+        let arrays: Vec<A> = arrays.into_iter().collect();
         // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
         let sizes = arrays.iter().map(|array| size_of_val(array.as_ref()).max(1) as u64);
         let (offsets, size) = offsets(sizes, ADDRESS_ALIGNMENT);
-        let buffer = Self::new(gpu, name, size, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
+        let buffer = Self::new(gpu, name, size, usage | Usage::TRANSFER_DST)?;
         let mut staging = Staging::new(gpu, size as usize)?;
         for (array, &offset) in arrays.iter().zip(&offsets) {
             staging.fill_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
@@ -97,18 +80,10 @@ impl Buffer {
 
     /// A buffer that the host has mapped, to copy from (`CpuToGpu`) or to (`GpuToCpu`).
     pub(super) fn mapped(gpu: &Gpu, name: &str, size: u64, at: MemoryLocation) -> Result<Self> {
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
-        Self::in_memory(gpu, name, size, usage, at, 1)
+        Self::make(gpu, name, size, Usage::TRANSFER_SRC | Usage::TRANSFER_DST, at)
     }
 
-    fn in_memory(
-        gpu: &Gpu,
-        name: &str,
-        size: u64,
-        usage: vk::BufferUsageFlags,
-        location: MemoryLocation,
-        alignment: u64,
-    ) -> Result<Self> {
+    fn make(gpu: &Gpu, name: &str, size: u64, usage: Usage, at: MemoryLocation) -> Result<Self> {
         // Vulkan has no empty buffers; an empty mesh or table still wants an address.
         let size = size.max(1);
         let most = gpu.limits.max_buffer_size();
@@ -124,17 +99,16 @@ impl Buffer {
         let mut buffer = Self { handle, size, address: 0, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
-        let addressed = usage.contains(vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS);
-        let alignment = alignment.max(if addressed { ADDRESS_ALIGNMENT } else { 1 });
+        let addressed = usage.contains(Usage::SHADER_DEVICE_ADDRESS);
+        let alignment = if addressed { gpu.limits.address_alignment() } else { 1 };
         requirements.alignment = requirements.alignment.max(alignment);
         let no_memory = || format!("no memory for the buffer '{name}' of {size} bytes");
-        let memory =
-            Memory::new(gpu, name, requirements, location, true).with_context(no_memory)?;
+        let memory = Memory::new(gpu, name, requirements, at, true).with_context(no_memory)?;
         let allocation = &buffer.memory.insert(memory).allocation;
         let offset = allocation.offset();
         // Where the host has no room to map it, some drivers hand out `MAP_FAILED`, which is -1.
-        let start = |at: NonNull<c_void>| at.addr().get().wrapping_sub(offset as usize);
-        let unmapped = allocation.mapped_ptr().is_some_and(|at| start(at) == usize::MAX);
+        let start = |first: NonNull<c_void>| first.addr().get().wrapping_sub(offset as usize);
+        let unmapped = allocation.mapped_ptr().is_some_and(|first| start(first) == usize::MAX);
         ensure!(!unmapped, "no address space for the buffer '{name}' of {size} bytes");
         // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
         unsafe { gpu.device.bind_buffer_memory(handle, allocation.memory(), offset) }

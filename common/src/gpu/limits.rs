@@ -6,6 +6,8 @@ use std::ptr;
 
 use ash::{Instance, khr, vk};
 
+use super::ADDRESS_ALIGNMENT;
+
 /// Properties of the device that decide sizes, alignments and depths; those of ray tracing pipelines are at hand
 /// without the name of their structure.
 #[derive(Clone, Copy, Default)]
@@ -80,6 +82,13 @@ impl Limits {
     /// What the scratch address of an acceleration structure build is a multiple of.
     pub fn min_scratch_offset_alignment(&self) -> u64 {
         self.acceleration_structure.min_acceleration_structure_scratch_offset_alignment.into()
+    }
+
+    /// What the address of any buffer is a multiple of: whatever is put there, it may begin where the buffer does,
+    /// the scratch of a build and a region of a shader binding table, too.
+    pub fn address_alignment(&self) -> u64 {
+        let region = self.shader_group_base_alignment.into();
+        ADDRESS_ALIGNMENT.max(self.min_scratch_offset_alignment()).max(region)
     }
 
     /// The largest side of an image that is drawn to.

@@ -6,7 +6,7 @@
 //! works on some vendors' devices and loses the device on others, so the arithmetic stands alone here,
 //! tested on the limits of several.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::{Buffer, Gpu, Limits, RayTracingPipeline, barrier};
@@ -81,6 +81,11 @@ pub struct Record {
     pub data: Vec<u8>,
 }
 
+/// A record for each of so many groups, without data.
+fn one_each(groups: usize) -> Vec<Record> {
+    (0..groups).map(|group| Record { group, data: Vec::new() }).collect()
+}
+
 /// A table in device memory.
 pub struct ShaderBindingTable {
     /// Where its regions lie.
@@ -97,8 +102,7 @@ impl ShaderBindingTable {
     /// # Errors
     /// If memory is short.
     pub fn new(gpu: &Gpu, pipeline: &RayTracingPipeline) -> Result<Self> {
-        let hit = (0..pipeline.groups[2]).map(|group| Record { group, ..Record::default() });
-        Self::with_hit_records(gpu, pipeline, &hit.collect::<Vec<_>>())
+        Self::with_hit_records(gpu, pipeline, &one_each(pipeline.groups[2]))
     }
 
     /// A table whose hit region holds `hit` records, several of a group if need be.
@@ -110,11 +114,12 @@ impl ShaderBindingTable {
         pipeline: &RayTracingPipeline,
         hit: &[Record],
     ) -> Result<Self> {
-        let [raygen, miss, _, callable] = pipeline.groups;
-        let records = [raygen, miss, hit.len(), callable];
         let longest = hit.iter().map(|record| record.data.len()).max().unwrap_or(0);
+        let [raygen, miss, _, callable] = pipeline.groups.map(one_each);
+        let records = [&raygen[..], &miss, hit, &callable];
         // The raygen record has the first pixel of a launch.
-        let layout = layout(&gpu.limits, records, [size_of::<[u32; 2]>(), 0, longest, 0])?;
+        let data = [size_of::<[u32; 2]>(), 0, longest, 0];
+        let layout = layout(&gpu.limits, records.map(<[_]>::len), data)?;
         let handle_size = gpu.limits.shader_group_handle_size as usize;
         let total: usize = pipeline.groups.iter().sum();
         let (extension, size) = (&gpu.ray_tracing_pipeline, total * handle_size);
@@ -124,31 +129,23 @@ impl ShaderBindingTable {
             unsafe { extension.get_ray_tracing_shader_group_handles(handle, 0, total, size)? };
         let mut bytes = vec![0u8; layout.size as usize];
         let mut first_group = 0;
-        for (kind, &count) in pipeline.groups.iter().enumerate() {
-            let Region { offset, stride, .. } = layout.regions[kind];
-            for index in 0..records[kind] {
-                let (group, data) = match kind {
-                    2 => (hit[index].group, &hit[index].data[..]),
-                    _ => (index, &[][..]),
-                };
+        for ((records, region), count) in records.iter().zip(layout.regions).zip(pipeline.groups) {
+            for (index, Record { group, data }) in (0..).zip(*records) {
                 ensure!(
-                    group < count,
+                    *group < count,
                     "a shader record names group {group}; the pipeline has {count} of its kind"
                 );
                 let handle = &handles[(first_group + group) * handle_size..][..handle_size];
-                let record = &mut bytes[offset as usize + index * stride as usize..];
+                let record = &mut bytes[(region.offset + index * region.stride) as usize..];
                 record[..handle_size].copy_from_slice(handle);
                 record[handle_size..][..data.len()].copy_from_slice(data);
             }
             first_group += count;
         }
         let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
-            | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
-            | vk::BufferUsageFlags::TRANSFER_DST;
+            | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let name = format!("{} shader binding table", pipeline.blueprint.name);
-        let alignment = gpu.limits.shader_group_base_alignment.into();
-        let buffer = Buffer::aligned(gpu, &name, layout.size, usage, alignment)?;
-        buffer.write(0, &bytes).context("cannot fill the shader binding table")?;
+        let buffer = Buffer::with_data(gpu, &name, &bytes, usage)?;
         let regions = layout.regions.map(|Region { offset, stride, size }| {
             let device_address = if size > 0 { buffer.address + offset } else { 0 };
             vk::StridedDeviceAddressRegionKHR { device_address, stride, size }

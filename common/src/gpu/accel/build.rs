@@ -77,7 +77,7 @@ fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> 
 /// A buffer for the scratch of builds.
 pub(super) fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
-    Buffer::aligned(gpu, "scratch", size, usage, gpu.limits.min_scratch_offset_alignment())
+    Buffer::new(gpu, "scratch", size, usage)
 }
 
 /// A build or an update of a structure in its place.

@@ -22,7 +22,7 @@ pub(super) fn place(
         | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
     let (offsets, room) = offsets(sizes.iter().copied(), OFFSET_ALIGNMENT);
     let name = together(&plans);
-    let buffer = Arc::new(Buffer::aligned(gpu, &name, room, usage, OFFSET_ALIGNMENT)?);
+    let buffer = Arc::new(Buffer::new(gpu, &name, room, usage)?);
     let mut placed = Vec::with_capacity(plans.len());
     for ((plan, &size), offset) in plans.into_iter().zip(sizes).zip(offsets) {
         let info = vk::AccelerationStructureCreateInfoKHR::default()
