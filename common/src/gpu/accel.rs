@@ -13,12 +13,15 @@ mod update;
 
 use std::sync::Arc;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use ash::vk;
 
 use super::geometry::Geometry;
 use super::{Buffer, Gpu};
 use plan::Plan;
+
+/// What a structure is built from: the name that messages call it, and its geometries.
+pub type Input<'a> = (&'a str, &'a [Geometry]);
 
 /// What a build may cost and allow later.
 #[derive(Clone, Copy, Default)]
@@ -58,25 +61,7 @@ impl AccelerationStructure {
         input: &[Geometry],
         options: BuildOptions,
     ) -> Result<Self> {
-        Ok(Self::bottoms(gpu, &[(name, input)], options)?.remove(0))
-    }
-
-    /// Builds bottom levels, each from its name and its geometries: many at a time, which keeps a device
-    /// busy that one small build does not, and in few buffers, as each buffer costs time and memory.
-    ///
-    /// # Errors
-    /// As [`AccelerationStructure::bottom`].
-    pub fn bottoms(
-        gpu: &Gpu,
-        inputs: &[(&str, &[Geometry])],
-        options: BuildOptions,
-    ) -> Result<Vec<Self>> {
-        let limit = gpu.limits.acceleration_structure.max_primitive_count;
-        for (name, geometries) in inputs {
-            let total: u64 = geometries.iter().map(|geometry| u64::from(geometry.count())).sum();
-            ensure!(total <= limit, "'{name}' has {total} primitives; {} takes {limit}", gpu.name);
-        }
-        build::build(gpu, inputs, options)
+        Ok(Self::build(gpu, &[(name, input)], options)?.remove(0))
     }
 
     /// Bytes that a build in its place needs beside it.
@@ -102,14 +87,8 @@ impl AccelerationStructure {
         count: u32,
         options: BuildOptions,
     ) -> Result<Self> {
-        let limit = gpu.limits.acceleration_structure.max_instance_count;
-        ensure!(
-            u64::from(count) <= limit,
-            "'{name}' has {count} instances; {} takes {limit}",
-            gpu.name
-        );
         let input = [Geometry::Instances { instances: instances.address, count }];
-        Ok(build::build(gpu, &[(name, &input)], options)?.remove(0))
+        Ok(Self::build(gpu, &[(name, &input)], options)?.remove(0))
     }
 }
 

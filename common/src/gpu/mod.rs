@@ -22,6 +22,7 @@ mod memory;
 pub mod order;
 mod pipeline;
 mod pipeline_cache;
+mod queries;
 mod reflection;
 mod requirements;
 pub mod sbt;

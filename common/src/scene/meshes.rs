@@ -19,18 +19,15 @@ impl MeshesOnGpu {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
         let meshes = &scene.model.meshes;
         let orders: Vec<_> = meshes.iter().map(|mesh| triangle_order(gpu, mesh, options)).collect();
-        let vertices: Vec<_> = meshes.iter().map(|mesh| &mesh.vertices[..]).collect();
-        let triangles: Vec<_> = meshes.iter().map(|mesh| &mesh.triangles[..]).collect();
         let usage = input_usage();
-        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", &vertices, usage)?;
-        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", &triangles, usage)?;
-        let (original, at_original) =
-            Buffer::with_arrays(gpu, "original triangles", &orders, usage)?;
+        let vertices = meshes.iter().map(|mesh| &mesh.vertices);
+        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, usage)?;
+        let triangles = meshes.iter().map(|mesh| &mesh.triangles);
+        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", triangles, usage)?;
+        let (original, at_original) = Buffer::with_arrays(gpu, "triangle order", &orders, usage)?;
         // Only the builds read the ordered copy; it is freed at the end of this function.
-        let in_order: Vec<_> = meshes.iter().zip(&orders).map(in_order).collect();
-        let (_ordered, at_ordered) =
-            Buffer::with_arrays(gpu, "ordered triangles", &in_order, usage)?;
-        drop(in_order);
+        let ordered = meshes.iter().zip(&orders).map(in_order);
+        let (_ordered, at_ordered) = Buffer::with_arrays(gpu, "ordered triangles", ordered, usage)?;
         let (opaque, fetch) = (opaque(scene), options.position_fetch);
         let mut records = Vec::with_capacity(meshes.len());
         let mut geometries = Vec::with_capacity(meshes.len());
@@ -56,7 +53,7 @@ impl MeshesOnGpu {
         let options = BuildOptions { compact: true, data_access: fetch, ..BuildOptions::default() };
         let inputs = meshes.iter().zip(&geometries);
         let inputs: Vec<_> = inputs.map(|(mesh, list)| (mesh.name.as_str(), &list[..])).collect();
-        let blas = AccelerationStructure::bottoms(gpu, &inputs, options)?;
+        let blas = AccelerationStructure::build(gpu, &inputs, options)?;
         let kept = (!fetch).then_some(vertices);
         Ok(Self { blas, records, buffers: [triangles, original].into_iter().chain(kept).collect() })
     }

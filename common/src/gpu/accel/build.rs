@@ -8,28 +8,30 @@ use ash::vk;
 
 use super::place::{OFFSET_ALIGNMENT, place, together};
 use super::plan::{Plan, described};
-use super::{AccelerationStructure, BuildOptions, compaction};
+use super::{AccelerationStructure, BuildOptions, Input, compaction};
 use crate::gpu::buffer::offsets;
+use crate::gpu::queries::Queries;
 use crate::gpu::{Buffer, Geometry, Gpu, barrier};
 
 /// How many bytes structures and scratch of one batch may take together: enough to keep a device busy,
 /// little enough that what compaction leaves behind is no burden. A structure that takes more is built alone.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Builds structures from their names and geometries, in batches; compacted if the options say so.
-pub(super) fn build(
-    gpu: &Gpu,
-    inputs: &[(&str, &[Geometry])],
-    options: BuildOptions,
-) -> Result<Vec<AccelerationStructure>> {
-    let plans = inputs.iter().map(|(name, list)| Plan::new(gpu, name, list, options));
-    let plans: Vec<_> = plans.collect();
-    let mut all = Vec::with_capacity(inputs.len());
-    for range in batches(&plans, gpu.limits.min_scratch_offset_alignment()) {
-        let built = build_batch(gpu, &plans[range])?;
-        all.extend(if options.compact { compaction::compacted(gpu, &built)? } else { built });
+impl AccelerationStructure {
+    /// Builds structures, each from its input: many at a time, which keeps a device busy that
+    /// one small build does not, and in few buffers, as each buffer costs time and memory.
+    ///
+    /// # Errors
+    /// As [`AccelerationStructure::bottom`].
+    pub fn build(gpu: &Gpu, inputs: &[Input], options: BuildOptions) -> Result<Vec<Self>> {
+        let plans = inputs.iter().map(|input| Plan::new(gpu, *input, options));
+        let plans: Vec<_> = plans.collect::<Result<_>>()?;
+        let mut all = Vec::with_capacity(inputs.len());
+        for range in batches(&plans, gpu.limits.min_scratch_offset_alignment()) {
+            all.extend(build_batch(gpu, &plans[range], options.compact)?);
+        }
+        Ok(all)
     }
-    Ok(all)
 }
 
 /// Neighbours whose structures and scratch fit a batch together.
@@ -51,7 +53,8 @@ fn batches(plans: &[Plan], scratch_alignment: u64) -> Vec<Range<usize>> {
     all
 }
 
-fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> {
+/// Structures that share their memory, built at the same time, and compacted if that is asked for.
+fn build_batch(gpu: &Gpu, plans: &[Plan], compact: bool) -> Result<Vec<AccelerationStructure>> {
     let sizes: Vec<_> = plans.iter().map(|plan| plan.sizes.acceleration_structure_size).collect();
     let built = place(gpu, plans.to_vec(), &sizes)?;
     // The builds of a batch may run at the same time, so none may write to the scratch of another.
@@ -64,14 +67,22 @@ fn build_batch(gpu: &Gpu, plans: &[Plan]) -> Result<Vec<AccelerationStructure>> 
         scratch: scratch.address + offset,
     });
     let builds: Vec<_> = builds.collect();
+    let small = compact.then(|| Queries::new(gpu, compaction::SIZE, built.len() as u32));
+    let small = small.transpose()?;
     let start = Instant::now();
     gpu.submit(|cmd| {
         record(gpu, cmd, vk::BuildAccelerationStructureModeKHR::BUILD, &builds);
+        if let Some(small) = &small {
+            compaction::ask(small, cmd, &built);
+        }
         Ok(())
     })
     .with_context(|| format!("cannot build {}", together(plans)))?;
     gpu.count(|statistics| statistics.build_time += start.elapsed());
-    Ok(built)
+    match small {
+        Some(small) => compaction::compacted(gpu, &built, &small.results()?),
+        None => Ok(built),
+    }
 }
 
 /// A buffer for the scratch of builds.

@@ -5,18 +5,33 @@ use ash::vk;
 
 use super::AccelerationStructure;
 use super::place::place;
+use crate::gpu::queries::Queries;
 use crate::gpu::{Gpu, barrier};
 
-/// The same structures, one after the other in a buffer of the size that they turned out to need.
+/// The query for the size that a structure turned out to need.
+pub(super) const SIZE: vk::QueryType = vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
+
+/// Records the queries for the sizes of structures that were built before in `cmd`.
+pub(super) fn ask(sizes: &Queries, cmd: vk::CommandBuffer, built: &[AccelerationStructure]) {
+    let (extension, pool) = (&sizes.gpu.acceleration_structure, sizes.handle);
+    let handles: Vec<_> = built.iter().map(|one| one.handle).collect();
+    sizes.reset(cmd);
+    // SAFETY: structures and queries outlive the submission; each structure has a query of its own.
+    unsafe {
+        extension.cmd_write_acceleration_structures_properties(cmd, &handles, SIZE, pool, 0);
+    }
+}
+
+/// The same structures, one after the other in a buffer, each of the size that it turned out to need.
 ///
 /// # Errors
 /// If memory is short or the device fails.
 pub(super) fn compacted(
     gpu: &Gpu,
     built: &[AccelerationStructure],
+    sizes: &[u64],
 ) -> Result<Vec<AccelerationStructure>> {
-    let sizes = sizes(gpu, built)?;
-    let small = place(gpu, built.iter().map(|one| one.plan.clone()).collect(), &sizes)?;
+    let small = place(gpu, built.iter().map(|one| one.plan.clone()).collect(), sizes)?;
     gpu.submit(|cmd| {
         for (large, small) in built.iter().zip(&small) {
             let info = vk::CopyAccelerationStructureInfoKHR::default()
@@ -31,30 +46,4 @@ pub(super) fn compacted(
         Ok(())
     })?;
     Ok(small)
-}
-
-fn sizes(gpu: &Gpu, built: &[AccelerationStructure]) -> Result<Vec<u64>> {
-    let query = vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
-    let count = built.len() as u32;
-    let info = vk::QueryPoolCreateInfo::default().query_type(query).query_count(count);
-    let handles: Vec<_> = built.iter().map(|one| one.handle).collect();
-    let mut sizes = vec![0u64; built.len()];
-    // SAFETY: the pool is destroyed below, after the submission is done.
-    unsafe {
-        let pool = gpu.device.create_query_pool(&info, None)?;
-        let result = gpu
-            .submit(|cmd| {
-                gpu.device.cmd_reset_query_pool(cmd, pool, 0, count);
-                gpu.acceleration_structure
-                    .cmd_write_acceleration_structures_properties(cmd, &handles, query, pool, 0);
-                Ok(())
-            })
-            .and_then(|()| {
-                let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-                Ok(gpu.device.get_query_pool_results(pool, 0, &mut sizes, flags)?)
-            });
-        gpu.device.destroy_query_pool(pool, None);
-        result?;
-    }
-    Ok(sizes)
 }

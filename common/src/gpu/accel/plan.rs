@@ -3,7 +3,7 @@
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
-use super::BuildOptions;
+use super::{BuildOptions, Input};
 use crate::gpu::{Geometry, Gpu};
 
 /// What is known of a structure before it is built, and what a build in its place or an update must know.
@@ -18,17 +18,22 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(
-        gpu: &Gpu,
-        name: &str,
-        geometries: &[Geometry],
-        options: BuildOptions,
-    ) -> Self {
+    /// # Errors
+    /// If there is more of something than the device takes.
+    pub(super) fn new(gpu: &Gpu, (name, list): Input, options: BuildOptions) -> Result<Self> {
         let sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
-        let (name, geometries) = (name.to_owned(), geometries.to_vec());
+        let (name, geometries) = (name.to_owned(), list.to_vec());
         let mut plan = Self { name, options, geometries, sizes };
         let described = described(&plan.geometries);
         let counts: Vec<_> = plan.geometries.iter().map(Geometry::count).collect();
+        let limits = &gpu.limits.acceleration_structure;
+        let (what, limit) = match plan.level() {
+            vk::AccelerationStructureTypeKHR::TOP_LEVEL => ("instances", limits.max_instance_count),
+            _ => ("primitives", limits.max_primitive_count),
+        };
+        let total: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let name = &plan.name;
+        ensure!(total <= limit, "'{name}' has {total} {what}; {} takes {limit}", gpu.name);
         // SAFETY: info and counts describe the same geometries.
         unsafe {
             gpu.acceleration_structure.get_acceleration_structure_build_sizes(
@@ -38,7 +43,7 @@ impl Plan {
                 &mut plan.sizes,
             );
         }
-        plan
+        Ok(plan)
     }
 
     /// Of which level the structure is.
