@@ -137,11 +137,10 @@ impl Image {
             "{width}x{height} is not a size that {} can do: each side must be 1 to {limit}",
             gpu.name
         );
+        let mutable = vk::ImageCreateFlags::MUTABLE_FORMAT;
+        let flags = if view_format == format { Default::default() } else { mutable };
         let info = vk::ImageCreateInfo::default()
-            .flags(match view_format == format {
-                true => vk::ImageCreateFlags::empty(),
-                false => vk::ImageCreateFlags::MUTABLE_FORMAT,
-            })
+            .flags(flags)
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
             .extent(extent.into())

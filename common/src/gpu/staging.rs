@@ -1,13 +1,16 @@
 //! Staging: bytes on their way to the device and back, through a buffer that the host has mapped.
 
 use anyhow::Result;
-use ash::vk;
+use ash::vk::{self, ImageLayout as Layout};
 use gpu_allocator::MemoryLocation;
 
 use super::{Buffer, Gpu, Image, barrier, image};
 
 /// How many bytes a staging buffer has at most: what is larger goes in parts, and memory does not hold it twice.
 const MOST: usize = 32 << 20;
+
+/// How an image is left: ready to be sampled.
+const SAMPLED: Layout = Layout::SHADER_READ_ONLY_OPTIMAL;
 
 /// A mapped buffer, and the copies from it that wait to be submitted: many in one submission.
 pub(super) struct Staging {
@@ -17,7 +20,7 @@ pub(super) struct Staging {
     used: usize,
     /// Where they belong.
     to_buffers: Vec<(vk::Buffer, vk::BufferCopy)>,
-    to_images: Vec<(vk::Image, vk::BufferImageCopy)>,
+    to_images: Vec<(vk::Image, Layout, vk::BufferImageCopy)>,
 }
 
 impl Staging {
@@ -39,8 +42,8 @@ impl Staging {
         Ok(())
     }
 
-    /// Copies texels of four bytes to an image in `TRANSFER_DST_OPTIMAL` with the next submission, in bands of
-    /// rows where they are too many. Where texels wait, no bytes of a buffer may: a texel lies at a multiple of 4.
+    /// Copies texels of four bytes to a new image, to be sampled after the next submission, in bands of rows where
+    /// they are too many. Where texels wait, no bytes of a buffer may: a texel lies at a multiple of 4.
     pub(super) fn fill_image(&mut self, image: &Image, rgba: &[u8]) -> Result<()> {
         let row = 4 * image.extent.width as usize;
         let rows = MOST / row;
@@ -52,7 +55,9 @@ impl Staging {
                 image_extent: vk::Extent3D { height, ..image.extent.into() },
                 ..image::COPY
             };
-            self.to_images.push((image.handle, region));
+            // A band that another follows takes all the room: the next one finds the image as this one left it.
+            let before = if number == 0 { Layout::UNDEFINED } else { SAMPLED };
+            self.to_images.push((image.handle, before, region));
         }
         Ok(())
     }
@@ -72,15 +77,16 @@ impl Staging {
     pub(super) fn submit(&mut self) -> Result<()> {
         let (gpu, from) = (&self.gpu, self.buffer.handle);
         gpu.submit(|cmd| {
-            let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-            // SAFETY: all buffers and images outlive the submission, which is waited for.
-            unsafe {
-                for &(to, region) in &self.to_buffers {
-                    gpu.device.cmd_copy_buffer(cmd, from, to, &[region]);
-                }
-                for &(to, region) in &self.to_images {
-                    gpu.device.cmd_copy_buffer_to_image(cmd, from, to, layout, &[region]);
-                }
+            let layout = Layout::TRANSFER_DST_OPTIMAL;
+            for &(to, region) in &self.to_buffers {
+                // SAFETY: all buffers and images outlive the submission, which is waited for, here and below.
+                unsafe { gpu.device.cmd_copy_buffer(cmd, from, to, &[region]) };
+            }
+            for &(to, before, region) in &self.to_images {
+                image::transition(gpu, cmd, to, before, layout);
+                // SAFETY: as above.
+                unsafe { gpu.device.cmd_copy_buffer_to_image(cmd, from, to, layout, &[region]) };
+                image::transition(gpu, cmd, to, layout, SAMPLED);
             }
             barrier::after_upload(gpu, cmd);
             Ok(())

@@ -26,21 +26,12 @@ impl Image {
     /// # Errors
     /// If texels are not four bytes a pixel, a side is out of range, or memory is short.
     pub fn textures(gpu: &Gpu, all: &[Texels]) -> Result<Vec<Self>> {
-        use vk::ImageLayout as Layout;
         let images: Vec<_> = all.iter().map(|one| blank(gpu, one)).collect::<Result<_>>()?;
-        let change = |from, to| {
-            gpu.submit(|cmd| {
-                images.iter().for_each(|image| image.transition(cmd, from, to));
-                Ok(())
-            })
-        };
-        change(Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL)?;
         let mut staging = Staging::new(gpu, all.iter().map(|one| one.rgba.len()).sum())?;
         for (image, texels) in images.iter().zip(all) {
             staging.fill_image(image, texels.rgba)?;
         }
         staging.submit()?;
-        change(Layout::TRANSFER_DST_OPTIMAL, Layout::SHADER_READ_ONLY_OPTIMAL)?;
         Ok(images)
     }
 }
