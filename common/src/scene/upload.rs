@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, ensure};
 use ash::vk;
+use bytemuck::cast_slice;
 use glam::Vec3;
 
 use super::meshes::MeshesOnGpu;
@@ -113,13 +114,10 @@ impl SceneOnGpu {
         });
         let records: Vec<_> = records.collect();
         let materials: Vec<_> = model.materials.iter().map(MaterialRecord::from).collect();
-        let records = Buffer::with_data(gpu, "instance records", &records, input_usage())?;
-        let materials = Buffer::with_data(gpu, "materials", &materials, input_usage())?;
-        let addresses = SceneAddresses {
-            instances: records.address.into(),
-            materials: materials.address.into(),
-        };
-        buffers.extend([records, materials]);
+        let records = [cast_slice::<_, u8>(&records), cast_slice(&materials)];
+        let (records, at) = Buffer::with_arrays(gpu, "records", records, input_usage())?;
+        let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
+        buffers.push(records);
 
         let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
         let placed = order.into_iter().map(|index| {
