@@ -69,14 +69,8 @@ impl Picture {
 
     fn png(&self) -> Result<Vec<u8>> {
         let mut bytes = Cursor::new(Vec::new());
-        image::write_buffer_with_format(
-            &mut bytes,
-            &self.srgb(),
-            self.width,
-            self.height,
-            image::ExtendedColorType::Rgb8,
-            image::ImageFormat::Png,
-        )?;
+        let picture = image::RgbImage::from_raw(self.width, self.height, self.srgb());
+        picture.context("it has too few pixels")?.write_to(&mut bytes, image::ImageFormat::Png)?;
         Ok(bytes.into_inner())
     }
 
