@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
 use std::fs::{self, Metadata};
 use std::hash::{Hash, Hasher};
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -24,12 +24,8 @@ pub use self::several::write_all;
 /// # Errors
 /// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let write = || {
-        let mut file = Unfinished::begin(path)?;
-        file.write(bytes)?;
-        file.finish()
-    };
-    write().with_context(|| format!("cannot write '{}'", path.display()))
+    let failed = || format!("cannot write '{}'", path.display());
+    Unfinished::new(path, bytes).and_then(|mut file| file.finish()).with_context(failed)
 }
 
 /// What is unfinished at a path.
@@ -82,16 +78,19 @@ pub fn read_cached(path: &Path) -> Option<Vec<u8>> {
     fits.then(|| fs::read(path).ok()).flatten()
 }
 
-/// What a cache keeps of `bytes`: them, then a hash of them, by which damage is noticed: a full disk's, or
-/// another program's.
-pub fn sealed(bytes: &[u8]) -> Vec<u8> {
-    [bytes, &seal(bytes)].concat()
+/// What [`write_sealed`] has left in a cache's file; `None` if there is none, or it is damaged: by a full disk, or
+/// by another program.
+pub fn read_sealed(path: &Path) -> Option<Vec<u8>> {
+    let mut bytes = read_cached(path)?;
+    let end = bytes.split_off(bytes.len().checked_sub(8)?);
+    (end == seal(&bytes)).then_some(bytes)
 }
 
-/// The bytes of a cache's file; `None` if it is damaged.
-pub fn unsealed(file: &[u8]) -> Option<&[u8]> {
-    let (bytes, end) = file.split_last_chunk()?;
-    (seal(bytes) == *end).then_some(bytes)
+/// Writes a cache's file, and makes its folder: the bytes, then a hash of them, by which damage is noticed. A
+/// cache that cannot be written costs time at the next start, nothing else.
+pub fn write_sealed(path: &Path, bytes: &[u8]) {
+    let _ = path.parent().map(fs::create_dir_all);
+    let _ = write_whole(path, &[bytes, &seal(bytes)].concat());
 }
 
 fn seal(bytes: &[u8]) -> [u8; 8] {
@@ -105,7 +104,8 @@ fn seal(bytes: &[u8]) -> [u8; 8] {
 /// # Errors
 /// If the folder is missing or cannot be written, or something that is no file bears the name.
 pub fn check_writable(path: &Path) -> Result<()> {
-    Unfinished::begin(path).map(drop).with_context(|| format!("cannot write '{}'", path.display()))
+    let failed = || format!("cannot write '{}'", path.display());
+    Unfinished::new(path, b"").map(drop).with_context(failed)
 }
 
 /// Whether two paths lead to the same file, be it there or not.
@@ -121,14 +121,10 @@ struct Unfinished {
 }
 
 impl Unfinished {
-    /// Where a path leads, and an empty temporary file in the same folder.
-    fn begin(path: &Path) -> Result<Self> {
+    /// Bytes in a temporary file beside where a path leads.
+    fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let target = target(path)?;
-        let existing = match fs::metadata(&target) {
-            Ok(metadata) => Some(metadata),
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(error) => return Err(error.into()),
-        };
+        let existing = fs::metadata(&target).ok();
         let folder = target.parent().context("it has no folder")?;
         if let Some(metadata) = &existing {
             check_replaceable(&target, folder, metadata)?;
@@ -147,13 +143,12 @@ impl Unfinished {
         }
         let temporary = file.path().to_owned();
         unfinished.insert(temporary.clone(), Made::File);
-        Ok(Self { target, file: Some(file), temporary })
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> Result<()> {
-        let file = self.file.as_mut().context("it was written before")?;
+        drop(unfinished);
+        let mut new = Self { target, file: Some(file), temporary };
+        let written = new.file.iter_mut().try_for_each(|file| file.write_all(bytes));
         // As above, the kind alone.
-        file.write_all(bytes).map_err(|error| anyhow!("{}", error.kind()))
+        written.map_err(|error| anyhow!("{}", error.kind()))?;
+        Ok(new)
     }
 
     /// Puts it in its place.
@@ -249,6 +244,26 @@ mod tests {
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert_eq!(folder.path().read_dir().unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_cache_notices_damage() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("made/with its folder");
+        assert!(read_sealed(&path).is_none());
+        write_sealed(&path, b"some words");
+        assert_eq!(read_sealed(&path).unwrap(), b"some words");
+        let whole = fs::read(&path).unwrap();
+        for length in 0..whole.len() {
+            fs::write(&path, &whole[..length]).unwrap();
+            assert!(read_sealed(&path).is_none(), "cut off after {length} bytes");
+        }
+        for at in 0..whole.len() {
+            let mut wrong = whole.clone();
+            wrong[at] ^= 1;
+            fs::write(&path, wrong).unwrap();
+            assert!(read_sealed(&path).is_none(), "byte {at} is wrong");
+        }
     }
 
     #[test]

@@ -24,5 +24,5 @@ pub mod output;
 pub mod scene;
 pub mod usage;
 
-pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants, run};
+pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
 pub use bytemuck;

@@ -359,7 +359,7 @@ fn map_memory_of_the_device() -> (Result<(), vk::Result>, Vec<String>) {
     // As one asks for it who has met the software driver alone: the first type that is the device's own.
     // SAFETY: the device is alive, and what is allocated is freed.
     let mapped = unsafe {
-        let types = gpu.instance.get_physical_device_memory_properties(gpu.physical_device);
+        let types = gpu.vulkan.instance.get_physical_device_memory_properties(gpu.physical_device);
         let own = vk::MemoryPropertyFlags::DEVICE_LOCAL;
         let types = types.memory_types_as_slice();
         let own = types.iter().position(|kind| kind.property_flags.contains(own)).expect("memory");

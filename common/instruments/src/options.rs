@@ -59,9 +59,7 @@ pub fn command() -> clap::Command {
 /// # Errors
 /// One line that says what is wrong and where to look.
 pub fn parse(name: &'static str) -> Result<(Args, Options), Usage> {
-    #[derive(clap::Args)]
-    struct Nothing {}
-    let (args, options, Nothing {}) = parse_with(name)?;
+    let (args, options, ()) = parse_with(name)?;
     Ok((args, options))
 }
 

@@ -6,7 +6,7 @@ use ash::vk;
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
-use crate::gpu::{GpuOptions, Requirements, named_device};
+use crate::gpu::{GpuOptions, Requirements};
 use crate::output;
 use crate::usage::Usage;
 
@@ -83,20 +83,12 @@ impl Args {
         }
     }
 
-    /// Parses the process's arguments.
+    /// Parses the process's arguments, and others beside them.
     ///
     /// Prints the help and ends the process if that is asked for.
     ///
     /// # Errors
     /// One line that says what is wrong and where to look.
-    pub fn parse_for(name: &'static str) -> Result<Self, Usage> {
-        Ok(Self::parse_with::<Nothing>(name)?.0)
-    }
-
-    /// As [`Args::parse_for`], for a sample with arguments of its own.
-    ///
-    /// # Errors
-    /// As [`Args::parse_for`].
     pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), Usage> {
         use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
         let command = Self::command().name(name);
@@ -105,7 +97,6 @@ impl Args {
         let command = More::augment_args(command).about(about);
         let matches = command.try_get_matches().and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
-            args.device = args.device.or_else(|| named_device().map(str::to_owned));
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });
@@ -123,10 +114,6 @@ impl Args {
         Ok((args, more))
     }
 }
-
-/// No arguments of its own.
-#[derive(clap::Args)]
-struct Nothing {}
 
 fn size(text: &str) -> Result<vk::Extent2D, String> {
     let sides = text.split_once('x').map(|(w, h)| (w.parse::<u32>(), h.parse::<u32>()));

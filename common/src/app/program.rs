@@ -1,13 +1,10 @@
 //! A sample as a program: its name, and how it begins and ends.
 
-use std::process::ExitCode;
-
 use anyhow::Result;
 
 use super::{Args, Sample, Setup, Watch, headless, window};
 use crate::gpu::{self, Gpu, Requirements};
 use crate::output;
-use crate::usage::Usage;
 
 /// A sample that is still to be made.
 pub struct Program {
@@ -41,22 +38,8 @@ impl Program {
     }
 }
 
-/// Runs a sample as a program that nothing watches: reads the arguments, renders, and turns errors into one
-/// line.
-///
-/// Exit codes: 0 done, 1 failed, 2 wrong arguments.
-pub fn run<S: Sample>(name: &'static str) -> ExitCode {
-    let program = || Program::of::<S>(name).start(&Args::parse_for(name)?, &mut ());
-    let Err(error) = program() else { return ExitCode::SUCCESS };
-    output::complain(&output::line_of(&error));
-    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
-}
-
 /// Prints every device with its driver, and what it lacks.
-///
-/// # Errors
-/// If there is no Vulkan.
-pub fn list_devices(requirements: &Requirements) -> Result<()> {
+fn list_devices(requirements: &Requirements) -> Result<()> {
     for line in gpu::device_lines(requirements)? {
         output::print(&format!("{line}\n"))?;
     }

@@ -16,9 +16,7 @@ pub fn write_all(files: &[(&Path, &[u8])], mut folders: Vec<NewFolder>) -> Resul
     let failed = |path: &Path| format!("cannot write '{}'", path.display());
     let mut all = Vec::new();
     for &(path, bytes) in files {
-        let mut unfinished = Unfinished::begin(path).with_context(|| failed(path))?;
-        unfinished.write(bytes).with_context(|| failed(path))?;
-        all.push(unfinished);
+        all.push(Unfinished::new(path, bytes).with_context(|| failed(path))?);
     }
     // A signal comes before the first is in its place, or after the last.
     let mut unfinished = unfinished();

@@ -3,10 +3,12 @@
 mod graphics;
 
 use anyhow::{Result, bail};
-use ash::{Device, khr, vk};
+use ash::{Device, vk};
 use serde::{Deserialize, Serialize};
 
 pub use graphics::Attachments;
+
+use super::Gpu;
 
 /// The stages that a push constant or descriptor is visible in.
 pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL;
@@ -94,11 +96,16 @@ impl Blueprint {
         }
     }
 
-    /// The layout of set 0.
+    /// The pipeline layout: the bindings in set 0, set 1 of the layout given, if there are textures, and the push
+    /// constants.
     ///
     /// # Errors
     /// If the device has no memory left.
-    pub fn set_layout(&self, device: &Device) -> Result<vk::DescriptorSetLayout> {
+    pub fn layout(
+        &self,
+        gpu: &Gpu,
+        textures: Option<vk::DescriptorSetLayout>,
+    ) -> Result<vk::PipelineLayout> {
         let mut slots = Vec::new();
         for (binding, kind) in (0..).zip(&self.bindings) {
             let slot = vk::DescriptorSetLayoutBinding::default().binding(binding);
@@ -108,55 +115,49 @@ impl Blueprint {
         let info = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
             .bindings(&slots);
-        // SAFETY: the device is alive; the layout is the caller's.
-        Ok(unsafe { device.create_descriptor_set_layout(&info, None)? })
-    }
-
-    /// The pipeline layout for these sets.
-    ///
-    /// # Errors
-    /// If the device has no memory left.
-    pub fn layout(
-        &self,
-        device: &Device,
-        sets: &[vk::DescriptorSetLayout],
-    ) -> Result<vk::PipelineLayout> {
+        // SAFETY: the device is alive; the layout is destroyed below.
+        let set = unsafe { gpu.device.create_descriptor_set_layout(&info, None)? };
+        let sets: Vec<_> = [set].into_iter().chain(textures).collect();
         let ranges = [vk::PushConstantRange::default().stage_flags(STAGES).size(self.push_size)];
-        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets);
+        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
         if self.push_size > 0 {
             info = info.push_constant_ranges(&ranges);
         }
-        // SAFETY: the set layouts are alive; the layout is the caller's.
-        Ok(unsafe { device.create_pipeline_layout(&info, None)? })
+        // SAFETY: the layouts are alive. What is made of a set's layout does not look at it again (Vulkan
+        // specification, "Object Lifetime"), and push descriptors are no set that is made of it.
+        unsafe {
+            let layout = gpu.device.create_pipeline_layout(&info, None);
+            gpu.device.destroy_descriptor_set_layout(set, None);
+            Ok(layout?)
+        }
     }
 
-    /// Makes the pipeline; `name` hears of each module and its path. The cache may be null.
+    /// Makes the pipeline. The cache may be null.
     ///
     /// # Errors
     /// If the driver cannot compile it.
     pub fn create(
         &self,
-        device: &Device,
-        ray_tracing: &khr::ray_tracing_pipeline::Device,
+        gpu: &Gpu,
         layout: vk::PipelineLayout,
         cache: vk::PipelineCache,
-        name: impl Fn(vk::ShaderModule, &str),
     ) -> Result<vk::Pipeline> {
-        let (mut entries, mut values) = (Vec::new(), Vec::new());
-        for (index, &[constant_id, value]) in (0..).zip(&self.constants) {
-            entries.push(vk::SpecializationMapEntry { constant_id, offset: 4 * index, size: 4 });
-            values.push(value);
+        let device = &gpu.device;
+        let mut entries = Vec::new();
+        for (index, &[constant_id, _]) in (0..).zip(&self.constants) {
+            // A value stands behind its number.
+            let offset = 8 * index + 4;
+            entries.push(vk::SpecializationMapEntry { constant_id, offset, size: 4 });
         }
-        let specialization = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(bytemuck::cast_slice(&values));
+        let values = bytemuck::cast_slice(&self.constants);
+        let specialization = vk::SpecializationInfo::default().map_entries(&entries).data(values);
         let (mut modules, mut stages) = (Modules { device, handles: Vec::new() }, Vec::new());
         for Stage { path, stage, words } in &self.stages {
             let info = vk::ShaderModuleCreateInfo::default().code(words);
             // SAFETY: the words are a valid module, compiled by glslang.
             let module = unsafe { device.create_shader_module(&info, None)? };
             modules.handles.push(module);
-            name(module, path);
+            gpu.name_object(module, path);
             let stage = vk::ShaderStageFlags::from_raw(*stage);
             let info = vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module);
             stages.push(info.name(c"main").specialization_info(&specialization));
@@ -173,7 +174,10 @@ impl Blueprint {
                     .layout(layout)];
                 let deferred = vk::DeferredOperationKHR::null();
                 // SAFETY: every stage index of the groups is within the stages; all handles are alive.
-                unsafe { ray_tracing.create_ray_tracing_pipelines(deferred, cache, &info, None) }
+                unsafe {
+                    let extension = &gpu.ray_tracing_pipeline;
+                    extension.create_ray_tracing_pipelines(deferred, cache, &info, None)
+                }
             }
             (Some(attachments), stages) => {
                 attachments.pipeline(device, stages, layout, cache, flags)

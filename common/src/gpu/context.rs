@@ -10,17 +10,17 @@ use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
-use ash::{Device, Entry, Instance, ext, khr, vk};
+use ash::{Device, ext, khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::device::{self, Candidate};
 use super::emulation::{Emulation, Plain};
-use super::instance::{self, WindowHandles};
+use super::instance::{Vulkan, WindowHandles};
 use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
-use super::validation::{Messages, Messenger};
+use super::validation::Messages;
 
 /// How a [`Gpu`] shall be made.
 #[derive(Clone)]
@@ -67,10 +67,6 @@ pub struct GpuContext {
     pub push_descriptor: khr::push_descriptor::Device,
     /// `VK_KHR_pipeline_executable_properties`, where it was wished for and is there.
     pub executable_properties: Option<khr::pipeline_executable_properties::Device>,
-    /// The instance's commands.
-    pub instance: Instance,
-    /// The loader.
-    pub entry: Entry,
     /// The chosen device: its name, its limits, and the features that it was opened with.
     pub chosen: Candidate,
     /// The one queue in use: compute, and graphics where the device has it.
@@ -86,9 +82,10 @@ pub struct GpuContext {
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
-    pub(super) command_pool: Mutex<vk::CommandPool>,
-    names: Option<ext::debug_utils::Device>,
-    messenger: Option<Messenger>,
+    pub(super) command_pool: vk::CommandPool,
+    names: ext::debug_utils::Device,
+    /// The loader and the instance: the last to go.
+    pub vulkan: Vulkan,
 }
 
 impl Deref for GpuContext {
@@ -113,39 +110,28 @@ impl Gpu {
     /// # Errors
     /// If there is no loader, no suitable device, or no validation layer where one is asked for.
     pub fn new(options: &GpuOptions) -> Result<Self> {
-        let wanted = options.emulation.requirements(options.requirements.clone());
-        let entry = instance::load()?;
-        let messages = if options.validate { Some(Messages::new(&entry)?) } else { None };
-        let (instance, has_debug_utils) =
-            instance::create(&entry, messages.as_deref(), options.window.as_ref())?;
-        let chosen = device::candidates(&instance, &wanted).and_then(|mut found| {
-            if let Some(window) = &options.window {
-                device::require_presentation(&entry, &instance, window, &mut found)?;
-            }
-            device::choose(found, options.device.or(device::named()))
-        });
-        // SAFETY: nothing else has been made from this instance.
-        let chosen = chosen.inspect_err(|_| unsafe { instance.destroy_instance(None) })?;
+        let mut options = options.clone();
+        options.requirements = options.emulation.requirements(options.requirements);
+        let vulkan = Vulkan::new(options.validate, options.window.as_ref())?;
+        let mut found = device::candidates(&vulkan.instance, &options.requirements)?;
+        if let Some(window) = &options.window {
+            device::require_presentation(&vulkan, window, &mut found)?;
+        }
+        let chosen = device::choose(found, options.device.or(device::named()))?;
         let cannot = format!("cannot open {}", chosen.name);
-        let (emulation, names) = (options.emulation.clone(), has_debug_utils);
-        Self::open(entry, instance, chosen, wanted, emulation, names, messages).context(cannot)
+        Self::open(vulkan, chosen, options).context(cannot)
     }
 
-    fn open(
-        entry: Entry,
-        instance: Instance,
-        chosen: Candidate,
-        requirements: Requirements,
-        emulation: Arc<dyn Emulation>,
-        has_debug_utils: bool,
-        messages: Option<Arc<Messages>>,
-    ) -> Result<Self> {
+    /// Opens a device that was chosen.
+    ///
+    /// # Errors
+    /// If memory or threads are short, or the device is gone.
+    pub fn open(vulkan: Vulkan, chosen: Candidate, options: GpuOptions) -> Result<Self> {
         if chosen.software {
             threads::ensure_threads()?;
         }
-        // Before the device, so that what is said of its creation counts.
-        let messenger = messages.map(|m| Messenger::new(&entry, &instance, m)).transpose()?;
-        let device = device::create(&instance, &chosen)?;
+        let instance = &vulkan.instance;
+        let device = device::create(instance, &chosen)?;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(chosen.queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -155,51 +141,52 @@ impl Gpu {
             debug_settings: Default::default(),
             buffer_device_address: true,
             allocation_sizes: Default::default(),
-        })?;
+        });
+        // SAFETY: nothing has been made from the device, here and below.
+        let allocator = allocator.inspect_err(|_| unsafe { device.destroy_device(None) })?;
         let pool = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)
             .queue_family_index(chosen.queue_family);
         // SAFETY: the queue family belongs to this device.
-        let command_pool = unsafe { device.create_command_pool(&pool, None)? };
+        let command_pool = unsafe { device.create_command_pool(&pool, None) }
+            .inspect_err(|_| unsafe { device.destroy_device(None) })?;
         let features = &chosen.features;
         let tells_executables = features.executable.pipeline_executable_info == vk::TRUE;
         Ok(Self(Arc::new(GpuContext {
-            acceleration_structure: khr::acceleration_structure::Device::new(&instance, &device),
-            ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(&instance, &device),
-            push_descriptor: khr::push_descriptor::Device::new(&instance, &device),
+            acceleration_structure: khr::acceleration_structure::Device::new(instance, &device),
+            ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(instance, &device),
+            push_descriptor: khr::push_descriptor::Device::new(instance, &device),
             executable_properties: tells_executables
-                .then(|| khr::pipeline_executable_properties::Device::new(&instance, &device)),
+                .then(|| khr::pipeline_executable_properties::Device::new(instance, &device)),
             invocation_reorder: features.reorder.ray_tracing_invocation_reorder == vk::TRUE,
-            pipeline_cache: PipelineCache::open(&device, &chosen.properties),
-            names: has_debug_utils.then(|| ext::debug_utils::Device::new(&instance, &device)),
+            pipeline_cache: PipelineCache::open(PipelineCache::FOLDER, &device, &chosen.properties),
+            names: ext::debug_utils::Device::new(instance, &device),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
-            command_pool: Mutex::new(command_pool),
-            requirements,
-            emulation,
+            command_pool,
+            requirements: options.requirements,
+            emulation: options.emulation,
             device,
-            instance,
-            entry,
             chosen,
             queue,
-            messenger,
+            vulkan,
         })))
     }
 
     /// Gives an object a name that validation messages and debuggers show.
     pub fn name_object<T: vk::Handle>(&self, handle: T, name: &str) {
-        let Some(names) = &self.names else { return };
         let name = CString::new(name).unwrap_or_default();
         let info =
             vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
         // SAFETY: the handle is alive and belongs to this device. A name that cannot be set is no
         // reason to stop.
-        let _ = unsafe { names.set_debug_utils_object_name(&info) };
+        let _ = unsafe { self.names.set_debug_utils_object_name(&info) };
     }
 
     /// What validation says, now and after the device is gone: a leak is said last.
     pub fn validation(&self) -> Arc<Messages> {
-        self.messenger.as_ref().map_or_else(Arc::default, |messenger| messenger.messages.clone())
+        let messenger = self.vulkan.messenger.as_ref();
+        messenger.map_or_else(Arc::default, |messenger| messenger.messages.clone())
     }
 
     /// What has been made so far, since [`Gpu::take_statistics`] if that was called.
@@ -236,12 +223,8 @@ impl Drop for GpuContext {
             let _ = self.device.device_wait_idle();
             ManuallyDrop::drop(&mut self.allocator);
             self.pipeline_cache.close(&self.device);
-            if let Ok(pool) = self.command_pool.lock() {
-                self.device.destroy_command_pool(*pool, None);
-            }
+            self.device.destroy_command_pool(self.command_pool, None);
             self.device.destroy_device(None);
-            drop(self.messenger.take());
-            self.instance.destroy_instance(None);
         }
     }
 }

@@ -4,9 +4,9 @@ use std::ffi::CStr;
 use std::sync::LazyLock;
 
 use anyhow::{Context as _, Result, bail, ensure};
-use ash::{Device, Entry, Instance, khr, vk};
+use ash::{Device, Instance, khr, vk};
 
-use super::instance::{self, WindowHandles};
+use super::instance::{Vulkan, WindowHandles};
 use super::limits::Limits;
 use super::{Features, Requirements};
 use crate::usage::Usage;
@@ -79,11 +79,8 @@ pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Cand
         Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
         handles => handles.context("cannot list the Vulkan devices")?,
     };
-    handles
-        .into_iter()
-        .enumerate()
-        .map(|(index, handle)| judge(instance, index, handle, wanted))
-        .collect()
+    let handles = handles.into_iter().enumerate();
+    handles.map(|(index, handle)| judge(instance, index, handle, wanted)).collect()
 }
 
 fn judge(
@@ -177,8 +174,7 @@ pub fn ensure_some(candidates: &[Candidate]) -> Result<()> {
 /// # Errors
 /// If the window takes no Vulkan surface.
 pub fn require_presentation(
-    entry: &Entry,
-    instance: &Instance,
+    Vulkan { entry, instance, .. }: &Vulkan,
     window: &WindowHandles,
     candidates: &mut [Candidate],
 ) -> Result<()> {
@@ -212,7 +208,7 @@ pub fn require_presentation(
 
 /// A part of a device's name that `GPU` in the environment asks for, as `--device` does; `GPU=1`, with which
 /// tests ask for the best device, names none.
-pub fn named() -> Option<&'static str> {
+pub(super) fn named() -> Option<&'static str> {
     static NAMED: LazyLock<Option<String>> =
         LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0", "1"].contains(&&**gpu)));
     NAMED.as_deref()
@@ -250,12 +246,7 @@ pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Can
 /// # Errors
 /// If there is no Vulkan.
 pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
-    let entry = instance::load()?;
-    let (instance, _) = instance::create(&entry, None, None)?;
-    let found = candidates(&instance, wanted);
-    // SAFETY: nothing has been made from this instance.
-    unsafe { instance.destroy_instance(None) };
-    let found = found?;
+    let found = candidates(&Vulkan::new(false, None)?.instance, wanted)?;
     ensure_some(&found)?;
     Ok(found.iter().map(Candidate::line).collect())
 }

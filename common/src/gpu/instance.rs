@@ -4,7 +4,39 @@ use anyhow::{Context, Result, anyhow};
 use ash::{Entry, Instance, ext, vk};
 use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
-use super::validation::{self, Messages, Way};
+use super::validation::{self, Messages, Messenger, Way};
+
+/// The Vulkan loader and an instance, destroyed on drop: drop what was made from it before.
+pub struct Vulkan {
+    /// The loader.
+    pub entry: Entry,
+    /// The instance's commands.
+    pub instance: Instance,
+    /// What tells of messages, under validation.
+    pub messenger: Option<Messenger>,
+}
+
+impl Vulkan {
+    /// An instance, with validation if that is asked for, and with what a window needs if there is one.
+    ///
+    /// # Errors
+    /// If there is no loader, no driver or no validation layer, or none that can draw to the window.
+    pub fn new(validate: bool, window: Option<&WindowHandles>) -> Result<Self> {
+        let entry = load()?;
+        let messages = if validate { Some(Messages::new(&entry)?) } else { None };
+        let instance = create(&entry, messages.as_deref(), window)?;
+        let messenger = messages.map(|m| Messenger::new(&entry, &instance, m)).transpose()?;
+        Ok(Self { entry, instance, messenger })
+    }
+}
+
+impl Drop for Vulkan {
+    fn drop(&mut self) {
+        drop(self.messenger.take());
+        // SAFETY: whoever made something from it has destroyed that.
+        unsafe { self.instance.destroy_instance(None) };
+    }
+}
 
 /// A window as its system knows it. It must outlive whatever is made from it.
 #[derive(Clone, Copy)]
@@ -16,10 +48,7 @@ pub struct WindowHandles {
 }
 
 /// Loads the Vulkan loader: the system's, or the library that `VULKAN_LOADER` names.
-///
-/// # Errors
-/// If there is none, with what to install.
-pub fn load() -> Result<Entry> {
+fn load() -> Result<Entry> {
     let entry = match std::env::var_os("VULKAN_LOADER") {
         // SAFETY: the Vulkan loader's initialisation has no preconditions, here and below.
         Some(path) => unsafe { Entry::load_from(path) },
@@ -31,32 +60,20 @@ pub fn load() -> Result<Entry> {
     })
 }
 
-/// Creates an instance, and says whether it has `VK_EXT_debug_utils`: with validation if there are
-/// `messages`, and with what a window needs if there is one.
-///
-/// # Errors
-/// If there is no driver, or it cannot draw to the window.
-pub fn create(
+/// Creates an instance that gives objects names: with validation if there are `messages`, and with what a
+/// window needs if there is one.
+fn create(
     entry: &Entry,
     messages: Option<&Messages>,
     window: Option<&WindowHandles>,
-) -> Result<(Instance, bool)> {
-    // SAFETY: the loader is alive.
-    let offered = unsafe { entry.enumerate_instance_extension_properties(None) }.context(
-        "the Vulkan loader cannot read what is installed: run ./setup, or reinstall your GPU's \
-             driver",
-    )?;
-    let has_debug_utils =
-        offered.iter().any(|e| e.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
-    let mut extensions = Vec::new();
+) -> Result<Instance> {
+    // Every loader has it, whatever drivers have.
+    let mut extensions = vec![ext::debug_utils::NAME.as_ptr()];
     let mut layers = Vec::new();
     if let Some(window) = window {
         let needed = ash_window::enumerate_required_extensions(window.display)
             .context("Vulkan does not know this window system")?;
         extensions.extend_from_slice(needed);
-    }
-    if has_debug_utils || messages.is_some() {
-        extensions.push(ext::debug_utils::NAME.as_ptr());
     }
     if let Some(messages) = messages {
         layers.push(validation::LAYER.as_ptr());
@@ -89,7 +106,7 @@ pub fn create(
     // SAFETY: every name and structure of the chain lives until the call returns.
     let instance = unsafe { entry.create_instance(&info, None) };
     match instance {
-        Ok(instance) => Ok((instance, has_debug_utils || messages.is_some())),
+        Ok(instance) => Ok(instance),
         Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => Err(anyhow!(
             "no Vulkan driver: run ./setup to install a software driver with ray tracing, or install \
              your GPU's driver"
@@ -97,6 +114,9 @@ pub fn create(
         Err(vk::Result::ERROR_EXTENSION_NOT_PRESENT) if window.is_some() => Err(anyhow!(
             "Vulkan cannot draw to this window system: add --headless to render without a window"
         )),
-        Err(error) => Err(error).context("cannot create a Vulkan instance"),
+        Err(error) => Err(error).context(
+            "the Vulkan loader makes no instance of what is installed: run ./setup, or reinstall your \
+             GPU's driver",
+        ),
     }
 }

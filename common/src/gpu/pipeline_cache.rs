@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use ash::{Device, vk};
 
-use crate::files::{read_cached, sealed, unsealed, write_whole};
+use crate::files::{read_sealed, write_sealed};
 
 /// The most bytes that are kept. A driver never forgets a pipeline, and shaders change: what has grown
 /// beyond this is begun anew.
@@ -27,27 +27,20 @@ pub struct PipelineCache {
 }
 
 impl PipelineCache {
-    /// The cache of a device, with what earlier runs have left.
-    pub fn open(device: &Device, properties: &vk::PhysicalDeviceProperties) -> Self {
-        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/pipelines"));
-        Self::open_in(folder, MOST, device, properties)
-    }
+    /// Where they are kept.
+    pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/pipelines");
 
-    fn open_in(
-        folder: &Path,
-        most: usize,
-        device: &Device,
-        properties: &vk::PhysicalDeviceProperties,
-    ) -> Self {
+    /// The cache of a device, with what earlier runs have left in a folder.
+    pub fn open(folder: &str, device: &Device, properties: &vk::PhysicalDeviceProperties) -> Self {
         let start = header(properties);
         let name: String = start[8..].iter().map(|byte| format!("{byte:02x}")).collect();
-        let file = folder.join(name).with_extension("cache");
-        let known = read_cached(&file).and_then(|bytes| unsealed(&bytes).map(<[u8]>::to_vec));
-        let known = known.filter(|known| known.starts_with(&start)).unwrap_or_default();
+        let file = Path::new(folder).join(name).with_extension("cache");
+        let known = read_sealed(&file).filter(|known| known.starts_with(&start));
+        let known = known.unwrap_or_default();
         let info = vk::PipelineCacheCreateInfo::default().initial_data(&known);
         // SAFETY: the device is alive; the data is what this device has given, by its header and seal.
         let handle = unsafe { device.create_pipeline_cache(&info, None) }.unwrap_or_default();
-        Self { handle, file, most, known }
+        Self { handle, file, most: MOST, known }
     }
 
     /// Writes what the driver has learned, if it has, and destroys the cache.
@@ -60,9 +53,7 @@ impl PipelineCache {
         if data.len() > self.most {
             let _ = fs::remove_file(&self.file);
         } else if data != self.known {
-            // A cache that cannot be written costs time at the next start, nothing else.
-            let _ = self.file.parent().map(fs::create_dir_all);
-            let _ = write_whole(&self.file, &sealed(&data));
+            write_sealed(&self.file, &data);
         }
         // SAFETY: as above.
         unsafe { device.destroy_pipeline_cache(self.handle, None) };

@@ -7,7 +7,6 @@
 mod source;
 
 use std::collections::hash_map::DefaultHasher;
-use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -72,14 +71,12 @@ impl StageText<'_> {
     pub fn words(&self) -> Result<Vec<u32>> {
         let Self { path, text, defines, as_written, .. } = self;
         let cached = cache_file(path, text, defines);
-        let known = files::read_cached(&cached).and_then(|bytes| unsealed(&bytes));
-        let words = match known {
-            Some(words) => words,
+        // Sealed, for a driver may crash on damaged words.
+        let words = match files::read_sealed(&cached) {
+            Some(bytes) => bytemuck::pod_collect_to_vec(&bytes),
             None => {
                 let words = COMPILER.get().unwrap_or(&(to_spirv as Compiler))(path, text, defines)?;
-                // A cache that cannot be written costs time at the next start, nothing else.
-                let _ = cached.parent().map(fs::create_dir_all);
-                let _ = files::write_whole(&cached, &sealed(&words));
+                files::write_sealed(&cached, bytemuck::cast_slice(&words));
                 words
             }
         };
@@ -233,35 +230,9 @@ pub(super) fn cache_folder() -> &'static str {
     concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv")
 }
 
-/// A module as the cache keeps it; sealed, for a driver may crash on damaged words.
-fn sealed(words: &[u32]) -> Vec<u8> {
-    files::sealed(bytemuck::cast_slice(words))
-}
-
-/// The words of a file of the cache; `None` if it is missing or damaged.
-fn unsealed(bytes: &[u8]) -> Option<Vec<u32>> {
-    let words = files::unsealed(bytes)?;
-    words.len().is_multiple_of(4).then(|| bytemuck::pod_collect_to_vec(words))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_cache_notices_damage() {
-        let words = [0x0723_0203, 0x0001_0600, 0, 42, 0];
-        let whole = sealed(&words);
-        assert_eq!(unsealed(&whole).unwrap(), words);
-        for length in 0..whole.len() {
-            assert!(unsealed(&whole[..length]).is_none(), "cut off after {length} bytes");
-        }
-        for at in 0..whole.len() {
-            let mut wrong = whole.clone();
-            wrong[at] ^= 1;
-            assert!(unsealed(&wrong).is_none(), "byte {at} is wrong");
-        }
-    }
 
     #[test]
     fn every_message_names_its_file() {

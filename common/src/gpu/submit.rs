@@ -3,7 +3,7 @@
 use std::thread;
 use std::time::Duration;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use ash::prelude::VkResult;
 use ash::vk;
 
@@ -51,7 +51,7 @@ impl Gpu {
         submit: vk::SubmitInfo2,
         record: impl FnOnce(vk::CommandBuffer) -> Result<R>,
     ) -> Result<R> {
-        let pool = *self.command_pool.lock().map_err(|_| anyhow!("a recording thread panicked"))?;
+        let pool = self.command_pool;
         let info =
             vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
         // SAFETY: the pool is ours, and every handle below is alive until the wait has ended.
@@ -76,17 +76,11 @@ impl Gpu {
         unsafe {
             let fence = self.device.create_fence(&vk::FenceCreateInfo::default(), None)?;
             let submitted = self.device.queue_submit2(self.queue, &[submit], fence);
-            let done = submitted.and_then(|()| self.wait(fence));
+            let wait = || self.device.wait_for_fences(&[fence], true, PATIENCE.as_nanos() as u64);
+            let done = submitted.and_then(|()| self.insist(wait));
             self.device.destroy_fence(fence, None);
             done.context("the device failed while it worked")
         }
-    }
-
-    /// Waits until the device has done what signals a fence, or is lost, which ends its work too.
-    fn wait(&self, fence: vk::Fence) -> VkResult<()> {
-        let patience = PATIENCE.as_nanos() as u64;
-        // SAFETY: the fence is alive, and submitted.
-        self.insist(|| unsafe { self.device.wait_for_fences(&[fence], true, patience) })
     }
 
     /// Waits until the queue has done all its work, or the device is lost.
@@ -98,7 +92,7 @@ impl Gpu {
         self.insist(|| unsafe { self.device.queue_wait_idle(self.queue) })
     }
 
-    /// Waits, again if need be.
+    /// Waits until the device has done its work, or is lost, which ends it too; again if need be.
     ///
     /// Whoever waits may free afterwards what the device has used. So this never returns while the device
     /// may be at work: a wait that goes on failing, or that has no end, ends the process.

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, bail};
 use ash::{khr, vk};
 
-use super::{Gpu, WindowHandles};
+use super::{Gpu, Vulkan, WindowHandles};
 
 /// Nanoseconds to wait for an image; a hidden window may give none for as long as it is hidden.
 const PATIENCE: u64 = 100_000_000;
@@ -57,8 +57,8 @@ impl Swapchain {
             srgb: vk::Format::UNDEFINED,
             unorm: vk::Format::UNDEFINED,
             window,
-            surfaces: khr::surface::Instance::new(&gpu.entry, &gpu.instance),
-            swapchains: khr::swapchain::Device::new(&gpu.instance, &gpu.device),
+            surfaces: khr::surface::Instance::new(&gpu.vulkan.entry, &gpu.vulkan.instance),
+            swapchains: khr::swapchain::Device::new(&gpu.vulkan.instance, &gpu.device),
             surface: vk::SurfaceKHR::null(),
             handle: vk::SwapchainKHR::null(),
             extent: vk::Extent2D::default(),
@@ -204,7 +204,7 @@ impl Swapchain {
 
     fn make_surface(&mut self) -> Result<()> {
         self.destroy();
-        let (entry, instance) = (&self.gpu.entry, &self.gpu.instance);
+        let Vulkan { entry, instance, .. } = &self.gpu.vulkan;
         let WindowHandles { display, window } = self.window;
         // SAFETY: whoever made this swapchain keeps the window alive longer.
         self.surface =

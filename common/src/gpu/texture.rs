@@ -1,7 +1,7 @@
 //! The texture table: every texture of a scene in one array, which any shader indexes by number.
 
 use anyhow::{Result, ensure};
-use ash::{Device, vk};
+use ash::vk;
 
 use super::{Gpu, Image, Texels};
 
@@ -42,7 +42,7 @@ impl TextureTable {
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR);
         let mut table = Self {
-            layout: vk::DescriptorSetLayout::null(),
+            layout: Self::layout(gpu, count)?,
             set: vk::DescriptorSet::null(),
             pool: vk::DescriptorPool::null(),
             sampler: vk::Sampler::null(),
@@ -51,7 +51,6 @@ impl TextureTable {
         };
         // SAFETY: the device is alive; whatever was made is destroyed with the table.
         unsafe {
-            table.layout = Self::layout(&gpu.device, count)?;
             table.pool = gpu.device.create_descriptor_pool(&pool_info, None)?;
             table.sampler = gpu.device.create_sampler(&sampler_info, None)?;
             let layouts = [table.layout];
@@ -85,7 +84,7 @@ impl TextureTable {
     ///
     /// # Errors
     /// If the device has no memory left.
-    pub fn layout(device: &Device, count: u32) -> Result<vk::DescriptorSetLayout> {
+    pub fn layout(gpu: &Gpu, count: u32) -> Result<vk::DescriptorSetLayout> {
         let bindings = [vk::DescriptorSetLayoutBinding::default()
             .descriptor_type(TYPE)
             .descriptor_count(count)
@@ -100,7 +99,7 @@ impl TextureTable {
             .bindings(&bindings)
             .push_next(&mut flags);
         // SAFETY: the device is alive; the layout is the caller's.
-        Ok(unsafe { device.create_descriptor_set_layout(&info, None)? })
+        Ok(unsafe { gpu.device.create_descriptor_set_layout(&info, None)? })
     }
 }
 

@@ -23,7 +23,7 @@ fn gpu_with(validate: bool) -> Gpu {
 /// compaction made smaller is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
 fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
     // SAFETY: nothing is asked of the loader but a list.
-    let layers = unsafe { gpu.entry.enumerate_instance_layer_properties() }.unwrap();
+    let layers = unsafe { gpu.vulkan.entry.enumerate_instance_layer_properties() }.unwrap();
     layers.iter().any(|layer| {
         layer.layer_name_as_c_str() == Ok(c"VK_LAYER_KHRONOS_validation")
             && layer.spec_version == vk::make_api_version(0, 1, 3, 275)

@@ -6,10 +6,12 @@
 //! without memory or images.
 
 use anyhow::{Context, Result, ensure};
-use ash::{Device, khr, vk};
+use ash::vk;
 use serde::{Deserialize, Serialize};
 
-use common::gpu::{Blueprint, Executable, Requirements, TextureTable, device, instance};
+use common::gpu::{
+    Blueprint, Executable, Gpu, GpuOptions, Requirements, TextureTable, Vulkan, device,
+};
 
 /// What an absent card's driver has to say.
 #[derive(Serialize, Deserialize)]
@@ -33,62 +35,37 @@ pub fn compile(
     blueprints: &[Blueprint],
 ) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
-    let entry = instance::load()?;
-    let (instance, _) = instance::create(&entry, None, None)?;
-    let result = (|| {
-        // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".
-        let name = format!("(RADV {})", family.to_uppercase());
-        let mut found = device::candidates(&instance, &requirements)?.into_iter();
-        let Some(card) = found.find(|candidate| candidate.name.ends_with(&name)) else {
-            return Ok(None);
-        };
-        ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
-        let device = device::create(&instance, &card)?;
-        let ray_tracing_pipeline = khr::ray_tracing_pipeline::Device::new(&instance, &device);
-        let properties = khr::pipeline_executable_properties::Device::new(&instance, &device);
-        let pipelines: Result<_> = blueprints
-            .iter()
-            .map(|blueprint| one(&device, &ray_tracing_pipeline, &properties, blueprint))
-            .collect();
-        // SAFETY: nothing made from the device is left.
-        unsafe { device.destroy_device(None) };
-        Ok(Some(Answer { compiler: card.driver, pipelines: pipelines? }))
-    })();
-    // SAFETY: nothing made from the instance is left.
-    unsafe { instance.destroy_instance(None) };
-    result
+    let vulkan = Vulkan::new(false, None)?;
+    // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".
+    let name = format!("(RADV {})", family.to_uppercase());
+    let mut found = device::candidates(&vulkan.instance, &requirements)?.into_iter();
+    let Some(card) = found.find(|candidate| candidate.name.ends_with(&name)) else {
+        return Ok(None);
+    };
+    ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
+    let gpu = Gpu::open(vulkan, card, GpuOptions { requirements, ..GpuOptions::default() })?;
+    let pipelines: Result<_> = blueprints.iter().map(|blueprint| one(&gpu, blueprint)).collect();
+    Ok(Some(Answer { compiler: gpu.driver.clone(), pipelines: pipelines? }))
 }
 
-fn one(
-    device: &Device,
-    ray_tracing_pipeline: &khr::ray_tracing_pipeline::Device,
-    properties: &khr::pipeline_executable_properties::Device,
-    blueprint: &Blueprint,
-) -> Result<Vec<Executable>> {
-    let mut sets = vec![blueprint.set_layout(device)?];
-    let result = (|| {
-        if let Some(count) = blueprint.textures {
-            sets.push(TextureTable::layout(device, count)?);
-        }
-        let layout = blueprint.layout(device, &sets)?;
-        let mut blueprint = blueprint.clone();
-        blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
-        let cache = vk::PipelineCache::null();
-        let made = blueprint.create(device, ray_tracing_pipeline, layout, cache, |_, _| {});
-        let made = made.with_context(|| format!("cannot make the pipeline '{}'", blueprint.name));
-        let executables = made.and_then(|pipeline| {
-            let executables = Executable::all(properties, pipeline);
-            // SAFETY: nothing uses it.
-            unsafe { device.destroy_pipeline(pipeline, None) };
-            executables
-        });
-        // SAFETY: its pipeline is gone.
-        unsafe { device.destroy_pipeline_layout(layout, None) };
+fn one(gpu: &Gpu, blueprint: &Blueprint) -> Result<Vec<Executable>> {
+    let properties = gpu.executable_properties.as_ref().context("its driver tells no figures")?;
+    let textures = blueprint.textures.map(|count| TextureTable::layout(gpu, count)).transpose()?;
+    let layout = blueprint.layout(gpu, textures)?;
+    let mut blueprint = blueprint.clone();
+    blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
+    let made = blueprint.create(gpu, layout, vk::PipelineCache::null());
+    let made = made.with_context(|| format!("cannot make the pipeline '{}'", blueprint.name));
+    let executables = made.and_then(|pipeline| {
+        let executables = Executable::all(properties, pipeline);
+        // SAFETY: nothing uses it.
+        unsafe { gpu.device.destroy_pipeline(pipeline, None) };
         executables
-    })();
-    for set in sets {
-        // SAFETY: the pipeline layout is gone.
-        unsafe { device.destroy_descriptor_set_layout(set, None) };
+    });
+    // SAFETY: the pipeline is gone.
+    unsafe {
+        gpu.device.destroy_pipeline_layout(layout, None);
+        gpu.device.destroy_descriptor_set_layout(textures.unwrap_or_default(), None);
     }
-    result
+    executables
 }

@@ -70,7 +70,7 @@ impl Limits {
         let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut culling);
         // SAFETY: the device belongs to the live instance and has ray tracing pipelines.
         unsafe {
-            gpu.instance.get_physical_device_features2(gpu.physical_device, &mut offered);
+            gpu.vulkan.instance.get_physical_device_features2(gpu.physical_device, &mut offered);
         }
         let float64 = offered.features.shader_float64 == vk::TRUE;
         let (properties, limits) = (&gpu.properties, &gpu.limits);

@@ -51,7 +51,8 @@ impl Painter {
         // SAFETY: the physical device belongs to the live instance.
         let picture = unsafe {
             let format = vk::Format::R32G32B32A32_SFLOAT;
-            gpu.instance.get_physical_device_format_properties(gpu.physical_device, format)
+            let instance = &gpu.vulkan.instance;
+            instance.get_physical_device_format_properties(gpu.physical_device, format)
         };
         let linear = vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
         let smooth = picture.optimal_tiling_features.contains(linear);

@@ -277,22 +277,16 @@ impl<'a> PipelineBuilder<'a> {
         }
         let mut pipeline = Pipeline {
             handle: vk::Pipeline::null(),
-            layout: vk::PipelineLayout::null(),
-            set_layout: blueprint.set_layout(&gpu.device)?,
+            layout: blueprint.layout(gpu, textures.map(|table| table.layout))?,
             textures: textures.map(|table| table.set),
             blueprint: Arc::new(blueprint),
             build_time: Duration::ZERO,
             gpu: gpu.clone(),
         };
         let blueprint = pipeline.blueprint.clone();
-        let mut sets = vec![pipeline.set_layout];
-        sets.extend(textures.map(|table| table.layout));
-        pipeline.layout = blueprint.layout(&gpu.device, &sets)?;
-        let (layout, cache) = (pipeline.layout, gpu.pipeline_cache.handle);
-        let name = |module, path: &str| gpu.name_object(module, path);
-        pipeline.handle = blueprint
-            .create(&gpu.device, &gpu.ray_tracing_pipeline, layout, cache, name)
-            .with_context(|| format!("cannot make the pipeline '{}'", blueprint.name))?;
+        let cannot = || format!("cannot make the pipeline '{}'", blueprint.name);
+        let made = blueprint.create(gpu, pipeline.layout, gpu.pipeline_cache.handle);
+        pipeline.handle = made.with_context(cannot)?;
         gpu.name_object(pipeline.handle, &blueprint.name);
         gpu.name_object(pipeline.layout, &blueprint.name);
         pipeline.build_time = start.elapsed();

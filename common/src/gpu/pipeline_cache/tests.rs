@@ -3,26 +3,25 @@
 use std::process::Command;
 use std::time::Instant;
 
-use ash::khr;
 use instruments::compile_for::{manifest, ways};
 use serde_json::json;
 
 use super::*;
 use crate::gpu::blueprint::{Binding, Blueprint, Group, Stage};
-use crate::gpu::{Gpu, GpuOptions, Requirements, device, instance, shader};
+use crate::gpu::{Gpu, GpuOptions, Requirements, Vulkan, device, shader};
 
 /// A device, and what it says of itself.
 fn gpu() -> (Gpu, vk::PhysicalDeviceProperties) {
     let requirements = Requirements::ray_tracing();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap();
-    // SAFETY: the instance is alive.
-    let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical_device) };
+    let properties = gpu.properties;
     (gpu, properties)
 }
 
 /// Opens the cache, closes it again, and tells how many bytes the driver was given.
 fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> usize {
-    let mut cache = PipelineCache::open_in(folder, most, &gpu.device, of);
+    let mut cache = PipelineCache::open(folder.to_str().unwrap(), &gpu.device, of);
+    cache.most = most;
     assert_ne!(cache.handle, vk::PipelineCache::null());
     cache.close(&gpu.device);
     cache.known.len()
@@ -33,8 +32,7 @@ fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties)
 fn has_whole_header(gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> bool {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), MOST, gpu, of);
-    let kept = fs::read(only_file(folder.path())).unwrap();
-    unsealed(&kept).unwrap().starts_with(&header(of))
+    read_sealed(&only_file(folder.path())).unwrap().starts_with(&header(of))
 }
 
 fn only_file(folder: &Path) -> PathBuf {
@@ -147,15 +145,13 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
 #[test]
 #[ignore = "run by a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done"]
 fn make_a_pipeline_for_radv() {
-    let wanted = Requirements::ray_tracing().textures();
-    let entry = instance::load().unwrap();
-    let (instance, _) = instance::create(&entry, None, None).unwrap();
-    let chosen = device::candidates(&instance, &wanted).unwrap().remove(0);
-    let device = device::create(&instance, &chosen).unwrap();
-    // SAFETY: the device belongs to the live instance.
-    let properties = unsafe { instance.get_physical_device_properties(chosen.physical_device) };
-    let folder = std::env::var_os("KEPT_IN").unwrap();
-    let mut cache = PipelineCache::open_in(Path::new(&folder), MOST, &device, &properties);
+    let requirements = Requirements::ray_tracing().textures();
+    let vulkan = Vulkan::new(false, None).unwrap();
+    let chosen = device::candidates(&vulkan.instance, &requirements).unwrap().remove(0);
+    let options = GpuOptions { requirements, ..GpuOptions::default() };
+    let gpu = Gpu::open(vulkan, chosen, options).unwrap();
+    let folder = std::env::var("KEPT_IN").unwrap();
+    let mut cache = PipelineCache::open(&folder, &gpu.device, &gpu.properties);
     let stages = ["camera.rgen", "sky.rmiss", "shade.rchit"].map(|file| {
         let shader = shader::compile(&format!("26_leaving_a_surface/{file}")).unwrap();
         Stage { path: shader.path, stage: shader.stage.as_raw(), words: shader.spirv }
@@ -172,15 +168,12 @@ fn make_a_pipeline_for_radv() {
         recursion: 1,
         ..Blueprint::default()
     };
-    let sets = [
-        blueprint.set_layout(&device).unwrap(),
-        crate::gpu::TextureTable::layout(&device, 1).unwrap(),
-    ];
-    let layout = blueprint.layout(&device, &sets).unwrap();
-    let ray_tracing = khr::ray_tracing_pipeline::Device::new(&instance, &device);
+    let textures = crate::gpu::TextureTable::layout(&gpu, 1).unwrap();
+    let layout = blueprint.layout(&gpu, Some(textures)).unwrap();
     let start = Instant::now();
-    blueprint.create(&device, &ray_tracing, layout, cache.handle, |_, _| {}).unwrap();
-    println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, chosen.driver);
+    blueprint.create(&gpu, layout, cache.handle).unwrap();
+    println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, gpu.driver);
     // The rest goes with the process: nothing runs on a card that is not there.
-    cache.close(&device);
+    cache.close(&gpu.device);
+    std::mem::forget(gpu);
 }
