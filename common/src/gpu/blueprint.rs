@@ -143,14 +143,15 @@ impl Blueprint {
         cache: vk::PipelineCache,
     ) -> Result<vk::Pipeline> {
         let device = &gpu.device;
-        let mut entries = Vec::new();
-        for (index, &[constant_id, _]) in (0..).zip(&self.constants) {
-            // A value stands behind its number.
-            let offset = 8 * index + 4;
-            entries.push(vk::SpecializationMapEntry { constant_id, offset, size: 4 });
+        // Values alone: RADV makes another program where their numbers stand between them.
+        let (mut entries, mut values) = (Vec::new(), Vec::new());
+        for (index, &[constant_id, value]) in (0..).zip(&self.constants) {
+            entries.push(vk::SpecializationMapEntry { constant_id, offset: 4 * index, size: 4 });
+            values.push(value);
         }
-        let values = bytemuck::cast_slice(&self.constants);
-        let specialization = vk::SpecializationInfo::default().map_entries(&entries).data(values);
+        let specialization = vk::SpecializationInfo::default()
+            .map_entries(&entries)
+            .data(bytemuck::cast_slice(&values));
         let (mut modules, mut stages) = (Modules { device, handles: Vec::new() }, Vec::new());
         for Stage { path, stage, words } in &self.stages {
             let info = vk::ShaderModuleCreateInfo::default().code(words);
