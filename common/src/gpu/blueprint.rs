@@ -96,16 +96,16 @@ impl Blueprint {
         }
     }
 
-    /// The pipeline layout: the bindings in set 0, set 1 of the layout given, if there are textures, and the push
-    /// constants.
+    /// The layout of set 0, and the pipeline layout: set 0, set 1 of the layout given if there are textures, and the
+    /// push constants.
     ///
     /// # Errors
     /// If the device has no memory left.
-    pub fn layout(
+    pub fn layouts(
         &self,
         gpu: &Gpu,
         textures: Option<vk::DescriptorSetLayout>,
-    ) -> Result<vk::PipelineLayout> {
+    ) -> Result<(vk::DescriptorSetLayout, vk::PipelineLayout)> {
         let mut slots = Vec::new();
         for (binding, kind) in (0..).zip(&self.bindings) {
             let slot = vk::DescriptorSetLayoutBinding::default().binding(binding);
@@ -115,7 +115,7 @@ impl Blueprint {
         let info = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
             .bindings(&slots);
-        // SAFETY: the device is alive; the layout is destroyed below.
+        // SAFETY: the device is alive; both layouts are the caller's.
         let set = unsafe { gpu.device.create_descriptor_set_layout(&info, None)? };
         let sets: Vec<_> = [set].into_iter().chain(textures).collect();
         let ranges = [vk::PushConstantRange::default().stage_flags(STAGES).size(self.push_size)];
@@ -123,13 +123,11 @@ impl Blueprint {
         if self.push_size > 0 {
             info = info.push_constant_ranges(&ranges);
         }
-        // SAFETY: the layouts are alive. What is made of a set's layout does not look at it again (Vulkan
-        // specification, "Object Lifetime"), and push descriptors are no set that is made of it.
-        unsafe {
-            let layout = gpu.device.create_pipeline_layout(&info, None);
-            gpu.device.destroy_descriptor_set_layout(set, None);
-            Ok(layout?)
-        }
+        // SAFETY: the layouts of the sets are alive.
+        let layout = unsafe { gpu.device.create_pipeline_layout(&info, None) };
+        // SAFETY: nothing was made of it.
+        let destroy = |_: &_| unsafe { gpu.device.destroy_descriptor_set_layout(set, None) };
+        Ok((set, layout.inspect_err(destroy)?))
     }
 
     /// Makes the pipeline. The cache may be null.

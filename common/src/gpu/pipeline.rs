@@ -43,6 +43,7 @@ pub struct Pipeline {
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
     textures: Option<vk::DescriptorSet>,
+    set_layout: vk::DescriptorSetLayout,
     gpu: Gpu,
 }
 
@@ -161,6 +162,7 @@ impl Drop for Pipeline {
         unsafe {
             self.gpu.device.destroy_pipeline(self.handle, None);
             self.gpu.device.destroy_pipeline_layout(self.layout, None);
+            self.gpu.device.destroy_descriptor_set_layout(self.set_layout, None);
         }
     }
 }

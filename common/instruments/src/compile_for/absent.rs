@@ -45,13 +45,16 @@ pub fn compile(
     ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
     let gpu = Gpu::open(vulkan, card, GpuOptions { requirements, ..GpuOptions::default() })?;
     let pipelines: Result<_> = blueprints.iter().map(|blueprint| one(&gpu, blueprint)).collect();
-    Ok(Some(Answer { compiler: gpu.driver.clone(), pipelines: pipelines? }))
+    let compiler = gpu.driver.clone();
+    // "Null hardware" crashes where its queue is waited for: the device goes with the process.
+    std::mem::forget(gpu);
+    Ok(Some(Answer { compiler, pipelines: pipelines? }))
 }
 
 fn one(gpu: &Gpu, blueprint: &Blueprint) -> Result<Vec<Executable>> {
     let properties = gpu.executable_properties.as_ref().context("its driver tells no figures")?;
     let textures = blueprint.textures.map(|count| TextureTable::layout(gpu, count)).transpose()?;
-    let layout = blueprint.layout(gpu, textures)?;
+    let (set, layout) = blueprint.layouts(gpu, textures)?;
     let mut blueprint = blueprint.clone();
     blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
     let made = blueprint.create(gpu, layout, vk::PipelineCache::null());
@@ -65,7 +68,9 @@ fn one(gpu: &Gpu, blueprint: &Blueprint) -> Result<Vec<Executable>> {
     // SAFETY: the pipeline is gone.
     unsafe {
         gpu.device.destroy_pipeline_layout(layout, None);
-        gpu.device.destroy_descriptor_set_layout(textures.unwrap_or_default(), None);
+        for set in [set].into_iter().chain(textures) {
+            gpu.device.destroy_descriptor_set_layout(set, None);
+        }
     }
     executables
 }

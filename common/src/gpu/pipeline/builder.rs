@@ -275,9 +275,11 @@ impl<'a> PipelineBuilder<'a> {
         if gpu.executable_properties.is_some() {
             blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
         }
+        let (set_layout, layout) = blueprint.layouts(gpu, textures.map(|table| table.layout))?;
         let mut pipeline = Pipeline {
             handle: vk::Pipeline::null(),
-            layout: blueprint.layout(gpu, textures.map(|table| table.layout))?,
+            layout,
+            set_layout,
             textures: textures.map(|table| table.set),
             blueprint: Arc::new(blueprint),
             build_time: Duration::ZERO,
@@ -285,10 +287,10 @@ impl<'a> PipelineBuilder<'a> {
         };
         let blueprint = pipeline.blueprint.clone();
         let cannot = || format!("cannot make the pipeline '{}'", blueprint.name);
-        let made = blueprint.create(gpu, pipeline.layout, gpu.pipeline_cache.handle);
+        let made = blueprint.create(gpu, layout, gpu.pipeline_cache.handle);
         pipeline.handle = made.with_context(cannot)?;
         gpu.name_object(pipeline.handle, &blueprint.name);
-        gpu.name_object(pipeline.layout, &blueprint.name);
+        gpu.name_object(layout, &blueprint.name);
         pipeline.build_time = start.elapsed();
         if let Some(device) = &gpu.executable_properties {
             let executables = Executable::all(device, pipeline.handle)?;

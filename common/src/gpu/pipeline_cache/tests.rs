@@ -169,7 +169,7 @@ fn make_a_pipeline_for_radv() {
         ..Blueprint::default()
     };
     let textures = crate::gpu::TextureTable::layout(&gpu, 1).unwrap();
-    let layout = blueprint.layout(&gpu, Some(textures)).unwrap();
+    let (_, layout) = blueprint.layouts(&gpu, Some(textures)).unwrap();
     let start = Instant::now();
     blueprint.create(&gpu, layout, cache.handle).unwrap();
     println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, gpu.driver);
