@@ -68,6 +68,27 @@ fn so_it_is_in_every_chapter() {
     }
 }
 
+#[test]
+fn with_any_number_of_open_files_there_is_a_picture_or_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("a.png");
+    let render = ["--headless", "--size", "8x8", "--out", picture.to_str().unwrap()];
+    let programs = [("01_foundation", &render[..]), ("02_basic", &render), ("chapters", &["list"])];
+    for (program, arguments) in programs {
+        // With three, its input, output and errors, the system does not load it.
+        for files in [4, 5, 6, 12, 63, 64] {
+            let limit = format!("--nofile={files}");
+            let output = limited(&limit, program).args(arguments).output().unwrap();
+            let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+            let done = done_or_said(&format!("{program}, {files} files"), output);
+            let line = format!(
+                "error: the system lets this process have {files} files open at once; 64 are enough: ulimit -n 64\n"
+            );
+            assert!(if files < 64 { errors == line } else { done }, "{program}: {errors}");
+        }
+    }
+}
+
 /// A user without files and processes.
 const NOBODY: &str = "61234";
 

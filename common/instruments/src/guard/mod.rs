@@ -2,12 +2,14 @@
 //!
 //! - [`signals`]: Ctrl-C, a closed terminal, what a batch system sends
 //! - [`last_words`]: panics, crashes of the driver, no memory left
+//! - [`open_files`]: too few of them
 //! - [`apart`]: the shader compiler in a process of its own, with bounds
 //! - [`child`]: this program started again, to be asked one question
 
 pub mod apart;
 pub mod child;
 mod last_words;
+mod open_files;
 mod signals;
 
 use std::process::ExitCode;
@@ -44,7 +46,7 @@ pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
     if !apart::is_asked() {
         last_words::for_crashes();
     }
-    let Err(error) = program() else { return ExitCode::SUCCESS };
+    let Err(error) = open_files::check().and_then(|()| program()) else { return ExitCode::SUCCESS };
     let line = output::line_of(&error);
     if error.is::<Stopped>() {
         last_words::say(line.trim_start_matches("error: "));

@@ -1,0 +1,31 @@
+//! How many files a process may have open at once. With too few, driver, window and files fail each in words of
+//! their own, and none says why.
+
+use anyhow::Result;
+
+/// So many are enough for all that a program opens.
+#[cfg(unix)]
+const ENOUGH: libc::rlim_t = 64;
+
+/// Holds that the system allows enough.
+///
+/// # Errors
+/// If it does not.
+#[cfg(unix)]
+pub fn check() -> Result<()> {
+    let mut limit = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
+    // SAFETY: the structure is there to be written.
+    let is_known = unsafe { libc::getrlimit(libc::RLIMIT_NOFILE, &raw mut limit) } == 0;
+    let files = limit.rlim_cur;
+    anyhow::ensure!(
+        !is_known || files >= ENOUGH,
+        "the system lets this process have {files} files open at once; {ENOUGH} are enough: ulimit -n {ENOUGH}"
+    );
+    Ok(())
+}
+
+/// Elsewhere the system has no such limit.
+#[cfg(not(unix))]
+pub fn check() -> Result<()> {
+    Ok(())
+}
