@@ -411,10 +411,12 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(
         &off,
         2,
-        &["04_jitter_camera takes no --samples: set like this, each of its frames is a picture"],
+        &["04_jitter_camera takes no --samples with these values of --set: each of its frames is"],
     );
     let (code, line) = run::refused("02_basic", &kept);
-    assert!(code == 2 && line.contains("02_basic takes no --samples"), "{line}");
+    let said = "02_basic takes no --samples: each of its frames is a picture of its own, not a sample of \
+                one; docs/long-renders.md names the chapters that gather samples";
+    assert!(code == 2 && line.contains(said), "{line}");
 }
 
 #[test]

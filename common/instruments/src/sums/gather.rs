@@ -139,9 +139,11 @@ impl Gather {
     ) -> Result<Self> {
         let (name, args) = (run.name, run.args);
         if !run.sample.gathers() {
-            let why =
-                "set like this, each of its frames is a picture of its own, not a sample of one";
-            return Err(Usage(format!("{name} takes no --samples: {why}")).into());
+            // All chapters that gather do so as they are: where nothing is set, this is none of them.
+            let when = if args.sets.is_empty() { "" } else { " with these values of --set" };
+            let why = "each of its frames is a picture of its own, not a sample of one";
+            let which = "docs/long-renders.md names the chapters that gather samples";
+            return Err(Usage(format!("{name} takes no --samples{when}: {why}; {which}")).into());
         }
         let interrupt = options.save.as_ref().map(|_| Interrupt::listen());
         let origin = origin(run)?;
