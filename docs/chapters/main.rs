@@ -113,7 +113,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Nightly { names, list } => nightly::run(&project, names, *list),
         Command::Check => {
             let programs = Programs::beside_this(&project)?;
-            report(&Book::open(&programs)?.check())
+            report(&Book::open(&programs)?.check()?)
         }
     }
 }

@@ -8,6 +8,8 @@ use common::usage::Usage;
 use manuscript::project::{Chapter, Project};
 use manuscript::shader;
 
+use crate::pages::placeholder::{OPENING, TEACHES};
+
 /// Letters of a name at most: it heads columns and names files.
 const NAME_LETTERS: usize = 40;
 
@@ -62,7 +64,7 @@ impl<'a> NewChapter<'a> {
         let chapter = Chapter {
             name: full,
             title,
-            teaches: "say here, in a line, what it teaches".to_owned(),
+            teaches: TEACHES.to_owned(),
             part: from.part.clone(),
             from: Some(from.name.clone()),
             needs: from.needs.clone(),
@@ -127,9 +129,8 @@ impl<'a> NewChapter<'a> {
         let rest = text.lines().skip_while(|line| line.starts_with("//!"));
         let rest: String = rest.flat_map(|line| [line, "\n"]).collect();
         let (heading, from) = (self.chapter.heading(), &self.from.name);
-        format!(
-            "//! {heading}: what it teaches, in a line.\n//!\n//! New since {from}: what is new.\n{rest}"
-        )
+        let [teaches, new] = OPENING;
+        format!("//! {heading}: {teaches}\n//!\n//! New since {from}: {new}\n{rest}")
     }
 
     /// The parent's own shaders; what it shares with others, the new chapter shares too.

@@ -19,7 +19,7 @@ pub fn includes(project: &Project, file: &str) -> Vec<String> {
 }
 
 /// A shader's text as it is compiled: what it includes stands in the place of the line that includes it,
-/// once. `read` tells what a file holds, from the project's root.
+/// once, and `#line` tells which is which. `read` tells what a file holds, from the project's root.
 pub fn spliced(read: &dyn Fn(&str) -> Option<String>, file: &str) -> String {
     fn splice(
         read: &dyn Fn(&str) -> Option<String>,
@@ -30,9 +30,13 @@ pub fn spliced(read: &dyn Fn(&str) -> Option<String>, file: &str) -> String {
         if !known.insert(file.to_owned()) {
             return;
         }
-        for line in read(file).unwrap_or_default().lines() {
+        for (number, line) in (1..).zip(read(file).unwrap_or_default().lines()) {
             match included(line, file, |path| read(path).is_some()) {
-                Some(path) => splice(read, &path, known, text),
+                Some(path) => {
+                    text.push_str(&format!("#line 1 \"{path}\"\n"));
+                    splice(read, &path, known, text);
+                    text.push_str(&format!("#line {} \"{file}\"\n", number + 1));
+                }
                 None => {
                     text.push_str(line);
                     text.push('\n');

@@ -97,13 +97,21 @@ fn a_program_that_is_not_built_is_named_with_its_cure() {
         tempfile::tempdir_in(tool.parent().expect("its folder")).expect("a folder beside it");
     let lonely = apart.path().join("alone").with_extension(std::env::consts::EXE_EXTENSION);
     fs::hard_link(tool, &lonely).expect("another name of the tool");
-    let outcome = run(Command::new(lonely).arg("check").arg("--root").arg(fixture.path("")));
-    assert_eq!(outcome.code, 1);
-    let line = outcome.out.lines().next().unwrap_or_default();
-    assert!(
-        line.contains("the program '02_basic' is not built; run: cargo build --bins"),
-        "{line}"
-    );
+    let run = || run(Command::new(&lonely).arg("check").arg("--root").arg(fixture.path("")));
+    let check = || run().out;
+    let (unbuilt, build) = ("the program '02_basic' is not built", "run: cargo build --bins");
+    assert_eq!(check(), format!("Cargo.toml:1: {unbuilt}; {build}\n"));
+    // Whether it takes arguments of its own, only the program knows; all that are missing are one line.
+    fixture.replace("docs/01_one.md", "Its call:", "`cargo run --bin 01_one -- --own`:");
+    let unbuilt = "the program '01_one' is not built, and another cannot be asked either";
+    assert_eq!(check(), format!("Cargo.toml:1: {unbuilt}; {build}\n"));
+    // A system that starts no program is no fault of the book.
+    if cfg!(unix) {
+        fs::write(apart.path().join("02_basic"), "nobody may run this").expect("a file");
+        let (outcome, line) =
+            (run(), "error: 02_basic does not start: Permission denied (os error 13)\n");
+        assert_eq!((outcome.code, &*outcome.out, &*outcome.err), (1, "", line));
+    }
 }
 
 #[test]

@@ -255,3 +255,21 @@ fn a_patch_that_does_not_fit_is_named_with_its_line() {
     fixture.replace("docs/mistakes/pale.diff", "Outcome: differs by", "Outcome: is");
     assert!(fixture.check().contains("docs/mistakes/pale.diff:4: 'is 0.05' is no outcome; write "));
 }
+
+#[test]
+fn a_patched_stage_that_does_not_compile_is_named_with_its_patch() {
+    let camera = "shaders/02_basic/camera.rgen";
+    let undeclared = with("white").check();
+    let start =
+        format!("docs/mistakes/pale.diff:1: with this patch {camera} does not compile: {camera}:");
+    let named = |line: &str| {
+        line.starts_with(&start) && line.ends_with("undeclared identifier; make the patch again")
+    };
+    assert!(undeclared.lines().any(named), "{undeclared}");
+    // Its chapter compiles another file.
+    let idle = with("vec4(1.0)");
+    idle.replace("docs/mistakes/pale.diff", "Chapter: 02_basic", "Chapter: 01_one");
+    let line =
+        "docs/mistakes/pale.diff:1: this patch changes no stage of 01_one; make the patch again";
+    assert!(idle.check().lines().any(|found| found == line), "{}", idle.check());
+}

@@ -52,6 +52,15 @@ fn a_new_chapter_lacks_only_what_its_author_must_make() {
     for line in found.lines() {
         assert!(known.iter().any(|words| line.contains(words)), "unexpected: {line}");
     }
+    for (file, words) in [
+        ("Cargo.toml", "say here, in a line, what it teaches"),
+        ("samples/07_soft_light/main.rs", "what it teaches, in a line."),
+        ("samples/07_soft_light/main.rs", "what is new."),
+    ] {
+        let end = format!(": '{words}' holds a place for something; write what belongs here");
+        let is_told = |line: &str| line.starts_with(file) && line.ends_with(&end);
+        assert!(found.lines().any(is_told), "{file}: '{words}' is not told:\n{found}");
+    }
     let written = found.lines().filter(|line| line.contains("'WRITE' holds a place")).count();
     assert!(written >= 5, "the page does not say where to write:\n{found}");
 }

@@ -237,6 +237,29 @@ fn a_device_that_is_not_there_is_refused_before_anything_runs() {
     assert_eq!(cards.path().read_dir().expect("a folder").count(), 0);
 }
 
+#[test]
+fn a_place_that_takes_no_card_is_refused_before_anything_runs() {
+    let project = project();
+    let survey = |out: &str| {
+        let outcome = project.run(&["survey", "--out", out]);
+        assert_eq!((&*outcome.out, outcome.err.lines().count()), ("", 1), "{}", outcome.err);
+        (outcome.code, outcome.err)
+    };
+    let file = project.path("Cargo.toml");
+    let file = file.to_str().expect("a path of letters");
+    let refused = format!(
+        "error: '{file}' is a file, and the card goes to a folder; name another folder with --out\n"
+    );
+    assert_eq!(survey(file), (2, refused.clone()));
+    assert_eq!(survey(&format!("{file}/card")), (2, refused));
+    if cfg!(target_os = "linux") {
+        let (code, line) = survey("/proc");
+        let start = "error: the card cannot go to '/proc': cannot write '/proc/card.md': ";
+        assert!(code == 1 && line.starts_with(start), "{line}");
+        assert!(line.ends_with("; name another folder with --out\n"), "{line}");
+    }
+}
+
 /// A card that is whole.
 const CARD: &str = r#"{
   "date": "2026-11-22", "system": "linux x86_64", "validated": true, "tolerance": 0.002,

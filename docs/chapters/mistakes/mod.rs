@@ -3,3 +3,4 @@
 pub mod command;
 pub mod mistake;
 pub mod reproduction;
+pub mod stages;

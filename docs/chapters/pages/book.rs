@@ -21,9 +21,10 @@ use crate::figures::record::Record;
 use crate::figures::{self, figure};
 use crate::mistakes::mistake::Mistake;
 use crate::mistakes::reproduction::Reproduction;
+use crate::mistakes::stages;
 use crate::nightly;
 use crate::pictures::picture::Picture;
-use crate::programs::program::Programs;
+use crate::programs::program::{BUILD, Programs};
 use crate::sources::hash::Sources;
 use crate::survey::card;
 
@@ -46,13 +47,16 @@ impl<'a> Book<'a> {
     }
 
     /// Everything that is wrong, in the order of files and lines.
-    pub fn check(&self) -> Vec<Fault> {
+    ///
+    /// # Errors
+    /// If the system starts no program.
+    pub fn check(&self) -> Result<Vec<Fault>> {
         let project = self.programs.project;
         let mut faults = chapter_files::check(project);
         // A chapter's own picture is the gallery's too, whether or not its command is right.
         let mut linked: BTreeSet<String> =
             project.chapters.iter().map(|chapter| chapter.picture()).collect();
-        self.ask_programs();
+        self.ask_programs()?;
         let files = Files::of(project);
         let glossary = Glossary::of(project);
         for page in &self.pages {
@@ -76,7 +80,7 @@ impl<'a> Book<'a> {
         let (mistakes, wrong) = Mistake::all(project);
         faults.extend(wrong);
         for mistake in &mistakes {
-            faults.extend(mistake.patched(project).err());
+            faults.extend(stages::check(project, mistake));
             faults.extend(mistake.stale(project));
             linked.insert(mistake.picture());
         }
@@ -101,13 +105,13 @@ impl<'a> Book<'a> {
         faults.extend(shared_shader::check(project, &self.pages));
         faults.sort();
         faults.dedup();
-        faults
+        Ok(told_once(faults))
     }
 
     /// Fills every generated part; returns what it changed, and what it could not.
     ///
     /// # Errors
-    /// If a file cannot be written.
+    /// If a file cannot be written, or the system starts no program.
     pub fn sync(&self) -> Result<(Vec<String>, Vec<Fault>)> {
         let project = self.programs.project;
         let (mut changed, mut faults) = (Vec::new(), Vec::new());
@@ -118,7 +122,7 @@ impl<'a> Book<'a> {
             }
             anyhow::Ok(())
         };
-        self.ask_programs();
+        self.ask_programs()?;
         let (stored, _) = Record::all(project);
         let glossary = Glossary::of(project);
         for page in &self.pages {
@@ -144,7 +148,7 @@ impl<'a> Book<'a> {
         }
         faults.sort();
         faults.dedup();
-        Ok((changed, faults))
+        Ok((changed, told_once(faults)))
     }
 
     /// Renews the measurements of these pages and names, or with none those that are out of date.
@@ -180,13 +184,13 @@ impl<'a> Book<'a> {
         Ok(faults)
     }
 
-    fn ask_programs(&self) {
+    fn ask_programs(&self) -> Result<()> {
         let blocks = self.pages.iter().flat_map(|page| &page.blocks);
         let controls = blocks.filter(|block| block.kind == Kind::Controls);
         let names: BTreeSet<&str> =
             controls.filter_map(|block| block.words.first()).map(String::as_str).collect();
         let known = self.programs.project.chapters.iter().map(|chapter| &*chapter.name);
-        self.programs.ask(&known.filter(|name| names.contains(name)).collect::<Vec<_>>());
+        self.programs.ask(&known.filter(|name| names.contains(name)).collect::<Vec<_>>())
     }
 
     fn stale_blocks(&self, page: &Page) -> Vec<Fault> {
@@ -309,6 +313,22 @@ impl<'a> Book<'a> {
         }
         Ok(faults)
     }
+}
+
+/// Faults in which all that one build mends is one: what is missing are programs, not lines of pages.
+fn told_once(faults: Vec<Fault>) -> Vec<Fault> {
+    let (unbuilt, mut faults): (Vec<_>, Vec<_>) =
+        faults.into_iter().partition(|fault| fault.remedy == BUILD);
+    let programs: BTreeSet<&String> = unbuilt.iter().map(|fault| &fault.what).collect();
+    let others = match programs.len().saturating_sub(1) {
+        0 => String::new(),
+        1 => ", and another cannot be asked either".to_owned(),
+        others => format!(", and {others} others cannot be asked either"),
+    };
+    if let Some(first) = programs.first() {
+        faults.insert(0, Fault::new("Cargo.toml", 1, format!("{first}{others}"), BUILD));
+    }
+    faults
 }
 
 /// The first line, from 1, in which two texts differ.

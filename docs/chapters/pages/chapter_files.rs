@@ -3,6 +3,8 @@
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project, README};
 
+use super::placeholder;
+
 /// What does not agree, seen from `Cargo.toml`.
 pub fn check(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
@@ -36,6 +38,9 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
         if text.trim().is_empty() {
             faults.push(fault(format!("'{name}' has no {key}"), "write it"));
         }
+    }
+    if chapter.teaches == placeholder::TEACHES {
+        faults.push(placeholder::fault("Cargo.toml", line, placeholder::TEACHES));
     }
     if !project.parts.is_empty() && !project.parts.contains(&chapter.part) {
         let what =
@@ -103,13 +108,21 @@ fn parts(project: &Project, chapter: &Chapter) -> Vec<Fault> {
     faults
 }
 
-/// The line with which a chapter's program opens has its number and title.
-fn opening(project: &Project, chapter: &Chapter, main: &str) -> Option<Fault> {
-    let text = project.read(main).ok()?;
+/// The lines with which a chapter's program opens have its number and title, and say what it is about.
+fn opening(project: &Project, chapter: &Chapter, main: &str) -> Vec<Fault> {
+    let Ok(text) = project.read(main) else { return Vec::new() };
     let opening = format!("//! {}: ", chapter.heading());
-    let what = "the first line does not name the chapter".to_owned();
-    let wrong = !text.starts_with(&opening);
-    wrong.then(|| Fault::new(main, 1, what, format!("begin it with `{}…`", opening)))
+    let lines = text.lines().take_while(|line| line.starts_with("//!")).enumerate();
+    let held = lines.filter_map(|(index, line)| {
+        let words = placeholder::OPENING.into_iter().find(|words| line.ends_with(words))?;
+        Some(placeholder::fault(main, index + 1, words))
+    });
+    let mut faults: Vec<Fault> = held.collect();
+    if !text.starts_with(&opening) {
+        let what = "the first line does not name the chapter".to_owned();
+        faults.push(Fault::new(main, 1, what, format!("begin it with `{}…`", opening)));
+    }
+    faults
 }
 
 fn bins(project: &Project) -> Vec<Fault> {

@@ -3,6 +3,12 @@
 use manuscript::fault::Fault;
 use manuscript::page::Page;
 
+/// What a chapter that `new` has made teaches.
+pub const TEACHES: &str = "say here, in a line, what it teaches";
+
+/// How its program opens, behind the chapter's number and title, and behind its parent's name.
+pub const OPENING: [&str; 2] = ["what it teaches, in a line.", "what is new."];
+
 /// What stands for a figure in a cell of a table.
 const CELLS: [&str; 3] = ["X", "TBD", "TODO"];
 
@@ -16,12 +22,15 @@ pub fn check(page: &Page) -> Vec<Fault> {
             true => cell(),
             false => Some(text).filter(|text| is_word_of_capitals(text)),
         };
-        if let Some(word) = found {
-            let what = format!("'{word}' holds a place for something");
-            faults.push(Fault::new(&*page.path, line, what, "write what belongs here"));
-        }
+        faults.extend(found.map(|word| fault(&page.path, line, word)));
     }
     faults
+}
+
+/// A place in a file that such words hold.
+pub fn fault(file: &str, line: usize, words: &str) -> Fault {
+    let what = format!("'{words}' holds a place for something");
+    Fault::new(file, line, what, "write what belongs here")
 }
 
 /// Whether a line says nothing but a word such as `ERRORTABLE`.

@@ -45,14 +45,20 @@ impl CommandLine {
             "chapters" => Arguments::command(),
             _ => return None,
         };
+        let takes = || programs.takes(name, &self.arguments);
         let parsed = command.no_binary_name(true).try_get_matches_from(&self.arguments);
-        if let Err(error) = parsed
-            && error.use_stderr()
-            && !(sample && programs.takes(name, &self.arguments))
-        {
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-            return wrong(format!("{name} does not take this: {line}"));
+        if let Some(error) = parsed.err().filter(|error| error.use_stderr()) {
+            let taken = if sample { takes() } else { Ok(false) };
+            match taken {
+                Ok(true) => {}
+                Ok(false) => {
+                    let text = error.to_string();
+                    let line = text.lines().next().unwrap_or_default();
+                    let line = line.trim_start_matches("error: ");
+                    return wrong(format!("{name} does not take this: {line}"));
+                }
+                Err(what) => return Some((what, BUILD)),
+            }
         }
         if let Some(unknown) = self.unknown_chapter(programs.project) {
             return wrong(unknown);
@@ -65,7 +71,7 @@ impl CommandLine {
             Ok(controls) => {
                 let refusal = |(control, value): &(String, String)| controls.refuse(control, value);
                 let refused = settings.iter().find_map(refusal);
-                refused.filter(|_| !programs.takes(name, &self.arguments)).and_then(wrong)
+                refused.filter(|_| takes() == Ok(false)).and_then(wrong)
             }
             Err(what) => Some((what, BUILD)),
         }

@@ -20,8 +20,11 @@ pub struct Programs<'a> {
     /// The project in which they run.
     pub project: &'a Project,
     folder: PathBuf,
-    known: Mutex<BTreeMap<String, Result<Controls, String>>>,
+    known: Mutex<BTreeMap<String, Answer>>,
 }
+
+/// A sample's controls, or why it does not tell them.
+type Answer = Result<Controls, String>;
 
 impl<'a> Programs<'a> {
     /// The programs beside this one, run in a project.
@@ -76,8 +79,11 @@ impl<'a> Programs<'a> {
     }
 
     /// Asks several programs for their controls at once; [`Programs::controls`] then answers from memory.
-    pub fn ask(&self, names: &[&str]) {
-        workers::each(names, |name| drop(self.controls(name)));
+    ///
+    /// # Errors
+    /// If the system cannot start one.
+    pub fn ask(&self, names: &[&str]) -> Result<()> {
+        workers::each(names, |name| self.answer(name).map(drop)).into_iter().collect()
     }
 
     /// A sample's controls.
@@ -85,30 +91,41 @@ impl<'a> Programs<'a> {
     /// # Errors
     /// If it cannot be run, or fails.
     pub fn controls(&self, name: &str) -> Result<Controls, String> {
-        let known = || self.known.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        if let Some(controls) = known().get(name) {
-            return controls.clone();
-        }
-        let controls = self.list_controls(name);
-        known().insert(name.to_owned(), controls.clone());
-        controls
+        self.answer(name).unwrap_or_else(|error| Err(format!("{error:#}")))
     }
 
     /// Whether a sample itself takes these arguments, which may be its own or depend on one another.
-    pub fn takes(&self, name: &str, arguments: &[String]) -> bool {
-        let Ok(mut command) = self.command(name) else { return false };
+    ///
+    /// # Errors
+    /// If it cannot be run.
+    pub fn takes(&self, name: &str, arguments: &[String]) -> Result<bool, String> {
+        let mut command = self.command(name)?;
         let ended = child::run(command.args(arguments).arg("--list-controls"), Limit::NONE);
-        ended.is_ok_and(|ended| ended.succeeded())
+        ended.map(|ended| ended.succeeded()).map_err(|error| format!("{error:#}"))
     }
 
-    fn list_controls(&self, name: &str) -> Result<Controls, String> {
-        let ended = child::run(self.command(name)?.arg("--list-controls"), Limit::NONE)
-            .map_err(|error| format!("the program '{name}' does not run: {error:#}"))?;
-        match ended.succeeded() {
-            true => Ok(Controls::parse(&ended.told)),
-            false => Err(format!("{name} --list-controls failed: {}", ended.said_in_a_line())),
+    /// What a sample answers that is asked for its controls, or why it cannot be asked; from memory, if it was
+    /// asked before.
+    fn answer(&self, name: &str) -> Result<Answer> {
+        let known = || self.known.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some(answer) = known().get(name) {
+            return Ok(answer.clone());
         }
+        let answer = match self.command(name) {
+            Ok(command) => list_controls(name, command)?,
+            Err(what) => Err(what),
+        };
+        known().insert(name.to_owned(), answer.clone());
+        Ok(answer)
     }
+}
+
+fn list_controls(name: &str, mut command: Command) -> Result<Answer> {
+    let ended = child::run(command.arg("--list-controls"), Limit::NONE)?;
+    Ok(match ended.succeeded() {
+        true => Ok(Controls::parse(&ended.told)),
+        false => Err(format!("{name} --list-controls failed: {}", ended.said_in_a_line())),
+    })
 }
 
 /// What to do about a program that cannot be run.

@@ -12,7 +12,7 @@ pub fn of(path: &str, text: &str) -> String {
     }
 }
 
-/// GLSL without comments, each line's blanks made one.
+/// GLSL without comments and `#line`, each line's blanks made one.
 pub fn shader(text: &str) -> String {
     let mut code = String::new();
     let mut rest = text;
@@ -26,7 +26,10 @@ pub fn shader(text: &str) -> String {
         };
     }
     code.push_str(rest);
-    lines(&code, |line| line.split("//").next().unwrap_or_default())
+    lines(&code, |line| match line.starts_with("#line ") {
+        true => "",
+        false => line.split("//").next().unwrap_or_default(),
+    })
 }
 
 fn lines(text: &str, effect: impl Fn(&str) -> &str) -> String {
@@ -133,7 +136,7 @@ mod tests {
 
     #[test]
     fn comments_and_blanks_have_no_effect_in_a_shader() {
-        let short = "#version 460\nfloat a = 1.0 / 2.0;\nint b;\n";
+        let short = "#version 460\nfloat a = 1.0 / 2.0;\n#line 7 \"b.glsl\"\nint b;\n";
         let long =
             "// A.\n#version 460\n\n  float  a = 1.0 / 2.0; // a /* half\n/* two\nlines */int b;\n";
         assert_eq!(shader(short), shader(long));

@@ -10,8 +10,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Instant, SystemTime};
 
-use anyhow::{Context, Result, bail};
-use common::files::NewFolder;
+use anyhow::{Context, Result, anyhow, bail};
+use common::files::{NewFolder, check_writable, folder};
 use common::output::print;
 use common::usage::Usage;
 use instruments::report::Limits;
@@ -22,6 +22,7 @@ use serde_json::Value;
 use super::accuracy;
 use super::card::{self, Card, Device};
 use super::card_page;
+use crate::patches::copy::file_on_the_way;
 use crate::programs::child::{self, Ended};
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
@@ -89,9 +90,7 @@ impl Survey<'_> {
     pub fn run(&self, out: &Path) -> Result<()> {
         let project = self.programs.project;
         interrupt::listen();
-        let cannot = || format!("cannot write to '{}'", out.display());
-        fs::create_dir_all(out).with_context(cannot)?;
-        common::files::check_writable(&out.join("card.md"))?;
+        check_place(out)?;
         self.build()?;
         self.check_device()?;
         let folder = NewFolder::temporary()?;
@@ -293,6 +292,18 @@ impl Survey<'_> {
         }
         Ok(())
     }
+}
+
+/// Makes the folder for the card, and fails if the card could not be written there.
+fn check_place(out: &Path) -> Result<()> {
+    let another = "name another folder with --out";
+    if let Some(file) = file_on_the_way(out) {
+        let what = format!("'{}' is a file, and the card goes to a folder", file.display());
+        return Err(Usage(format!("{what}; {another}")).into());
+    }
+    folder::make(out)
+        .and_then(|()| check_writable(&out.join("card.md")))
+        .map_err(|error| anyhow!("the card cannot go to '{}': {error:#}; {another}", out.display()))
 }
 
 /// Says what has been done and how long the rest may take.
