@@ -47,6 +47,17 @@ pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
 impl Desk {
     /// Opens a sample with arguments and environment, and waits until its window shows a picture.
     pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
+        let desk = Self::begin(name, arguments, environment);
+        wait("a picture", || {
+            let shown = desk.shown();
+            let (width, height) = shown.dimensions();
+            (shown.get_pixel(width - 1, 0) != shown.get_pixel(width - 1, height - 1)).then_some(())
+        });
+        desk
+    }
+
+    /// The same, and waits until there is a window.
+    pub fn begin(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
         let (server, display) = server(&[]);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut command: Command = run::heeding(name);
@@ -59,11 +70,6 @@ impl Desk {
         let mut desk = Self { folder, sample: Some(sample), server, x, root, window: 0 };
         desk.window = wait("a window", || desk.find_window());
         desk.focus();
-        wait("a picture", || {
-            let shown = desk.shown();
-            let (width, height) = shown.dimensions();
-            (shown.get_pixel(width - 1, 0) != shown.get_pixel(width - 1, height - 1)).then_some(())
-        });
         desk
     }
 

@@ -18,23 +18,46 @@ struct Losing {
 
 impl Losing {
     fn open(name: &str, more: &[&str], function: &str) -> Self {
+        Self::by(Desk::open, false, name, more, function)
+    }
+
+    /// One that loses its device in the first call.
+    fn from_the_start(name: &str, more: &[&str], function: &str) -> Self {
+        Self::by(Desk::begin, true, name, more, function)
+    }
+
+    fn by(
+        open: fn(&str, &[&str], &[(&str, &Path)]) -> Desk,
+        at_once: bool,
+        name: &str,
+        more: &[&str],
+        function: &str,
+    ) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [fault, calls] = ["fault", "calls"].map(|name| folder.path().join(name));
+        if at_once {
+            std::fs::write(&fault, "").expect("a file");
+        }
         let layer = Layer::failing(&format!("{function}:{}:{DEVICE_LOST}", fault.display()));
         let environment = layer.environment();
         let mut environment: Vec<_> =
             environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
         environment.push(("CALLS", &calls));
         let arguments = [&["--validate"], more].concat();
-        let desk = Desk::open(name, &arguments, &environment);
+        let desk = open(name, &arguments, &environment);
         Self { desk, folder, _layer: layer }
     }
 
-    /// Loses the device, and waits for the offer to go on. Nothing of it is there any more: its instance is
-    /// destroyed, and validation would have told of what had not been.
+    /// Loses the device, and waits for the offer to go on.
     fn lose(&self) {
         std::fs::write(self.folder.path().join("fault"), "").expect("a file");
         self.desk.key(KEY_F1);
+        self.is_offered();
+    }
+
+    /// Waits for the offer to go on. Nothing of the old device is there any more: its instance is destroyed, and
+    /// validation would have told of what had not been.
+    fn is_offered(&self) {
         wait("the offer", || self.desk.named().ends_with("the device was lost").then_some(()));
         wait("its words", || tells_error(&self.desk).then_some(()));
         let calls = self.folder.path().join("calls");
@@ -81,6 +104,20 @@ fn a_window_goes_on_with_another_device_where_it_was() {
             );
         }
     }
+}
+
+/// In 08 the pipeline is made for the first picture.
+#[test]
+fn a_device_may_be_lost_before_the_first_picture() {
+    let _alone = alone();
+    let losing =
+        Losing::from_the_start("08_intersection", &SMALL, "vkCreateRayTracingPipelinesKHR");
+    losing.is_offered();
+    losing.go_on();
+    losing.desk.picture();
+    losing.desk.close();
+    let output = losing.desk.end();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
 #[test]

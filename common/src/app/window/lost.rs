@@ -59,10 +59,12 @@ pub fn is_loss(error: &Error) -> bool {
 }
 
 impl Lost {
-    /// Says what has happened, on the terminal and as the window's title.
+    /// Says what has happened, on the terminal and in the window, which it shows.
     pub fn new(on_gpu: WindowOnGpu, name: &str, kept: Kept, error: Error) -> Self {
         output::complain(&format!("warning: {error:#}; Enter in the window goes on, Esc leaves"));
         on_gpu.window.set_title(&format!("{name} · the device was lost"));
+        // It is not, if the device was lost before the first picture.
+        on_gpu.window.set_visible(true);
         on_gpu.window.request_redraw();
         Self { on_gpu, kept, error, redraw_at: None }
     }

@@ -123,9 +123,16 @@ impl Shows<'_> {
         events.exit();
     }
 
-    fn show(&mut self, events: &ActiveEventLoop, shown: Result<Shown>) {
-        match shown {
-            Ok(shown) => self.shown = shown,
+    /// Shows a sample from its first picture on, before which a device may be lost as before any other.
+    fn begin(&mut self, events: &ActiveEventLoop, session: Result<Session>) {
+        match session {
+            Ok(mut session) => {
+                let begun = session.begin();
+                self.shown = Shown::Session(Box::new(session));
+                if let Err(error) = begun {
+                    self.stop(events, error);
+                }
+            }
             Err(error) => self.fail(events, error),
         }
     }
@@ -138,8 +145,10 @@ impl Shows<'_> {
     fn stop(&mut self, events: &ActiveEventLoop, error: Error) {
         match self.take_shown() {
             Shown::Session(session) if lost::is_loss(&error) && !self.of.args.frames_given => {
-                let lost = session.lose(self.of, error);
-                self.show(events, lost.map(|lost| Shown::Lost(Box::new(lost))));
+                match session.lose(self.of, error) {
+                    Ok(lost) => self.shown = Shown::Lost(Box::new(lost)),
+                    Err(error) => self.fail(events, error),
+                }
             }
             shown => {
                 self.shown = shown;
@@ -153,7 +162,7 @@ impl Shows<'_> {
         match (choice, self.take_shown()) {
             (Choice::GoOn, Shown::Lost(lost)) => {
                 let session = Session::go_on(*lost, self.of, self.proxy.clone());
-                self.show(events, session.map(|session| Shown::Session(Box::new(session))));
+                self.begin(events, session);
             }
             (Choice::Leave, Shown::Lost(lost)) => {
                 let Lost { on_gpu, error, .. } = *lost;
@@ -169,7 +178,7 @@ impl ApplicationHandler<Wake> for Shows<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if let Shown::Nothing = self.shown {
             let session = Session::new(events, self.of, self.proxy.clone());
-            self.show(events, session.map(|session| Shown::Session(Box::new(session))));
+            self.begin(events, session);
         }
     }
 

@@ -1,21 +1,20 @@
-//! What lives as long as the window, and one frame of it.
+//! What lives as long as the window.
+
+mod frame;
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Error, Result};
-use ash::vk;
-use egui::{FullOutput, ViewportId};
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
 use super::facts::Facts;
-use super::keys::Ask;
 use super::lag::Lag;
 use super::lost::{Kept, Lost};
-use super::panel::{Outcome, Panel};
+use super::panel::Panel;
 use super::reload::Reload;
 use super::rows::Hidden;
 use super::view::{Stepped, View};
@@ -25,9 +24,6 @@ use crate::app::controls::Listed;
 use crate::app::files::check_size;
 use crate::app::{Args, Controls, Sample, Setup, controls};
 use crate::gpu::Gpu;
-
-/// How often the title is written anew while pictures come.
-const TITLE: Duration = Duration::from_millis(500);
 
 type Make = fn(&Gpu, &Setup) -> Result<Box<dyn Sample>>;
 
@@ -49,7 +45,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens a window and makes the sample.
+    /// Opens a window, which is not shown yet, and makes the sample.
     ///
     /// # Errors
     /// If there is no such device or window, a control is set wrongly, or the sample cannot be made.
@@ -93,7 +89,7 @@ impl Session {
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self> {
         let gpu = &on_gpu.gpu;
-        let mut session = Self {
+        Ok(Self {
             view: View::new(gpu, sample)?,
             panel: kept.panel,
             facts: Facts {
@@ -112,13 +108,20 @@ impl Session {
             titled: None,
             lag: Lag::default(),
             on_gpu,
-        };
-        // The first picture compiles shaders in the driver: nobody shall wait before a frozen window.
-        while let Stepped::Part = session.view.step(session.args.size)? {}
-        session.learn();
-        session.on_gpu.window.set_visible(true);
-        session.on_gpu.window.request_redraw();
-        Ok(session)
+        })
+    }
+
+    /// Renders the first picture, and then shows the window. The first picture compiles shaders in the driver:
+    /// nobody shall wait before a frozen window.
+    ///
+    /// # Errors
+    /// If the sample or the device fails.
+    pub fn begin(&mut self) -> Result<()> {
+        while let Stepped::Part = self.view.step(self.args.size)? {}
+        self.learn();
+        self.on_gpu.window.set_visible(true);
+        self.on_gpu.window.request_redraw();
+        Ok(())
     }
 
     /// The event loop goes on; `due` if it does because a frame is due.
@@ -188,109 +191,6 @@ impl Session {
         if self.on_gpu.take(event) || matches!(event, WindowEvent::Occluded(_)) {
             self.on_gpu.window.request_redraw();
         }
-    }
-
-    /// One frame of the window; `false` if it was the last.
-    ///
-    /// # Errors
-    /// If the sample, the device or the window system fails.
-    pub fn draw(&mut self) -> Result<bool> {
-        let extent = match self.on_gpu.fit()? {
-            Some(extent) if !self.hidden => extent,
-            // An event tells when there is something to see again.
-            _ => return Ok(true),
-        };
-        let (outcome, drawing) = self.panel()?;
-        if outcome.changed {
-            self.view.change();
-        }
-        if outcome.asked.contains(&Ask::Leave) {
-            return Ok(false);
-        }
-        let area = self.area(extent, drawing.pixels_per_point);
-        let stepped = self.view.step(area)?;
-        self.learn();
-        if let Some(written) = self.view.take_picture(&self.facts.name) {
-            self.panel.tell(match written {
-                Ok(path) => format!("wrote {}", path.display()),
-                Err(error) => format!("{error:#}"),
-            });
-            self.redraw_at = Some(Instant::now());
-        }
-        let viewport = drawing.viewport_output.get(&ViewportId::ROOT);
-        let panel_delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        self.present(extent, drawing)?;
-        self.plan(&stepped, panel_delay);
-        Ok(!self.args.frames_given || self.presented < self.args.frames)
-    }
-
-    /// The part of a window that the picture has: all, or what lies to the right of the panel.
-    fn area(&self, window: vk::Extent2D, scale: f32) -> vk::Extent2D {
-        let strip = self.panel.strip(window.width as f32 / scale) * scale;
-        let width = window.width.saturating_sub(strip.ceil() as u32).max(1);
-        vk::Extent2D { width, ..window }
-    }
-
-    /// Shows the panel, and answers the keys that ask something of the window.
-    fn panel(&mut self) -> Result<(Outcome, FullOutput)> {
-        let mut outcome = Outcome::default();
-        let drawing = self.on_gpu.over(|ui| {
-            let sample = &mut self.view.sample;
-            outcome.merge(self.panel.show(ui, &self.facts, &mut |c| sample.controls(c)));
-        })?;
-        if outcome.asked.contains(&Ask::Picture) {
-            self.view.ask_picture();
-        }
-        if outcome.asked.contains(&Ask::Reload) {
-            self.panel.tell("compiling shaders …".to_owned());
-            self.reload.ask(Instant::now());
-        }
-        Ok((outcome, drawing))
-    }
-
-    /// Puts picture and panel on the window.
-    fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<()> {
-        let area = self.area(extent, drawing.pixels_per_point);
-        let presented = self.on_gpu.present(extent, Some((&self.view.image, area)), drawing)?;
-        if presented.is_some() {
-            self.presented += 1;
-            let waited = self.lag.present();
-            tracing::debug!("presented; {} ms since the last", waited.as_millis());
-        }
-        if presented != Some(true) {
-            self.redraw_at = Some(Instant::now());
-        }
-        Ok(())
-    }
-
-    /// Notes what came of the frame, and when the next is due.
-    fn plan(&mut self, stepped: &Stepped, panel_delay: Duration) {
-        let now = Instant::now();
-        self.view.facts(&mut self.facts);
-        let picture_at = match *stepped {
-            Stepped::New { milliseconds, full, telling } => {
-                let [width, height] = self.facts.rendered;
-                let pixels = |[width, height]: [u32; 2]| f64::from(width) * f64::from(height);
-                let part = pixels(self.facts.rendered) / pixels(self.facts.full);
-                if telling {
-                    self.panel.history.add(milliseconds / part, full);
-                }
-                tracing::debug!("{width}x{height}: {milliseconds:.1} ms");
-                Some(now)
-            }
-            Stepped::Part => Some(now),
-            Stepped::Kept(_) if self.view.plays() => Some(now),
-            Stepped::Kept(until) => until,
-        };
-        let resting = picture_at.is_none();
-        if self.titled.is_none_or(|at| resting || now > at + TITLE) {
-            self.titled = Some(now);
-            self.on_gpu.window.set_title(&self.facts.title());
-        }
-        let counted = self.args.frames_given.then_some(now);
-        let panel_at = now.checked_add(panel_delay);
-        let times = [self.redraw_at, picture_at, counted, panel_at];
-        self.redraw_at = times.into_iter().flatten().min();
     }
 
     /// Takes up shaders that were compiled beside, or shows why not.
