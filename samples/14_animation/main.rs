@@ -5,10 +5,9 @@
 
 mod costs;
 mod flag;
-mod game;
+mod legs;
 mod levels;
 mod motion;
-mod position;
 mod turned;
 mod world;
 
@@ -79,7 +78,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let motion = Motion::new(&game(setup)?);
+        let motion = motion(setup)?;
         let (cells, plan) = (48, Plan { flag: Policy::Updated, top: Policy::Updated, every: 240 });
         let flag = Flag::new(gpu, cells, setup.options)?;
         let playback = Playback::new(motion.last);
@@ -173,15 +172,15 @@ impl Demo {
     }
 }
 
-/// The game that `--scene` names, else Morphy's at the opera.
-fn game(setup: &Setup) -> Result<Vec<position::Played>> {
-    let own = assets().join("games/opera.txt");
+/// The legs that `--scene` names, else those of Morphy's game at the opera.
+fn motion(setup: &Setup) -> Result<Motion> {
+    let own = assets().join("games/opera.legs");
     let path = setup.scene().unwrap_or(&own);
-    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("txt")) {
-        let what = "this chapter takes the moves of a game, a text file (.txt)";
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("legs")) {
+        let what = "this chapter takes legs of pieces (.legs), which chess_game makes of moves";
         return Err(Usage(format!("{}: {what}", text::shown(path))).into());
     }
-    game::open(path)
+    legs::open(path)
 }
 
 // ANCHOR: pipeline

@@ -10,9 +10,8 @@ use common::scene::{
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
 use super::flag;
-use super::motion::{Motion, Placed, TABLE};
-use super::position::Man;
-use super::turned;
+use super::motion::{KINDS, Motion, Placed, SIDES};
+use super::turned::{self, TABLE};
 
 /// Where the flag's pole stands, and how the wind turns the cloth.
 const POLE: Vec3 = Vec3::new(5.7, TABLE, -5.2);
@@ -74,9 +73,9 @@ impl World {
                 Ok(Standing { mesh: mesh(model, name)?, at: Affine3A::from_translation(at) })
             })
             .collect::<Result<Vec<_>>>()?;
-        let kinds = ["pawn", "rook", "knight", "bishop", "queen", "king"];
-        let kinds = kinds.map(|name| mesh(model, name)).into_iter().collect::<Result<Vec<_>>>()?;
-        let sides = [material(model, "white")?, material(model, "black")?];
+        let kinds = KINDS.map(|name| mesh(model, name)).into_iter().collect::<Result<Vec<_>>>()?;
+        let [white, black] = SIDES.map(|name| material(model, name));
+        let sides = [white?, black?];
 
         let scene = SceneOnGpu::new(gpu, &host, options)?;
         // A record for each kind of piece of each side, for all that stands, and for the flag.
@@ -108,12 +107,11 @@ impl World {
             record: pieces + number,
             at: one.at,
         });
-        let moving =
-            self.motion.at(frame).map(|Placed { man: Man { kind, side, .. }, at }| Shown {
-                mesh: Some(self.kinds[kind as usize]),
-                record: side as usize * self.kinds.len() + kind as usize,
-                at,
-            });
+        let moving = self.motion.at(frame).map(|Placed { side, kind, at }| Shown {
+            mesh: Some(self.kinds[kind]),
+            record: side * self.kinds.len() + kind,
+            at,
+        });
         let top = POLE + (POLE_HEIGHT - 0.25) * Vec3::Y;
         let matrix3 = Mat3A::from_rotation_y(WIND);
         let flag = Shown {

@@ -152,10 +152,13 @@ fn help_that_nobody_can_read_is_an_error() {
 }
 
 #[test]
-fn the_chess_set_tells_its_usage() {
-    let output = run::command("chess_set").arg("--help").output().unwrap();
-    assert!(output.status.success() && output.stderr.is_empty());
-    assert!(String::from_utf8(output.stdout).unwrap().starts_with("usage: chess_set"));
+fn the_tools_of_the_chess_set_tell_their_usage() {
+    for name in ["chess_set", "chess_game"] {
+        let output = run::command(name).arg("--help").output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty());
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(told.starts_with(&format!("usage: {name}")), "{told}");
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 pub mod cases;
 pub mod game;
+pub mod legs;
 pub mod object;
 pub mod scene;
 pub mod settings;
@@ -15,12 +16,13 @@ use std::path::Path;
 use crate::format::{Format, Function};
 
 /// What reads in this process, each with how many inputs `cargo test` tries: a few seconds' worth.
-pub const FUNCTIONS: [(Format, Function, usize); 7] = [
+pub const FUNCTIONS: [(Format, Function, usize); 8] = [
     (object::FORMAT, object::FUNCTION, 8000),
     (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),
     (texture::FORMAT, texture::FUNCTION, 2000),
     (scene::FORMAT, scene::FUNCTION, 2000),
     (game::FORMAT, game::FUNCTION, 3000),
+    (legs::FORMAT, legs::FUNCTION, 3000),
     (sums::FORMAT, sums::FUNCTION, 8000),
     (settings::FORMAT, settings::FUNCTION, 8000),
 ];

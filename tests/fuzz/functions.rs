@@ -27,6 +27,7 @@ tests! {
     textures: 2,
     scene_files: 3,
     games: 4,
-    files_of_sums: 5,
-    settings_of_controls: 6,
+    files_of_legs: 5,
+    files_of_sums: 6,
+    settings_of_controls: 7,
 }

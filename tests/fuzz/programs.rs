@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use fuzz::format::Format;
-use fuzz::formats::{cases, game, nothing, object, scene, settings, shader, sums, texture};
+use fuzz::formats::{cases, game, legs, nothing, object, scene, settings, shader, sums, texture};
 use fuzz::program::{Program, lines};
 use fuzz::session::Session;
 
@@ -29,7 +29,7 @@ fn sample(name: &str) -> Command {
     command
 }
 
-pub const ALL: [Tried; 9] = [
+pub const ALL: [Tried; 10] = [
     Tried {
         name: "02_model",
         format: object::FORMAT,
@@ -100,16 +100,28 @@ pub const ALL: [Tried; 9] = [
         count: 12,
     },
     Tried {
-        name: "14_game",
-        format: game::FORMAT,
+        name: "14_legs",
+        format: legs::FORMAT,
         beside: nothing,
         command: |_, _| {
             let mut command = sample("14_animation");
-            command.args(["--scene", "g.txt"]);
+            command.args(["--scene", "g.legs"]);
             command
         },
         writes: &[],
         count: 6,
+    },
+    Tried {
+        name: "chess_game",
+        format: game::FORMAT,
+        beside: nothing,
+        command: |_, _| {
+            let mut command = run::command("chess_game");
+            command.arg("g.txt");
+            command
+        },
+        writes: &["g.legs"],
+        count: 12,
     },
     Tried {
         name: "24_cases",
@@ -190,9 +202,10 @@ tests! {
     a_chapter_is_given_settings: ALL[2],
     a_chapter_is_given_arguments: ALL[3],
     a_render_is_resumed: ALL[4],
-    a_game_is_opened: ALL[5],
-    cases_are_run: ALL[6],
-    a_scene_is_opened: ALL[7],
-    sums_are_merged: ALL[8],
+    legs_are_opened: ALL[5],
+    a_game_is_opened: ALL[6],
+    cases_are_run: ALL[7],
+    a_scene_is_opened: ALL[8],
+    sums_are_merged: ALL[9],
     shaders_are_compiled: SHADERS,
 }

@@ -1,19 +1,21 @@
-//! 14_animation: frames are the same bytes whichever way they are reached, games are held to the rules, and what
-//! moves is where it is said to be.
+//! 14_animation: frames are the same bytes whichever way they are reached, what moves is where it is said to be, and
+//! the game that is played is one by the rules.
 
 mod cloth;
 mod decay;
+mod hostile;
 mod moves;
 mod structures;
 
 #[allow(dead_code)]
-#[path = "../../samples/14_animation/game.rs"]
+#[path = "../../samples/assets/chess_game/game.rs"]
 mod game;
-#[allow(dead_code)]
+#[path = "../../samples/14_animation/legs.rs"]
+mod legs;
 #[path = "../../samples/14_animation/motion.rs"]
 mod motion;
 #[allow(dead_code)]
-#[path = "../../samples/14_animation/position.rs"]
+#[path = "../../samples/assets/chess_game/position.rs"]
 mod position;
 #[allow(dead_code)]
 #[path = "../../samples/14_animation/turned.rs"]
@@ -22,13 +24,14 @@ mod turned;
 use common::app::Picture;
 use common::scene::{self, Camera, Model, Scene, assets, obj};
 use glam::{Affine3A, DVec3, Vec3};
-use motion::{Motion, TABLE};
+use motion::{KINDS, Motion};
 use reference::Ray;
 use reference::hit::Hit;
 use reference::ulp::ulp_error;
 use run::primary_hits::{answer, rays, reference};
 use run::{bits, figures, golden, render, same_answers, same_colors};
 use serde_json::json;
+use turned::TABLE;
 
 const NAME: &str = "14_animation";
 const SIZE: &str = "96x60";
@@ -40,7 +43,7 @@ fn picture(arguments: &[&str], sets: &[&str]) -> Picture {
 
 /// The opera game, as the sample plays it.
 fn opera() -> Motion {
-    Motion::new(&game::open(&assets().join("games/opera.txt")).unwrap())
+    legs::open(&assets().join("games/opera.legs")).unwrap()
 }
 
 #[test]
@@ -114,9 +117,7 @@ fn exact(frame: u32) -> (reference::scene::Scene, Vec<usize>) {
         add(mesh(name), Affine3A::from_translation(at), 12 + record);
     }
     for piece in opera().at(frame) {
-        let kind = piece.man.kind as usize;
-        let name = ["pawn", "rook", "knight", "bishop", "queen", "king"][kind];
-        add(mesh(name), piece.at, 6 * piece.man.side as usize + kind);
+        add(mesh(KINDS[piece.kind]), piece.at, 6 * piece.side + piece.kind);
     }
     add(mesh("flag"), cloth::place(), 19);
     let scene = Scene { model, instances, camera: camera() };
@@ -127,8 +128,8 @@ fn camera() -> Camera {
     Camera::new(DVec3::new(-6.3, 4.6, 10.9), DVec3::new(0.6, 1.35, -0.6), 38.5)
 }
 
-/// Pieces on their way, a knight in the air, and the flag, against the exact answer in 64 bits: the board's game from
-/// the rules, the cloth from its formula.
+/// Pieces on their way, a knight in the air, and the flag, against the exact answer in 64 bits: the pieces by their
+/// legs, the cloth from its formula.
 #[test]
 fn everything_is_where_its_formula_says() {
     let mut largest = 0f64;

@@ -55,7 +55,7 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model (.obj) instead of the chapter's own; 14 takes a game's moves instead (.txt), 25 also scene files (.toml)
+    /// Open this model (.obj) instead of the chapter's own; 14 takes legs of pieces instead (.legs), 25 also scene files (.toml)
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 

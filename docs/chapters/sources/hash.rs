@@ -36,8 +36,9 @@ pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String
     let says = |word: &str| {
         files.iter().any(|file| project.read(file).is_ok_and(|text| text.contains(word)))
     };
-    // A chapter that opens scene files shows what they hold; to the others they are nothing.
+    // A chapter that opens scene files, or legs, shows what they hold; to the others they are nothing.
     let (scene, scene_files) = (says("common::scene"), says("Composition"));
+    let legs = says(".legs\"");
     if scene {
         // Where the pieces stand and how the light falls is framework code. How all that comes to the device
         // is seen in no picture: tests hold it.
@@ -46,6 +47,7 @@ pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String
         let asset = |path: &String| {
             path.matches('/').count() == 2
                 || scene_files && path.starts_with("samples/assets/scenes/")
+                || legs && path.ends_with(".legs")
         };
         files.extend(project.files("samples/assets").into_iter().filter(asset));
     }

@@ -1,4 +1,4 @@
-//! The moves of a game, which 14 plays.
+//! The moves of a game, of which `chess_game` makes legs.
 
 use std::sync::LazyLock;
 
@@ -9,10 +9,10 @@ use crate::format::{Format, Function};
 use crate::grammar::Grammar;
 
 #[allow(dead_code, missing_docs)]
-#[path = "../../../samples/14_animation/game.rs"]
+#[path = "../../../samples/assets/chess_game/game.rs"]
 mod moves;
 #[allow(dead_code, missing_docs)]
-#[path = "../../../samples/14_animation/position.rs"]
+#[path = "../../../samples/assets/chess_game/position.rs"]
 mod position;
 
 use position::{Kind, Move, Position, squares};

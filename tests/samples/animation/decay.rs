@@ -10,8 +10,8 @@ use glam::Vec3;
 use run::figures;
 use serde_json::json;
 
-use super::cloth;
-use super::opera;
+use super::motion::KINDS;
+use super::{cloth, opera};
 
 fn union((a, b): Bounds, (c, d): Bounds) -> Bounds {
     (a.min(c), b.max(d))
@@ -56,10 +56,9 @@ fn triangles(frame: u32) -> Vec<Bounds> {
 
 fn pieces(frame: u32) -> Vec<Bounds> {
     let model: Model = obj::load(&assets().join("chess.obj")).unwrap();
-    let names = ["pawn", "rook", "knight", "bishop", "queen", "king"];
     let opera = opera();
     let boxes = opera.at(frame).map(|piece| {
-        let name = names[piece.man.kind as usize];
+        let name = KINDS[piece.kind];
         let mesh = model.meshes.iter().find(|mesh| mesh.name == name).unwrap();
         let corners = mesh.vertices.iter().map(|vertex| piece.at.transform_point3(vertex.position));
         corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), at| (a.min(at), b.max(at)))

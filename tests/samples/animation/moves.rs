@@ -1,10 +1,14 @@
-//! A move list is not to be trusted: what is wrong with it is one line, with the line's number.
+//! The game that 14 plays is one by the rules of chess: `chess_game` knows them, and refuses in one line what they
+//! forbid.
 
 use std::fmt::Write;
 
+use super::motion::{KINDS, SIDES};
 use super::position::{Kind, Move, Position, Square, squares};
-use super::{NAME, game};
+use super::turned::TABLE;
+use super::{game, opera};
 
+use common::scene::assets;
 use run::refused;
 
 /// What reading such a file gives: how many moves, or what is wrong.
@@ -100,23 +104,63 @@ fn a_file_that_is_no_game_is_refused_in_one_line() {
     }
 }
 
+/// Nobody edits them by hand.
 #[test]
-fn the_sample_says_so_and_takes_nothing_else() {
+fn the_legs_are_those_of_the_moves() {
+    let output = run::command("chess_game").arg("--check").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The frames after each half-move and the board of the rules show the same pieces on the same squares; all others
+/// stand on the table.
+#[test]
+fn after_every_move_each_piece_stands_where_the_rules_say() {
+    let (mut position, motion) = (Position::start(), opera());
+    let game = game::open(&assets().join("games/opera.txt")).unwrap();
+    for (number, played) in game.iter().enumerate() {
+        position.play(played.by).unwrap();
+        let mut standing = 0;
+        for piece in motion.at(48 * (number as u32 + 2) - 1) {
+            let at = piece.at.translation;
+            if at.y == TABLE {
+                assert!(at.x.abs() > 5.0, "move {number}: {at}");
+                continue;
+            }
+            let square =
+                Square { file: (at.x + 3.5).round() as i8, rank: (3.5 - at.z).round() as i8 };
+            let man = position.at(square).unwrap_or_else(|| panic!("move {number}: {square}"));
+            assert_eq!((man.side as usize, man.kind as usize), (piece.side, piece.kind));
+            assert_eq!(at.y, 0.0);
+            standing += 1;
+        }
+        assert_eq!(standing, squares().filter(|&square| position.at(square).is_some()).count());
+    }
+    assert_eq!([SIDES[0], KINDS[2]], ["white", &Kind::Knight.to_string()]);
+}
+
+#[test]
+fn the_tool_writes_a_game_of_ones_own_and_refuses_what_is_none() {
     let folder = tempfile::tempdir().unwrap();
-    let game = folder.path().join("game.txt");
-    std::fs::write(&game, "e2-e4\ne7-e5\ne4-e5\n").unwrap();
-    let name = game.to_str().unwrap();
-    let (code, line) = refused(NAME, &["--headless", "--scene", name]);
+    let moves = folder.path().join("mine.txt");
+    std::fs::write(&moves, "a2-a4\nb7-b5\na4-b5\na7-a6\nb5-a6\nc8-b7\na6-b7\nb8-c6\nb7-a8=N\n")
+        .unwrap();
+    let tool =
+        |argument: &std::path::Path| run::command("chess_game").arg(argument).output().unwrap();
+    assert!(tool(&moves).status.success());
+    let legs = super::legs::open(&folder.path().join("mine.legs")).unwrap();
+    // The pawn that takes the rook on a8 is a knight once it has arrived.
+    let kind = |frame| KINDS[legs.at(frame).nth(8).unwrap().kind];
+    assert_eq!((kind(48 * 9 + 10 + 33), kind(48 * 9 + 10 + 34)), ("pawn", "knight"));
+    assert_eq!(legs.last, 48 * 10 + 192);
+
+    std::fs::write(&moves, "e2-e4\ne7-e5\ne4-e5\n").unwrap();
+    let (code, line) = run::refusal(tool(&moves));
     assert!(
         code == 1 && line.ends_with(":3: the pawn on e4 cannot go to e5: it has no move here"),
         "{line}"
     );
-    let (code, line) = refused(NAME, &["--headless", "--scene", "samples/assets/chess.obj"]);
-    assert!(code == 2 && line.contains("takes the moves of a game, a text file (.txt)"), "{line}");
-    let (code, line) = refused(NAME, &["--headless", "--scene", "nowhere.txt"]);
-    assert!(code == 1 && line.contains("nowhere.txt: there is no such file"), "{line}");
-    let (code, line) = refused(NAME, &["--headless", "--set", "frame=1825"]);
-    assert!(code == 2 && line.contains("it takes a whole number from 0 to 1824"), "{line}");
+    let (code, line) = refused("chess_game", &["samples/assets/chess.obj"]);
+    assert!(code == 2 && line.contains("takes moves (.txt), --check, or nothing"), "{line}");
 }
 
 /// The numbers of move sequences that chess programs are checked by (perft): every rule counts.
