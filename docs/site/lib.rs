@@ -2,7 +2,7 @@
 //!
 //! [`contents`] gives the order, [`page`] composes each page for mdBook ([`formula`], [`color`], [`slider`],
 //! [`gallery`]; [`link`] says where its links lead), [`listing`] the pages of code. [`output`] puts the site
-//! in its place when all of it is right.
+//! in its place when all of it is right. [`moved`] leads on from old addresses.
 
 pub mod color;
 pub mod contents;
@@ -11,6 +11,7 @@ pub mod gallery;
 pub mod html;
 pub mod link;
 pub mod listing;
+pub mod moved;
 pub mod output;
 pub mod page;
 pub mod picture;
@@ -123,6 +124,9 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     let mut config: Config = settings.parse().context("docs/site/book.toml")?;
     config.set("book.src", "src")?;
     config.set("build.build-dir", made)?;
+    let moved = moved::read(&project, &entries)?;
+    config.set("output.html.redirect", moved::redirects(&moved))?;
+    wanted.extend(moved::wanted(&moved));
     // mdBook would go on with its own settings.
     config
         .html_config()
@@ -136,6 +140,10 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     fs::write(made.join("404.html"), LOST)?;
 
     faults.extend(broken(made, &wanted)?);
+    for one in &moved {
+        let page = made.join(one.old.split('#').next().unwrap_or_default());
+        faults.extend(moved::still_there(one, &ids(&fs::read_to_string(page)?)));
+    }
     if faults.is_empty() { Ok(counts) } else { Err(Faults(faults).into()) }
 }
 
@@ -217,9 +225,7 @@ fn broken(made: &Path, wanted: &[Wanted]) -> Result<Vec<Fault>> {
                 faults.push(Fault::new(&**file, *line, what, "correct it"));
                 continue;
             }
-            let found = html::attributes(&fs::read_to_string(&path)?);
-            let ids = found.into_iter().filter(|attribute| attribute.name == "id");
-            places.insert(page, ids.map(|attribute| attribute.value).collect());
+            places.insert(page, ids(&fs::read_to_string(&path)?));
         }
         if let Some(id) = id.as_ref().filter(|id| !places[&**page].contains(*id)) {
             let what = format!("the link leads to '{page}#{id}', and there is no such place");
@@ -227,4 +233,10 @@ fn broken(made: &Path, wanted: &[Wanted]) -> Result<Vec<Fault>> {
         }
     }
     Ok(faults)
+}
+
+/// The places of a page.
+fn ids(page: &str) -> BTreeSet<String> {
+    let ids = html::attributes(page).into_iter().filter(|attribute| attribute.name == "id");
+    ids.map(|attribute| attribute.value).collect()
 }

@@ -353,7 +353,7 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn the_page_lists_every_scene_and_every_key_of_the_file() {
+fn the_page_lists_every_scene_and_every_effect() {
     let page = std::fs::read_to_string(root().join("docs/25_scene_effects.md")).unwrap();
     for (name, ..) in SCENES {
         let file = format!("{}.toml", name.replace(' ', "_"));
@@ -362,6 +362,16 @@ fn the_page_lists_every_scene_and_every_key_of_the_file() {
     for &effect in Effect::ALL {
         assert!(page.contains(&format!("| {} |", effect.name())), "{}", effect.name());
     }
+}
+
+/// The page of the format.
+fn format_page() -> String {
+    std::fs::read_to_string(root().join("docs/scene-format.md")).unwrap()
+}
+
+#[test]
+fn the_page_of_the_format_lists_every_key() {
+    let page = format_page();
     // What the reader of files says that it knows, table by table.
     let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
     let lists = ["[[light]]", "[[material]]", "[[piece]]", "[[sphere]]", "[[box]]", "[[solid]]"];
@@ -387,6 +397,42 @@ fn the_page_lists_every_scene_and_every_key_of_the_file() {
             assert!(there, "{table} {key} is not on the page");
         }
     }
+}
+
+/// Its example is a scene, and each line of its table of refusals makes it one that is refused so.
+#[test]
+fn the_page_of_the_format_is_true() {
+    let page = format_page();
+    let (_, example) = page.split_once("```toml\n").unwrap();
+    let (example, _) = example.split_once("```").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("s.toml");
+    let opened = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        let told = effects::open(&file).map_err(|error| format!("{error:#}"));
+        told.map_err(|line| line.replace(&file.display().to_string(), "s.toml"))
+    };
+    let scene = opened(example).unwrap();
+    assert_eq!((scene.spheres.len(), scene.lights.len()), (1, 1));
+    let (_, rows) = page.split_once("| a line | what is said |\n|---|---|\n").unwrap();
+    let rows: Vec<_> = rows.lines().take_while(|line| line.starts_with('|')).collect();
+    for row in &rows {
+        let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [line, told] = cells[..] else { panic!("{row}") };
+        let code = |cell: &str| match cell.strip_prefix("`` ") {
+            Some(rest) => rest.trim_end_matches(" ``").to_owned(),
+            None => cell.trim_matches('`').to_owned(),
+        };
+        let (line, told) = (code(line), code(told));
+        let key = line.split_once('=').unwrap().0;
+        let same = |old: &&str| old.starts_with(key);
+        let text = match example.lines().find(same) {
+            Some(old) => example.replace(old, &line),
+            None => format!("{example}{line}\n"),
+        };
+        assert_eq!(opened(&text).err().as_deref(), Some(&*told), "{line}");
+    }
+    assert!(rows.len() > 6, "{rows:?}");
 }
 
 #[test]

@@ -106,6 +106,31 @@ fn every_fault_is_named_with_its_line() {
 }
 
 #[test]
+fn what_has_moved_leads_on() {
+    let folder = book("# One\n");
+    let moved = |text: &str| fs::write(folder.path().join("docs/moved.toml"), text).unwrap();
+    moved("# so\n\"one.md#old\" = \"two.md#a-place\"\n\"gone.md\" = \"two.md\"\n");
+    let html = built(folder.path()).unwrap();
+    assert!(html.contains(r##"{"#old":"two.html#a-place"}"##), "{html}");
+    let gone = fs::read_to_string(folder.path().join("book/gone.html")).unwrap();
+    assert!(gone.contains("two.html"), "{gone}");
+    fs::remove_dir_all(folder.path().join("book")).unwrap();
+    for (text, fault) in [
+        ("\"one.md#old\" = \"two.md#nowhere\"", "1: the link leads to 'two.html#nowhere', and"),
+        ("\"one.md#old\" = \"three.md\"", "1: 'three.md' is no page of the book; correct it"),
+        ("\"one.md\" = \"two.md\"", "1: 'one.md' has not moved: it is a page of the book"),
+        ("\n\"one.md#one\" = \"two.md\"", "2: 'one.html' still has a place 'one'; take this line"),
+        ("\"one#old\" = \"two.md\"", "1: 'one#old' is no place of a page; correct it"),
+        ("one = two", "1: "),
+    ] {
+        moved(text);
+        let error = built(folder.path()).unwrap_err();
+        assert!(error.starts_with(&format!("docs/moved.toml:{fault}")), "{text}: {error}");
+        assert_eq!(error.lines().count(), 1, "{error}");
+    }
+}
+
+#[test]
 fn all_faults_are_named_at_once() {
     let error = built(book("# One\n\n$\\a$ [a](b.md)\n\n![A](c.png)\n").path()).unwrap_err();
     assert_eq!(error.lines().count(), 3, "{error}");

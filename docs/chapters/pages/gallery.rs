@@ -9,6 +9,7 @@ const COLUMNS: usize = 3;
 const BEFORE: &[(&str, &str)] =
     &[("reading.md", "How to read this book"), ("from-raster.md", "From raster to rays")];
 const AFTER: &[(&str, &str)] = &[
+    ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
