@@ -6,6 +6,7 @@
 mod calls;
 mod lens;
 mod lights;
+mod map;
 mod march;
 mod rays;
 mod shapes;
@@ -30,6 +31,7 @@ const DRAWINGS: &[Drawing] = &[
     ("footprint", rays::footprint),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),
+    ("map", map::chapters),
     ("refit", structures::refit),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),

@@ -72,7 +72,12 @@ impl Sheet {
         self.write(at, anchor, &format!(" fill=\"{SOFT}\""), text);
     }
 
-    /// A line of text in bold.
+    /// A line of text in bold, no larger than others.
+    pub fn strong(&mut self, at: Point, anchor: Anchor, text: &str) {
+        self.write(at, anchor, " font-weight=\"bold\"", text);
+    }
+
+    /// A heading in bold.
     pub fn title(&mut self, at: Point, anchor: Anchor, text: &str) {
         self.write(at, anchor, " font-size=\"14\" font-weight=\"bold\"", text);
     }

@@ -34,6 +34,8 @@ pub enum Kind {
     Controls,
     /// Every chapter's picture, title and line: `gallery`.
     Gallery,
+    /// The ways through the book, or who comes from whom: `map ways`, `map chapters`.
+    Map,
     /// Every report card that was sent in: `devices`.
     Devices,
     /// Every classic mistake, shown: `mistakes`.
@@ -44,11 +46,12 @@ pub enum Kind {
 
 impl Kind {
     /// Each with the word in its marker, what a reader would call it, and the marker's form.
-    const ALL: [(Self, &str, &str, &str); 7] = [
+    const ALL: [(Self, &str, &str, &str); 8] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
         (Self::Controls, "controls", "table of controls", "NN_name -->"),
         (Self::Gallery, "gallery", "gallery", "-->"),
+        (Self::Map, "map", "part of the map", "ways -->, or chapters"),
         (Self::Devices, "devices", "table of devices", "-->"),
         (Self::Mistakes, "mistakes", "gallery of mistakes", "-->"),
         (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),

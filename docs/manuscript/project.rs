@@ -63,6 +63,18 @@ impl Chapter {
     }
 }
 
+/// A way through the book.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Way {
+    /// Its title, in a word.
+    pub title: String,
+    /// What it gives, in a line.
+    pub gives: String,
+    /// The numbers of its chapters, in order.
+    pub chapters: Vec<String>,
+}
+
 /// A `[[bin]]` or `[[test]]`.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Target {
@@ -95,6 +107,8 @@ pub struct Project {
     pub chapters: Vec<Chapter>,
     /// The titles of the parts, in order; none if the book has no parts.
     pub parts: Vec<String>,
+    /// The ways through the book.
+    pub ways: Vec<Way>,
     /// The root modules of other packages' libraries, from the project's root.
     pub libs: Vec<String>,
     /// The programs of all packages.
@@ -118,8 +132,18 @@ impl Project {
             Fault::new("Cargo.toml", before.matches('\n').count() + 1, what, "correct it").error()
         })?;
         let named = |(name, chapter)| Chapter { name, ..chapter };
-        let Metadata { parts, chapters } = read.package.metadata;
-        let chapters = chapters.into_iter().map(named).collect();
+        let Metadata { parts, ways, chapters } = read.package.metadata;
+        let chapters: Vec<Chapter> = chapters.into_iter().map(named).collect();
+        for Way { title, chapters: numbers, .. } in &ways {
+            let known =
+                |number: &&String| chapters.iter().any(|chapter| chapter.number() == **number);
+            if let Some(number) = numbers.iter().find(|number| !known(number)) {
+                let line = manifest.lines().position(|line| line.starts_with("ways")).unwrap_or(0);
+                let what = format!("there is no chapter '{number}' on the way '{title}'");
+                let remedy = "name chapters by their numbers, such as \"02\"";
+                return Err(Fault::new("Cargo.toml", line + 1, what, remedy).error());
+            }
+        }
         let (mut libs, mut bins, mut tests) = (Vec::new(), read.bin, read.test);
         for member in read.workspace.members.iter().filter(|member| *member != ".") {
             let manifest = self::read(&root.join(member).join("Cargo.toml"))?;
@@ -135,6 +159,7 @@ impl Project {
             manifest,
             chapters,
             parts,
+            ways,
             libs,
             bins,
             tests,
@@ -195,6 +220,23 @@ impl Project {
         parts.push((String::new(), others));
         parts.retain(|(_, chapters)| !chapters.is_empty());
         parts
+    }
+
+    /// Every chapter below the one that it builds on, in the order of the book, each with the number of those that
+    /// it descends from.
+    pub fn tree(&self) -> Vec<(usize, &Chapter)> {
+        let parted = self.parted();
+        let ordered = || parted.iter().flat_map(|(_, chapters)| chapters).rev();
+        let parent = |chapter: &Chapter| chapter.from.as_deref().and_then(|from| self.named(from));
+        let roots = ordered().filter(|chapter| parent(chapter).is_none());
+        let mut next: Vec<(usize, &Chapter)> = roots.map(|&chapter| (0, chapter)).collect();
+        let mut tree = Vec::new();
+        while let Some((depth, chapter)) = next.pop() {
+            tree.push((depth, chapter));
+            let children = ordered().filter(|child| parent(child) == Some(chapter));
+            next.extend(children.map(|&child| (depth + 1, child)));
+        }
+        tree
     }
 
     /// The text of a file, its lines ended by `\n` alone.
@@ -320,6 +362,8 @@ struct Package {
 struct Metadata {
     #[serde(default)]
     parts: Vec<String>,
+    #[serde(default)]
+    ways: Vec<Way>,
     #[serde(default)]
     chapters: BTreeMap<String, Chapter>,
 }

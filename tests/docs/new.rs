@@ -153,6 +153,32 @@ fn parts_of_the_book_head_the_list_the_gallery_and_the_contents() {
 }
 
 #[test]
+fn the_map_has_every_chapter_below_its_parent_and_the_ways() {
+    let fixture = Fixture::new();
+    let first = "[package.metadata.chapters.01_one]";
+    let way = |number: &str| {
+        format!("[{{ title = \"Far\", gives = \"much\", chapters = [\"02\", \"{number}\"] }}]")
+    };
+    let metadata = format!("[package.metadata]\nways = {}\n\n{first}", way("09"));
+    fixture.replace("Cargo.toml", first, &metadata);
+    let refused = "Cargo.toml:22: there is no chapter '09' on the way 'Far'; name chapters by";
+    let outcome = fixture.run(&["check"]);
+    assert!(outcome.code > 0 && outcome.err.contains(refused), "{}", outcome.err);
+    fixture.replace("Cargo.toml", &way("09"), &way("01"));
+    let map = "# Map\n\n<!-- map ways -->\n<!-- /map -->\n\n<!-- map chapters -->\n<!-- /map -->\n";
+    fixture.write("docs/map.md", map);
+    assert!(
+        fixture.check().contains("docs/map.md:4: this part of the map is not what Cargo.toml says")
+    );
+    assert_eq!(fixture.run(&["sync"]).code, 0);
+    let (one, two) = ("[01 · One](01_one.md)", "[02 · Basic](02_basic.md)");
+    let map = fixture.read("docs/map.md");
+    assert!(map.contains(&format!("| **Far** | {two}, {one} | much |\n")), "{map}");
+    let tree = format!("- {one}: the first thing\n  - {two}: the second thing\n<!-- /map -->");
+    assert!(map.contains(&tree), "{map}");
+}
+
+#[test]
 fn a_chapter_that_cannot_be_is_refused_and_nothing_is_written() {
     let fixture = Fixture::new();
     for (arguments, words) in [

@@ -8,7 +8,7 @@ use manuscript::project::Project;
 use manuscript::shader;
 use similar::{DiffOp, group_diff_ops};
 
-use super::gallery;
+use super::{gallery, map};
 use crate::exercises::exercise;
 use crate::mistakes::mistake;
 use crate::programs::program::{BUILD, Programs};
@@ -58,6 +58,8 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
         (Kind::Gallery, []) => {
             Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
         }
+        (Kind::Map, ["ways"]) => Ok((map::ways(programs.project), "Cargo.toml".to_owned())),
+        (Kind::Map, ["chapters"]) => Ok((map::chapters(programs.project), "Cargo.toml".to_owned())),
         (kind, _) => {
             let what = format!("<!-- {} {} --> is no marker", kind.word(), words.join(" "));
             Err(wrong(what, &format!("write {}", kind.form())))

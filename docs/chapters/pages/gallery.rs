@@ -6,8 +6,11 @@ use manuscript::project::{Chapter, Project};
 const COLUMNS: usize = 3;
 
 /// Pages beside the chapters, with their titles: before them, and after.
-const BEFORE: &[(&str, &str)] =
-    &[("reading.md", "How to read this book"), ("from-raster.md", "From raster to rays")];
+const BEFORE: &[(&str, &str)] = &[
+    ("reading.md", "How to read this book"),
+    ("map.md", "The map"),
+    ("from-raster.md", "From raster to rays"),
+];
 const AFTER: &[(&str, &str)] = &[
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),

@@ -8,6 +8,7 @@ pub mod chapter_files;
 pub mod exercise_list;
 pub mod gallery;
 pub mod glossary;
+pub mod map;
 pub mod markdown;
 pub mod mention;
 pub mod placeholder;
