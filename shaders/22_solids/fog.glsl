@@ -2,6 +2,23 @@
 //
 // For shaders that have included solid.glsl.
 
+// ANCHOR: way
+// What part of the way from 0 to `end` lies in a solid, and within its clip.
+float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
+    Interval clip = in_clip(solid, o, d);
+    float t = max(clip.enter, 0.0);
+    end = min(clip.leave, end);
+    follow(solid, o, d, t, end);
+    float way = 0.0;
+    while (t < end) {
+        float next = min(change_after(t), end);
+        way += holds(solid, members_after(t)) ? next - t : 0.0;
+        t = next;
+    }
+    return way;
+}
+// ANCHOR_END: way
+
 // ANCHOR: outside
 // How far a ray goes outside of all solids, up to where it ends.
 //
