@@ -1,7 +1,7 @@
 //! 04 · Jitter camera: many rays a pixel, one a frame, each through another point of it.
 //!
-//! New since 02_basic: the sequence that places the rays, the filter that weighs the pixel's
-//! neighbourhood, and an image that keeps the mean of all frames since anything changed.
+//! New since 02_basic: a random place for each ray, the filter that weighs the pixel's neighbourhood, and an
+//! image that keeps the mean of all frames since anything changed.
 
 use std::process::ExitCode;
 
@@ -29,10 +29,8 @@ struct Demo {
     camera: Camera,
     sun: Sun,
     show: Show,
-    sequence: Sequence,
-    scrambling: Scrambling,
+    jitter: bool,
     filter: Filter,
-    seed: u32,
     accumulate: bool,
     means: Image,
     offsets: Buffer,
@@ -41,10 +39,6 @@ struct Demo {
 common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
-    /// What places the rays in their pixels.
-    enum Sequence: SEQUENCE { Centre, Random, Halton = "Halton", R2 = "R2", Sobol = "Sobol" }
-    /// What makes the pixels' sequences differ.
-    enum Scrambling: SCRAMBLING { None, Rotation, Owen = "Owen" }
     /// What weighs a pixel's neighbourhood.
     enum Filter: FILTER { Box, Tent, BlackmanHarris = "Blackman-Harris" }
 }
@@ -55,10 +49,8 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        sequence: Number<Sequence>,
-        scrambling: Number<Scrambling>,
+        jitter: u32,
         pixel_filter: Number<Filter>,
-        seed: u32,
         frame: u32,
         accumulated: u32,
     }
@@ -79,10 +71,8 @@ impl Sample for Demo {
             camera,
             sun: Sun::default(),
             show: Show::Picture,
-            sequence: Sequence::Sobol,
-            scrambling: Scrambling::Owen,
+            jitter: true,
             filter: Filter::BlackmanHarris,
-            seed: 0,
             accumulate: true,
             means: Image::storage(gpu, "means", vk::Extent2D { width: 1, height: 1 })?,
             offsets: offsets(gpu)?,
@@ -92,10 +82,8 @@ impl Sample for Demo {
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
-        c.choice("sequence", &mut self.sequence);
-        c.choice("scrambling", &mut self.scrambling);
+        c.checkbox("jitter", &mut self.jitter);
         c.choice("filter", &mut self.filter);
-        c.integer("seed", &mut self.seed, 0..=1000);
         c.checkbox("accumulate", &mut self.accumulate);
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
@@ -115,10 +103,8 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            sequence: self.sequence.into(),
-            scrambling: self.scrambling.into(),
+            jitter: self.jitter.into(),
             pixel_filter: self.filter.into(),
-            seed: self.seed,
             frame: frame.index,
             accumulated: if self.accumulates() { frame.accumulated } else { 0 },
         };

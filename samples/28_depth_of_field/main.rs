@@ -1,6 +1,6 @@
 //! 28 · Depth of field: rays start all over a lens, and what is not in the plane in focus is blurred.
 //!
-//! New since 04_jitter_camera: the lens and its blades, a place on it for every ray, and a direction that
+//! New since 37_sequences: the lens and its blades, a place on it for every ray, and a direction that
 //! keeps its digits far from the origin.
 
 mod lamps;
@@ -96,7 +96,7 @@ impl Sample for Demo {
             lens: ThinLens::focused_on_target(&camera),
             sequence: Sequence::Sobol,
             scrambling: Scrambling::Owen,
-            // Narrower than 04's default: what is in focus is sharper.
+            // Narrower than 37's default: what is in focus is sharper.
             filter: Filter::Tent,
             seed: 0,
             accumulate: true,

@@ -8,11 +8,9 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     DirectionalLight light;
-    uint sequence;
-    uint scrambling;
+    uint jitter;          // 1, or 0 for rays through the pixels' middles
     uint pixel_filter;
-    uint seed;
-    uint frame;           // since anything changed: which point of the sequence
+    uint frame;           // since anything changed
     uint accumulated;     // how many frames are in the mean
 } push;
 

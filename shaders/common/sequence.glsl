@@ -1,4 +1,4 @@
-// Taught by 04_jitter_camera.
+// Taught by 37_sequences.
 //
 // Points of the unit square, one a frame.
 //

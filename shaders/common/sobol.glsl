@@ -1,4 +1,4 @@
-// Taught by 04_jitter_camera.
+// Taught by 37_sequences.
 //
 // Sobol's points of the unit square, and Owen's scrambling of them: whole numbers of 2^-32.
 #include "common/random.glsl"

@@ -5,9 +5,9 @@ mod circle;
 mod focus;
 mod mean;
 mod plots;
-#[allow(dead_code, reason = "04 has other sequences, too")]
-#[expect(clippy::duplicate_mod, reason = "to 04 it is a part of its own")]
-#[path = "jitter_camera/points.rs"]
+#[allow(dead_code, reason = "37 has other sequences, too")]
+#[expect(clippy::duplicate_mod, reason = "to 37 it is a part of its own")]
+#[path = "sequences/points.rs"]
 mod points;
 
 use common::app::Picture;
@@ -46,14 +46,14 @@ fn the_picture_is_the_golden_one_and_repeats() {
 }
 
 #[test]
-fn a_lens_of_size_0_gives_the_picture_of_04() {
+fn a_lens_of_size_0_gives_the_picture_of_37() {
     let both = ["camera eye=3,4,7", "camera target=0,0.5,0", "seed=5"];
     let pinhole = |more: &[&'static str], frames: &[&str]| {
         let sets = [&both[..], &["filter=tent"], more].concat();
         let sets = sets.iter().flat_map(|set| ["--set", *set]);
         let arguments: Vec<_> =
             MODEL.into_iter().chain(frames.iter().copied()).chain(sets).collect();
-        render("04_jitter_camera", SIZE, &arguments).picture
+        render("37_sequences", SIZE, &arguments).picture
     };
     let lens = |more: &[&'static str], frames: &[&str]| {
         let sets = [&both[..], &["lens diameter=0"], more].concat();

@@ -28,7 +28,7 @@ struct Equality {
 const EQUALITIES: [Equality; 12] = [
     Equality {
         what: "04 through pixels' centres = 02",
-        one: ("04_jitter_camera", &["sequence=centre"]),
+        one: ("04_jitter_camera", &["jitter=off"]),
         other: ("02_basic", &[]),
         shows_answers: false,
         is_quick: true,
@@ -48,13 +48,13 @@ const EQUALITIES: [Equality; 12] = [
         is_quick: false,
     },
     Equality {
-        what: "28 with a lens of size 0 = 04",
+        what: "28 with a lens of size 0 = 37",
         one: (
             "28_depth_of_field",
             &[CHESS, "camera eye=3,4,7", "camera target=0,0.5,0", "lens diameter=0"],
         ),
         other: (
-            "04_jitter_camera",
+            "37_sequences",
             &[CHESS, "camera eye=3,4,7", "camera target=0,0.5,0", "filter=tent"],
         ),
         shows_answers: false,

@@ -1,23 +1,22 @@
 //! 04_jitter_camera: where the rays go, what the filters weigh, and that the mean is and stays right.
 
-mod converging;
 mod mean;
 mod plots;
-mod points;
 
 use common::app::Picture;
 use common::scene::Scene;
 use glam::DVec3;
-use serde_json::json;
 
-use self::points::{Scrambling, Sequence, sample_point};
+use crate::sequences::points::hash;
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{bits, figures, golden, render, same_colors};
+use run::{bits, golden, render, same_colors};
 
 const NAME: &str = "04_jitter_camera";
 const SIZE: &str = "240x150";
 /// Enough pixels for many points, few enough for many frames.
 const SMALL: &str = "64x40";
+/// What a random number is for: the place within the pixel. As in `shaders/common/random.glsl`.
+const DIMENSION_PIXEL: u32 = 1;
 
 fn run(size: &str, frames: u32, settings: &[&str]) -> Picture {
     let frames = frames.to_string();
@@ -27,14 +26,14 @@ fn run(size: &str, frames: u32, settings: &[&str]) -> Picture {
 }
 
 /// The root of the mean squared difference, over all pixels and colours.
-fn error(a: &Picture, b: &Picture) -> f64 {
+pub fn error(a: &Picture, b: &Picture) -> f64 {
     let pairs = || a.pixels.iter().zip(&b.pixels);
     let squares = pairs().flat_map(|(a, b)| [0, 1, 2].map(|i| f64::from(a[i] - b[i]).powi(2)));
     (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
 }
 
 /// How far from its pixel's middle each ray passes, in pixels, from the directions that the GPU wrote.
-fn offsets(directions: &Picture) -> Vec<[f64; 2]> {
+pub fn offsets(directions: &Picture) -> Vec<[f64; 2]> {
     let (width, height) = (f64::from(directions.width), f64::from(directions.height));
     let camera = Scene::chess().unwrap().camera.basis(width / height);
     let [right, up, forward] =
@@ -70,110 +69,54 @@ fn rays_through_the_centre_give_the_picture_of_02() {
     let basic = render("02_basic", SIZE, &[]).picture;
     // The mean of equal colours is that colour, to the bit, whatever the filter.
     for filter in ["box", "tent", "Blackman-Harris"] {
-        let picture = run(SIZE, 3, &["sequence=centre", &format!("filter={filter}")]);
+        let picture = run(SIZE, 3, &["jitter=off", &format!("filter={filter}")]);
         same_colors(&format!("04 and 02, {filter}"), NAME, &picture, &basic);
     }
 }
 
 #[test]
-fn the_points_are_those_of_the_literature() {
-    let cases = [
-        (Sequence::Random, "random", Scrambling::Owen, "Owen"),
-        (Sequence::Halton, "Halton", Scrambling::Rotation, "rotation"),
-        (Sequence::R2, "R2", Scrambling::Rotation, "rotation"),
-        (Sequence::Sobol, "Sobol", Scrambling::None, "none"),
-        (Sequence::Sobol, "Sobol", Scrambling::Owen, "Owen"),
-    ];
-    for (sequence, name, scrambling, scrambled) in cases {
-        for index in [1, 98] {
-            let settings = [
-                &format!("sequence={name}"),
-                &format!("scrambling={scrambled}"),
-                "filter=box",
-                "seed=7",
-                "show=ray direction",
-            ];
-            let directions = run(SMALL, index + 1, &settings);
-            for (i, offset) in offsets(&directions).into_iter().enumerate() {
-                let pixel = [i as u32 % directions.width, i as u32 / directions.width];
-                let point = sample_point(sequence, scrambling, pixel, 7, index);
-                // A direction of 24 bits tells the place in a picture of 64 columns to 2^-16 of one.
-                let most = [0, 1].map(|axis| (offset[axis] + 0.5 - point[axis]).abs());
-                let near = most.iter().all(|&error| error < 0.5f64.powi(16));
-                assert!(near, "{name} {scrambled} {index} at {pixel:?}: {offset:?} {point:?}");
-            }
+fn each_ray_goes_where_the_hash_says() {
+    for frame in [0, 98] {
+        let directions = run(SMALL, frame + 1, &["filter=box", "show=ray direction"]);
+        for (i, offset) in offsets(&directions).into_iter().enumerate() {
+            let [x, y] = [i as u32 % directions.width, i as u32 / directions.width];
+            let point = hash([x | y << 16, frame, 0, DIMENSION_PIXEL]);
+            // A direction of 24 bits tells the place in a picture of 64 columns to 2^-16 of one.
+            let is_near = |axis: usize| {
+                let place = f64::from(point[axis] >> 8) * 0.5f64.powi(24);
+                (offset[axis] + 0.5 - place).abs() < 0.5f64.powi(16)
+            };
+            assert!(is_near(0) && is_near(1), "frame {frame}, pixel {x},{y}: {offset:?} {point:?}");
         }
     }
 }
 
 #[test]
-fn each_box_of_a_scrambled_net_holds_one_point() {
-    for pixel in 0..50 {
-        let points = |count: u32| {
-            (0..count).map(move |i| {
-                sample_point(Sequence::Sobol, Scrambling::Owen, [pixel, 7 * pixel], 0, i)
-            })
-        };
-        for bits in 0..=10 {
-            for columns in 0..=bits {
-                let (columns, rows) = (1 << columns, 1 << (bits - columns));
-                let mut seen = vec![false; 1 << bits];
-                for [x, y] in points(1 << bits) {
-                    let (column, row) = (x * f64::from(columns), y * f64::from(rows));
-                    let cell = row as usize * columns as usize + column as usize;
-                    assert!(!seen[cell], "pixel {pixel}: two points in a box of {columns}×{rows}");
-                    seen[cell] = true;
-                }
-            }
-        }
-    }
+fn neighbours_and_frames_have_no_points_in_common() {
+    let frame = |index: u32| offsets(&run(SIZE, index + 1, &["filter=box", "show=ray direction"]));
+    let (points, next) = (frame(5), frame(6));
+    let correlation = |others: &[[f64; 2]], axis: usize| {
+        // The variance of a number that is uniform over a pixel is 1/12.
+        let pairs = points.iter().zip(others);
+        let count = pairs.len() as f64;
+        pairs.map(|(a, b)| 12.0 * a[axis] * b[axis]).sum::<f64>() / count
+    };
+    let neighbours = [1, 2, 240, 241, 480].map(|apart| &points[apart..]);
+    let all = neighbours.into_iter().chain([&next[..]]);
+    let most = all.flat_map(|others| [0, 1].map(|axis| correlation(others, axis).abs()));
+    let most = most.fold(0.0, f64::max);
+    println!("they correlate by {most:.3} at most");
+    assert!(most < 4.0 / (points.len() as f64).sqrt(), "{most}");
 }
 
 #[test]
-fn in_floats_the_multiples_of_r2_run_out_of_digits() {
-    let mut places: Vec<u32> =
-        (100_000..101_024).map(|i| (i as f32 * 0.754_877_7).fract().to_bits()).collect();
-    places.sort_unstable();
-    places.dedup();
-    println!("{} places of 1024 in floats", places.len());
-    assert!(places.len() <= 128);
-    let whole = |i: u32| i.wrapping_mul(3_242_174_889);
-    let error = |i: u32| (f64::from(whole(i)) * 0.5f64.powi(32) - points::r2(i)[0]).abs();
-    // The step is rounded to 2^-33, a hundred thousand times.
-    assert!((100_000..101_024).all(|i| error(i) < 101_024.0 * 0.5f64.powi(33)));
-}
-
-#[test]
-fn the_first_points_are_those_in_print() {
-    let first =
-        |sequence| (0..8).map(move |i| sample_point(sequence, Scrambling::None, [0, 0], 0, i));
-    let third = 1.0 / 3.0;
-    let ninth = third * third;
-    let halton = [
-        [0.0, 0.0],
-        [0.5, third],
-        [0.25, 2.0 * third],
-        [0.75, ninth],
-        [0.125, 4.0 * ninth],
-        [0.625, 7.0 * ninth],
-        [0.375, 2.0 * ninth],
-        [0.875, 5.0 * ninth],
-    ];
-    let sobol = [
-        [0.0, 0.0],
-        [0.5, 0.5],
-        [0.25, 0.75],
-        [0.75, 0.25],
-        [0.125, 0.625],
-        [0.625, 0.125],
-        [0.375, 0.375],
-        [0.875, 0.875],
-    ];
-    for (sequence, expected) in [(Sequence::Halton, halton), (Sequence::Sobol, sobol)] {
-        for (point, expected) in first(sequence).zip(expected) {
-            let near = [0, 1].iter().all(|&axis| (point[axis] - expected[axis]).abs() < 1e-15);
-            assert!(near, "{sequence:?}: {point:?}, not {expected:?}");
-        }
+fn four_times_the_samples_halve_the_error() {
+    // Other points, the same mean.
+    let reference = render("37_sequences", SMALL, &["--frames", "1024"]).picture;
+    let errors = [16, 64, 256].map(|frames| error(&run(SMALL, frames, &[]), &reference));
+    println!("{errors:.5?}");
+    for pair in errors.windows(2) {
+        assert!((1.7..2.4).contains(&(pair[0] / pair[1])), "{errors:?}");
     }
 }
 
@@ -246,52 +189,6 @@ fn offsets_are_spread_as_the_filter_says() {
         let square: f64 = offsets.iter().map(|[x, y]| x * x + y * y).sum::<f64>() / (2.0 * count);
         assert!((product / square).abs() < 4.0 / count.sqrt(), "{filter}: x and y are related");
     }
-}
-
-#[test]
-fn neighbours_have_their_points_in_common_only_without_scrambling() {
-    let points = |sequence: &str, scrambling: &str| {
-        let [sequence, scrambling] =
-            [format!("sequence={sequence}"), format!("scrambling={scrambling}")];
-        offsets(&run(SIZE, 6, &[&sequence, &scrambling, "filter=box", "show=ray direction"]))
-    };
-    // The directions tell an offset to 2^-14 of a pixel.
-    let shared = points("Sobol", "none");
-    let most =
-        |axis: usize| shared.iter().map(|p| (p[axis] - shared[0][axis]).abs()).fold(0.0, f64::max);
-    assert!(most(0).max(most(1)) < 0.5f64.powi(13), "{} {}", most(0), most(1));
-
-    for (sequence, scrambling) in [("random", "Owen"), ("R2", "rotation"), ("Sobol", "Owen")] {
-        let points = points(sequence, scrambling);
-        let correlation = |axis: usize, (column, row): (usize, usize)| {
-            // The variance of a number that is uniform over a pixel is 1/12.
-            let pairs = points.iter().zip(&points[row * 240 + column..]);
-            let count = pairs.len() as f64;
-            pairs.map(|(a, b)| 12.0 * a[axis] * b[axis]).sum::<f64>() / count
-        };
-        let near = [(1, 0), (0, 1), (1, 1), (2, 0), (0, 2)];
-        let all = near.iter().flat_map(|&place| [0, 1].map(|axis| correlation(axis, place).abs()));
-        let most = all.fold(0.0, f64::max);
-        println!("{sequence}: neighbours correlate by {most:.3} at most");
-        assert!(most < 4.0 / (points.len() as f64).sqrt(), "{sequence}: {most}");
-    }
-}
-
-/// The page says of a key that is not reversed: its low bits, which are related, decide first.
-#[test]
-fn keys_that_are_not_reversed_relate_the_first_points_of_neighbours() {
-    let naive = |key: u32| f64::from(points::owen(0, key.reverse_bits())) * 0.5f64.powi(32) - 0.5;
-    let at = |x: u32, y: u32, axis: usize| naive(points::hash([x, y, 0, 1])[axis]);
-    let correlation = |axis: usize, (dx, dy): (u32, u32)| {
-        let places = (0..150).flat_map(|y| (0..240).map(move |x| (x, y)));
-        let products = places.map(|(x, y)| 12.0 * at(x, y, axis) * at(x + dx, y + dy, axis));
-        products.sum::<f64>() / (240.0 * 150.0)
-    };
-    let near = [(1, 0), (0, 1), (1, 1), (2, 0), (0, 2)];
-    let all = near.iter().flat_map(|&place| [0, 1].map(|axis| correlation(axis, place).abs()));
-    let most = all.fold(0.0, f64::max);
-    println!("{most:.2}");
-    figures::hold_exact("04_jitter_camera/neighbours", json!({ "correlation": most }));
 }
 
 #[test]

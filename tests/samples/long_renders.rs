@@ -115,7 +115,7 @@ fn a_render_cut_two_and_seven_ways_is_the_render_in_one_piece() {
 /// A sample must follow from its number alone, in every chapter that gathers.
 #[test]
 fn so_it_is_in_every_chapter_that_gathers() {
-    for chapter in ["11_path_tracing", "27_glass", "28_depth_of_field"] {
+    for chapter in ["11_path_tracing", "27_glass", "28_depth_of_field", "37_sequences"] {
         let parts = Parts::of(chapter);
         let whole = parts.whole(7);
         let files = ["4..7", "0..1", "1..4"].map(|samples| parts.done(samples, samples));
@@ -256,7 +256,7 @@ fn the_picture_is_the_mean_rounded_once() {
 
 #[test]
 fn rays_through_the_centre_give_the_picture_of_02() {
-    let settings = ["--samples", "5..12", "--set", "sequence=centre"];
+    let settings = ["--samples", "5..12", "--set", "jitter=off"];
     let mean = render(NAME, "24x16", &settings).picture;
     assert_eq!(bits(&mean), bits(&render("02_basic", "24x16", &[]).picture));
 }
@@ -363,8 +363,9 @@ fn what_does_not_fit_is_refused_by_name() {
     let resume = ["--samples", "0..4", "--out", "never.exr", "--resume", name];
     let with = |more: &[&'static str]| [&resume, more].concat();
     refused(&with(&[]), 1, &["does not fit: the size is 24x16 in it and 960x600 here"]);
-    let seed = with(&["--size", "24x16", "--set", "seed=1"]);
-    refused(&seed, 1, &["part does not fit: 'seed' is '0' in it and '1' here"]);
+    let filter = with(&["--size", "24x16", "--set", "filter=box"]);
+    let other = "part does not fit: 'filter' is 'Blackman-Harris' in it and 'box' here";
+    refused(&filter, 1, &[other]);
     let scene = with(&["--size", "24x16", "--scene", "samples/assets/chess.obj"]);
     refused(&scene, 1, &["'camera eye' is '-5.6,4.8,9.2' in it"]);
     // Another scene has another camera, too, but that is not what is wrong.

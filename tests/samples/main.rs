@@ -23,6 +23,7 @@ mod position_fetch;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;
+mod sequences;
 mod settings;
 mod shadow_miss;
 mod slivers;

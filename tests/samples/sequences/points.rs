@@ -1,4 +1,4 @@
-//! The points that 04_jitter_camera should draw, each made from its definition in the literature.
+//! The points that 37_sequences should draw, each made from its definition in the literature.
 //!
 //! The shader works with whole numbers of 2^-32; this copy works with fractions in f64, and uses whole
 //! numbers only where the definition is one of bits: the hash, and Owen's scrambling by it.

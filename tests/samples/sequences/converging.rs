@@ -37,7 +37,7 @@ fn every_sequence_converges_to_one_picture_and_the_even_ones_sooner() {
 }
 
 #[test]
-#[ignore = "nightly: many frames; quick: jitter_camera::neighbours_have_their_points_in_common_only_without_scrambling"]
+#[ignore = "nightly: many frames; quick: sequences::neighbours_have_their_points_in_common_only_without_scrambling"]
 fn errors_of_scrambled_pixels_cancel_and_shared_ones_do_not() {
     let reference = run(SIZE, 256, &["seed=1", "filter=box"]);
     let blocks = |scrambling: &str| {

@@ -1,0 +1,24 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/false_color.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    DirectionalLight light;
+    uint sequence;
+    uint scrambling;
+    uint pixel_filter;
+    uint seed;
+    uint frame;           // since anything changed: which point of the sequence
+    uint accumulated;     // how many frames are in the mean
+} push;
+
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_TRIANGLE = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
