@@ -11,6 +11,7 @@ mod march;
 mod rays;
 mod shapes;
 mod sheet;
+mod squares;
 mod structures;
 mod table;
 
@@ -31,12 +32,14 @@ const DRAWINGS: &[Drawing] = &[
     ("footprint", rays::footprint),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),
+    ("owen_scrambling", squares::scrambling),
     ("map", map::chapters),
     ("refit", structures::refit),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),
     ("slabs", shapes::slabs),
     ("solid_angles", lights::solid_angles),
+    ("sobol_boxes", squares::boxes),
     ("solid_intervals", shapes::intervals),
     ("table_of_foundation", table::chapter_01),
     ("thin_lens", lens::thin_lens),

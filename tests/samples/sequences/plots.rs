@@ -31,6 +31,21 @@ fn points() {
 }
 
 #[test]
+#[ignore = "by hand: draws docs/images/37_samples.png"]
+fn samples() {
+    let pictures =
+        [(4, "random"), (4, "Sobol"), (16, "random"), (16, "Sobol")].map(|(frames, sequence)| {
+            let picture = run("960x600", frames, &[&format!("sequence={sequence}"), "filter=box"]);
+            (format!("{frames} points: {sequence}"), picture)
+        });
+    let rows = [[671, 223, 60, 60], [341, 108, 60, 60]].map(|area| {
+        let shown = |(label, picture)| Shown { label: String::clone(label), picture, area };
+        pictures.iter().map(|(label, picture)| shown((label, picture))).collect()
+    });
+    draw_panels("37_samples.png", 4, &rows);
+}
+
+#[test]
 #[ignore = "by hand: draws docs/images/37_scrambling.png"]
 fn scrambling() {
     const SIZE: &str = "480x300";
