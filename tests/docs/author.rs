@@ -133,9 +133,15 @@ fn parts_of_a_chapter_that_do_not_agree_are_named() {
             "; write it",
         ),
         (
-            "a chapter on a later one",
+            "a chapter on none",
             |f| f.replace("Cargo.toml", "from = \"01_one\"", "from = \"03_three\""),
-            "Cargo.toml:25: '02_basic' builds on '03_three', which is no earlier chapter",
+            "Cargo.toml:25: '02_basic' builds on '03_three', which is no chapter or builds on it",
+            "; correct its `from`",
+        ),
+        (
+            "a chapter on itself",
+            |f| f.replace("Cargo.toml", "from = \"01_one\"", "from = \"02_basic\""),
+            "Cargo.toml:25: '02_basic' builds on '02_basic', which is no chapter or builds on it",
             "; correct its `from`",
         ),
         (

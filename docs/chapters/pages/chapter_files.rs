@@ -49,12 +49,22 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
         faults.push(fault(what, &titles));
     }
     if let Some(from) = &chapter.from
-        && !before.iter().any(|other| other.name == *from)
+        && !leads_to_a_first(project, chapter)
     {
-        let what = format!("'{name}' builds on '{from}', which is no earlier chapter");
+        let what = format!("'{name}' builds on '{from}', which is no chapter or builds on it");
         faults.push(fault(what, "correct its `from`"));
     }
     faults
+}
+
+/// Whether who follows each chapter's parent comes to one that has none. A parent may have the larger number.
+fn leads_to_a_first(project: &Project, chapter: &Chapter) -> bool {
+    let mut at = Some(chapter);
+    for _ in &project.chapters {
+        let Some(Chapter { from: Some(from), .. }) = at else { break };
+        at = project.chapters.iter().find(|other| other.name == *from);
+    }
+    at.is_some_and(|first| first.from.is_none())
 }
 
 /// The program, its folder, shaders, page, test and golden.
