@@ -115,7 +115,7 @@ fn a_package_that_cargo_test_leaves_out_is_named_beside_what_it_makes_stale() {
 
 #[test]
 fn parts_of_a_chapter_that_do_not_agree_are_named() {
-    let cases: [Case; 5] = [
+    let cases: [Case; 6] = [
         (
             "a golden lost",
             |f| f.remove("tests/golden/02_basic.png"),

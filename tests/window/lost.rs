@@ -16,6 +16,9 @@ struct Losing {
     _layer: Layer,
 }
 
+/// How a sample is opened: with arguments and environment.
+type Open = fn(&str, &[&str], &[(&str, &Path)]) -> Desk;
+
 impl Losing {
     fn open(name: &str, more: &[&str], function: &str) -> Self {
         Self::by(Desk::open, false, name, more, function)
@@ -26,13 +29,7 @@ impl Losing {
         Self::by(Desk::begin, true, name, more, function)
     }
 
-    fn by(
-        open: fn(&str, &[&str], &[(&str, &Path)]) -> Desk,
-        at_once: bool,
-        name: &str,
-        more: &[&str],
-        function: &str,
-    ) -> Self {
+    fn by(open: Open, at_once: bool, name: &str, more: &[&str], function: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [fault, calls] = ["fault", "calls"].map(|name| folder.path().join(name));
         if at_once {
