@@ -6,7 +6,7 @@ use ash::vk;
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
-use crate::gpu::{GpuOptions, Requirements};
+use crate::gpu::{GpuOptions, Requirements, named_device};
 use crate::output;
 use crate::usage::Usage;
 
@@ -97,6 +97,7 @@ impl Args {
         let command = More::augment_args(command).about(about);
         let matches = command.try_get_matches().and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
+            args.device = args.device.or_else(|| named_device().map(str::to_owned));
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
             Ok((args, More::from_arg_matches(&matches)?))
         });

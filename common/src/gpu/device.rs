@@ -208,7 +208,7 @@ pub fn require_presentation(
 
 /// A part of a device's name that `GPU` in the environment asks for, as `--device` does; `GPU=1`, with which
 /// tests ask for the best device, names none.
-pub(super) fn named() -> Option<&'static str> {
+pub fn named() -> Option<&'static str> {
     static NAMED: LazyLock<Option<String>> =
         LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0", "1"].contains(&&**gpu)));
     NAMED.as_deref()

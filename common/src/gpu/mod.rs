@@ -40,7 +40,7 @@ pub use accel::{AccelerationStructure, BuildOptions};
 pub use blueprint::{Attachments, Binding, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use context::{Gpu, GpuContext, GpuOptions};
-pub use device::device_lines;
+pub use device::{device_lines, named as named_device};
 pub use emulation::{Emulation, Plain};
 pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
 pub use executable::Executable;
