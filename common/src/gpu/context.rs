@@ -5,7 +5,7 @@
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
 use std::ffi::CString;
-use std::mem::ManuallyDrop;
+use std::mem::{self, ManuallyDrop};
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -130,8 +130,15 @@ impl Gpu {
         if chosen.software {
             threads::ensure_threads()?;
         }
+        let device = match device::create(&vulkan.instance, &chosen) {
+            Ok(device) => device,
+            Err(error) => {
+                // A loader that runs out of memory there keeps its lock (1.3.239), and would wait for it for ever.
+                mem::forget(vulkan);
+                return Err(error);
+            }
+        };
         let instance = &vulkan.instance;
-        let device = device::create(instance, &chosen)?;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(chosen.queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
