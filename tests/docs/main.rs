@@ -98,7 +98,11 @@ fn a_program_that_is_not_built_is_named_with_its_cure() {
     let lonely = apart.path().join("alone").with_extension(std::env::consts::EXE_EXTENSION);
     fs::hard_link(tool, &lonely).expect("another name of the tool");
     let run = || run(Command::new(&lonely).arg("check").arg("--root").arg(fixture.path("")));
-    let check = || run().out;
+    let check = || {
+        let outcome = run();
+        assert_eq!(outcome.code, 1, "{}", outcome.err);
+        outcome.out
+    };
     let (unbuilt, build) = ("the program '02_basic' is not built", "run: cargo build --bins");
     assert_eq!(check(), format!("Cargo.toml:1: {unbuilt}; {build}\n"));
     // Whether it takes arguments of its own, only the program knows; all that are missing are one line.
