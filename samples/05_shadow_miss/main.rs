@@ -1,8 +1,8 @@
 //! 05 · Shadow miss: a second miss shader answers one question, "does this ray reach the light?".
 //!
 //! New since 02_basic: the miss shader `shadow.rmiss` with a payload of one bool, the ray flags of a
-//! shadow ray, an origin that its own surface cannot shadow, point lights, and soft shadows. The hit
-//! shader reports what was met, and the raygen shader traces every ray.
+//! shadow ray, and an origin that its own surface cannot shadow. The hit shader reports what was met, and the
+//! raygen shader traces every ray.
 
 use std::process::ExitCode;
 
@@ -11,9 +11,9 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
@@ -22,10 +22,10 @@ fn main() -> ExitCode {
 
 struct Demo {
     scene: SceneOnGpu,
-    pipelines: Variants<Constants>,
+    pipelines: Variants<Show>,
     camera: Camera,
-    lighting: Lighting,
-    constants: Constants,
+    sun: Sun,
+    show: Show,
 }
 
 common::shader_enum! {
@@ -35,20 +35,12 @@ common::shader_enum! {
     }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
-#[derive(Clone, Copy, PartialEq)]
-struct Constants {
-    show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
-}
-
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        light: Light,
+        light: DirectionalLight,
     }
 }
 
@@ -66,21 +58,15 @@ impl Sample for Demo {
             scene,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
-            constants: Constants {
-                show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
-            },
+            sun,
+            show: Show::Picture,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.choice("show", &mut self.show);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -90,14 +76,14 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: self.lighting.shader(),
+            light: self.sun.light(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
@@ -107,19 +93,13 @@ impl Sample for Demo {
 
 // ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
-fn pipeline(
-    gpu: &Gpu,
-    textures: &TextureTable,
-    constants: Constants,
-) -> Result<RayTracingPipeline> {
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
+        .constant(0, show)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -13,7 +13,7 @@ use common::gpu::{
     TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun, input_usage,
+    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
 };
 use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use finish::{Finish, finishes};
@@ -49,8 +49,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     choose: Choose,
     stage: Stage,
 }
@@ -91,8 +89,6 @@ impl Sample for Demo {
             lighting: Lighting::new(sun),
             constants: Constants {
                 show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
                 choose: Choose::Callable,
                 stage: Stage::Raygen,
             },
@@ -104,11 +100,9 @@ impl Sample for Demo {
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
         c.choice("choose by", &mut self.constants.choose);
         c.choice("called from", &mut self.constants.stage);
         c.integer("far", &mut self.far, 0..=1 << 24);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -163,10 +157,8 @@ fn pipeline(
         .hit(hit("checker.rchit"))
         .as_written()
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.choose)
-        .constant(4, constants.stage)
+        .constant(1, constants.choose)
+        .constant(2, constants.stage)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -8,9 +8,9 @@ use std::process::ExitCode;
 use anyhow::Result;
 use common::gpu::{Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable};
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
@@ -21,7 +21,7 @@ struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants, ComputePipeline>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     constants: Constants,
 }
 
@@ -36,8 +36,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     /// Which of [`WORKGROUPS`].
     workgroup: u32,
 }
@@ -53,7 +51,7 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        light: Light,
+        light: DirectionalLight,
         band: Band,
     }
 }
@@ -72,22 +70,15 @@ impl Sample for Demo {
             scene,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
-            constants: Constants {
-                show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
-                workgroup: 0,
-            },
+            sun,
+            constants: Constants { show: Show::Picture, workgroup: 0 },
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.sun(&mut self.sun);
         c.one_of("workgroup", &mut self.constants.workgroup, &WORKGROUPS.map(|(shape, _)| shape));
         c.camera(&mut self.camera);
     }
@@ -98,7 +89,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: self.lighting.shader(),
+            light: self.sun.light(),
             band: frame.area.into(),
         };
         let descriptors = [
@@ -122,8 +113,6 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .compute("trace.comp")
         .workgroup(3, workgroup)
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
         .textures(textures)

@@ -11,8 +11,10 @@ use anyhow::Result;
 use common::gpu::{
     Address, Band, Binding, ComputePipeline, Descriptor, Gpu, Requirements, TextureTable,
 };
-use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, Sun};
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use gbuffer::{GBuffer, Placed};
 use glam::Vec3;
 
@@ -25,7 +27,7 @@ struct Demo {
     gbuffer: GBuffer,
     pipelines: Variants<Constants, ComputePipeline>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     occlusion_rays: u32,
     constants: Constants,
 }
@@ -51,12 +53,12 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What the compute shader of this chapter can read: 128 bytes, all that is promised.
+    /// What the compute shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
         placed: Address<Placed>,
-        light: Light,
+        light: DirectionalLight,
         occlusion_rays: u32,
         band: Band,
     }
@@ -78,7 +80,7 @@ impl Sample for Demo {
             gbuffer,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
+            sun,
             occlusion_rays: 16,
             constants: Constants { show: Show::Picture, primary: Primary::Raster },
         })
@@ -90,7 +92,7 @@ impl Sample for Demo {
         c.choice("primary", &mut self.constants.primary);
         self.gbuffer.controls(c);
         c.integer("occlusion rays", &mut self.occlusion_rays, 0..=256);
-        self.lighting.controls(c);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -109,7 +111,7 @@ impl Sample for Demo {
             camera,
             scene: self.scene.addresses,
             placed: self.gbuffer.placed(),
-            light: self.lighting.shader(),
+            light: self.sun.light(),
             occlusion_rays: self.occlusion_rays,
             band: frame.area.into(),
         };

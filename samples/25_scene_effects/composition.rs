@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
-use common::scene::{Camera, Light, Material, Scene, Sun};
+use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
 use crate::{Box, Face, Finish, Solid, Sphere, ThinLens, is_glass};
@@ -36,8 +36,8 @@ pub struct Heightfield {
 /// A light, and whether what stands in its way casts a shadow.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneLight {
-    /// The light.
-    pub light: Light,
+    /// The light, as a disk.
+    pub disk: DiskLight,
     /// Whether shadow rays are traced to it.
     pub shadows: bool,
 }
@@ -104,12 +104,13 @@ pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 impl Composition {
     /// Meshes as they stand under a sun.
     pub fn of_meshes(scene: Scene) -> Self {
-        let light = Light::directional(&Sun::default(), 0.0);
+        let light = Light::directional(&Sun::default());
+        let disk = DiskLight { light, radius: 0.0, samples: 1 };
         let mut composition = Self {
             finishes: vec![Finish::NONE; scene.model.materials.len()],
             lens: pinhole(&scene.camera),
             scene,
-            lights: vec![SceneLight { light, shadows: true }],
+            lights: vec![SceneLight { disk, shadows: true }],
             plane: None,
             spheres: Vec::new(),
             boxes: Vec::new(),

@@ -69,14 +69,14 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         Solids => count(scene.solids.len(), "solid"),
         Plane => scene.plane.as_ref().map(|_| "there is a plane".to_owned()),
         PointShadows => light(
-            &|l| l.shadows && l.light.kind == LightKind::Point,
+            &|l| l.shadows && l.disk.light.kind == LightKind::Point,
             "is a point light with shadows",
         ),
         DirectionalShadows => light(
-            &|l| l.shadows && l.light.kind == LightKind::Directional,
+            &|l| l.shadows && l.disk.light.kind == LightKind::Directional,
             "is directional, with shadows",
         ),
-        AreaLight => light(&|l| l.shadows && l.light.size > 0.0, "casts shadows and has a size"),
+        AreaLight => light(&|l| l.shadows && l.disk.radius > 0.0, "casts shadows and has a size"),
         // At depth 0 no ray is reflected or refracted.
         Mirror | Glass if scene.depth == 0 => None,
         Mirror => {

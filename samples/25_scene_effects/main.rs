@@ -119,7 +119,7 @@ impl Sample for Demo {
         let lights = self.scene.lights.len() as u32;
         c.integer("light", &mut self.light, 1..=lights.max(1));
         if let Some(light) = self.scene.lights.get_mut(self.light as usize - 1) {
-            c.slider("light size", &mut light.light.size, 0.0..=1.0);
+            c.slider("light size", &mut light.disk.radius, 0.0..=1.0);
             c.checkbox("light shadows", &mut light.shadows);
         }
         self.polish(c);

@@ -4,7 +4,7 @@ use ash::vk;
 use bytemuck::Zeroable;
 use common::gpu::{Address, ShaderStruct, StructLayout};
 use common::scene::plane::Plane;
-use common::scene::{Light, LightKind};
+use common::scene::{DiskLight, Light, LightKind};
 use effects::{
     BoardPlane, Column, Composition, Emitter, EmitterAddresses, Face, Finish, Glass, Lens,
     MAX_LIGHTS, Solid, Sphere,
@@ -70,7 +70,7 @@ common::shader_struct! {
         pub ground: Ground,
         pub lens: Lens,
         pub media: [u32; 4],
-        pub lights: [Light; MAX_LIGHTS],
+        pub lights: [DiskLight; MAX_LIGHTS],
         pub sky: f32,
         pub light_count: u32,
         pub shadows: u32,
@@ -86,12 +86,13 @@ common::shader_struct! {
 }
 
 /// What lies behind the world's address.
-pub const LAYOUTS: [StructLayout; 16] = [
+pub const LAYOUTS: [StructLayout; 17] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
     Ground::LAYOUT,
     HeightfieldShape::LAYOUT,
+    DiskLight::LAYOUT,
     Light::LAYOUT,
     Sphere::LAYOUT,
     effects::Box::LAYOUT,
@@ -120,16 +121,15 @@ impl World {
         let normal = board.normal.as_dvec3();
         let plane =
             Plane::new((normal, f64::from(board.distance) * normal.length()), eye.as_vec3());
-        let mut lights = [Light {
+        let dark = Light {
             place: Vec3::Y,
             kind: LightKind::Directional.into(),
             strength: Vec3::ZERO,
-            size: 0.0,
-            samples: 1,
-        }; 4];
+        };
+        let mut lights = [DiskLight { light: dark, radius: 0.0, samples: 1 }; MAX_LIGHTS];
         let mut shadows = 0;
         for (number, light) in scene.lights.iter().enumerate() {
-            lights[number] = light.light;
+            lights[number] = light.disk;
             shadows |= u32::from(light.shadows) << number;
         }
         Self {

@@ -3,7 +3,6 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 // How a material looks.
@@ -36,19 +35,12 @@ const uint SHOW_ORIGIN = 6;
 const uint SHOW_WEIGHT = 7;
 const uint SHOW_OBJECT = 8;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
-layout(constant_id = 3) const uint CHOOSE = 0;
+layout(constant_id = 1) const uint CHOOSE = 0;
 const uint CHOOSE_CALLABLE = 0;
 const uint CHOOSE_SWITCH = 1;
 const uint CHOOSE_HIT_GROUP = 2;
 
-layout(constant_id = 4) const uint STAGE = 0;
+layout(constant_id = 2) const uint STAGE = 0;
 const uint STAGE_RAYGEN = 0;
 const uint STAGE_HIT = 1;
 

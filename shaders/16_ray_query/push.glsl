@@ -2,8 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 // The pixels of a dispatch.
@@ -15,7 +13,7 @@ struct Band {
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    Light light;
+    DirectionalLight light;
     Band band;
 } push;
 
@@ -28,10 +26,3 @@ const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
 const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
-
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;

@@ -16,16 +16,11 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D picture;
 
 // ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
-    // Any hit will do.
-    uint flags = gl_RayFlagsOpaqueEXT;
-    if (SHADOW_RAYS == SHADOW_FIRST_HIT) {
-        flags |= gl_RayFlagsTerminateOnFirstHitEXT;
-    }
     rayQueryEXT query;
     rayQueryInitializeEXT(
         query,
         tlas,
-        flags,
+        gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsOpaqueEXT,
         0xff,                       // cull mask: every instance
         origin,
         0.0,                        // tmin: the origin lies off the surface
@@ -76,7 +71,7 @@ vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
     }
 }
 
-// One ray a pixel, through its middle; and from what it meets, rays to the light.
+// One ray a pixel, through its middle; and from what it meets, one to the light.
 void main() {
     // ANCHOR: band
     uvec2 at = gl_GlobalInvocationID.xy;
@@ -93,12 +88,9 @@ void main() {
     float visible = 1.0;
     if (hit.t >= 0.0) {
         MaterialRecord material = push.scene.materials.at[hit.material];
-        if (SHADOW_RAYS != SHADOW_OFF) {
-            vec2 first = random(id, 0, 0, DIMENSION_LIGHT).xy;
-            visible = visibility(push.light, start, first);
-        }
+        visible = visibility(start, push.light.direction, 1e30);
         color = material.emission + hit.color * ambient(hit.normal)
-            + lit_by(push.light, hit, material, start, -direction, visible);
+            + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -direction);
     }
     vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, direction, start, visible);
     imageStore(picture, ivec2(id), pixel);

@@ -1,5 +1,5 @@
 // How much of the sky a surface sees: ambient light comes from there, and what stands in its way is dark.
-#include "common/light.glsl"
+#include "common/disk.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
 

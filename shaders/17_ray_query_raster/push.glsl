@@ -2,7 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
 #include "placed.glsl"
@@ -17,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Placements placed;
-    Light light;
+    DirectionalLight light;
     uint occlusion_rays;
     Band band;
 } push;

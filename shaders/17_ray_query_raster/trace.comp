@@ -21,7 +21,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     rayQueryInitializeEXT(
         query,
         tlas,
-        gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
+        gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsOpaqueEXT,
         0xff,                       // cull mask: every instance
         origin,
         0.0,                        // tmin: the origin lies off the surface
@@ -68,7 +68,7 @@ vec4 view_of(Hit hit, Seen seen, vec3 direction, float visible, float open) {
     }
 }
 
-// One surface a pixel; and from it, rays to the light and to the sky.
+// One surface a pixel; and from it, a ray to the light and rays to the sky.
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(at, push.band.size))) {
@@ -88,15 +88,14 @@ void main() {
         report(hit, seen, direction);
         Start start = shadow_start(hit);
         MaterialRecord material = push.scene.materials.at[hit.material];
-        vec2 first = random(id, 0, 0, DIMENSION_LIGHT).xy;
-        visible = visibility(push.light, start, first);
+        visible = visibility(start, push.light.direction, 1e30);
         if (push.occlusion_rays > 0) {
-            first = random(id, 0, 0, DIMENSION_OCCLUSION).xy;
+            vec2 first = random(id, 0, 0, DIMENSION_OCCLUSION).xy;
             open = openness(start, hit.normal, push.occlusion_rays, first);
         }
         // ANCHOR: ambient
         color = material.emission + open * hit.color * ambient(hit.normal)
-            + lit_by(push.light, hit, material, start, -direction, visible);
+            + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -direction);
         // ANCHOR_END: ambient
     }
     vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, seen, direction, visible, open);

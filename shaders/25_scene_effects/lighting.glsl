@@ -38,25 +38,25 @@ bool casts_shadows(Light light, uint number) {
 
 // What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else rays go to
 // points of it, which begin at the random numbers `first`.
-float visibility(Light light, Start start, Hit hit, vec2 first) {
+float visibility(DiskLight disk, Start start, Hit hit, vec2 first) {
 #ifdef EFFECT_AREA_LIGHT
-    bool soft = light.size > 0.0;
+    bool soft = disk.radius > 0.0;
     uint count = soft ? push.world.light_samples : 1;
 #else
     const bool soft = false;
     const uint count = 1;
-    light.size = 0.0;
+    disk.radius = 0.0;
 #endif
     bool on_plane = hit.material == MATERIAL_PLANE;
     uint seen = 0;
     for (uint i = 0; i < count; i++) {
         vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
-        vec3 to_light = towards_light(light, start.origin, point);
+        vec3 to_light = towards_disk(disk, start.origin, point);
         // What is below the surface, the surface itself hides; that needs no ray. On a round surface, up is
         // where the smooth normal points.
         vec3 up = start.lifted ? hit.normal : hit.face;
         if (dot(up, to_light) > 0.0
-            && is_lit(start.origin, to_light, light_end(light), on_plane)) {
+            && is_lit(start.origin, to_light, light_end(disk.light), on_plane)) {
             seen++;
         }
     }
@@ -67,19 +67,19 @@ float visibility(Light light, Start start, Hit hit, vec2 first) {
 
 // ANCHOR: kinds
 // A light of the world. If all are of one kind, the compiler is told which.
-Light light_of(uint number) {
-    Light light = push.world.lights[number];
-    light.kind = LIGHT_KINDS == 1 ? LIGHT_DIRECTIONAL : LIGHT_KINDS == 2 ? LIGHT_POINT : light.kind;
-    return light;
+DiskLight light_of(uint number) {
+    DiskLight disk = push.world.lights[number];
+    disk.light.kind = LIGHT_KINDS == 1 ? LIGHT_DIRECTIONAL
+        : LIGHT_KINDS == 2 ? LIGHT_POINT
+        : disk.light.kind;
+    return disk;
 }
 // ANCHOR_END: kinds
 
 // The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
-// light arrives at the surface. The
-// point itself is lit, not the one that shadow rays leave: without shadows there is no such point.
+// light arrives at the surface. The point itself is lit, not the one that shadow rays leave: without shadows there is no such point.
 vec3 lit_by(Light light, Hit hit, MaterialRecord material, vec3 view, float visible) {
-    light.size = 0.0;
-    vec3 to_light = normalize(towards_light(light, hit.position, vec2(0.0)));
+    vec3 to_light = normalize(towards_light(light, hit.position));
     return visible * arriving_light(light, hit.position)
         * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view, to_light);
 }

@@ -12,6 +12,7 @@ struct Placed {
     vec3 position;
     float height;
     vec3 face;
+    vec3 lift;
 };
 #define Hit Placed
 #include "common/place.glsl"
@@ -86,7 +87,7 @@ void main() {
     hit.face = placed.face;
 #endif
 #ifdef LIFTS
-    hit.lift = lift_to_smooth(placed.face, instance, triangle, weights);
+    hit.lift = placed.lift;
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.

@@ -164,18 +164,18 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         Start start = shadow_start(hit);
 #endif
         for (uint i = 0; i < LIGHTS && i < push.world.light_count; i++) {
-            Light light = light_of(i);
+            DiskLight disk = light_of(i);
             float visible = 1.0;
 #ifdef SHADOWS
-            if (casts_shadows(light, i)) {
+            if (casts_shadows(disk.light, i)) {
                 vec2 first = vec2(0.0);
 #ifdef EFFECT_AREA_LIGHT
                 first = random(pixel_id(), path.sample_index, path.bounce, DIMENSION_LIGHT).xy;
 #endif
-                visible = visibility(light, start, hit, first);
+                visible = visibility(disk, start, hit, first);
             }
 #endif
-            path.color += lit_by(light, hit, material, -ray.direction, visible);
+            path.color += lit_by(disk.light, hit, material, -ray.direction, visible);
         }
     }
 #ifdef PATHS

@@ -4,7 +4,7 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
+#include "common/disk.glsl"
 #include "common/random.glsl"
 #include "common/plane.glsl"
 #include "common/checker.glsl"
@@ -104,7 +104,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Ground ground;
     Lens lens;
     uint media[4];        // the bodies of glass that the camera is in
-    Light lights[MAX_LIGHTS];
+    DiskLight lights[MAX_LIGHTS];
     float sky;            // how bright it is, 0 to 1
     uint light_count;
     uint shadows;         // bit i: light i casts shadows

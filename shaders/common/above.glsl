@@ -32,8 +32,34 @@ mat3 absolute(mat3 m) {
     return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
 }
 
+// ANCHOR: lift
+// From the flat triangle to the round surface that its normals pretend: the mean of the point's
+// projections onto the planes through the corners, across their normals, where those lie above it.
+// A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
+// the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
+vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weights,
+        const mat4x3 to_world) {
+    uvec3 corner = instance.triangles.at[triangle];
+    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    Vertex corners[3];
+    vec3 point = vec3(0.0);
+    for (uint k = 0; k < 3; k++) {
+        corners[k] = instance.vertices.at[corner[k]];
+        point += w[k] * corners[k].position;
+    }
+    vec3 up = face * mat3(to_world);
+    vec3 lift = vec3(0.0);
+    for (uint k = 0; k < 3; k++) {
+        vec3 normal = corners[k].normal;
+        normal = faceforward(normal, -up, normal);
+        lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
+    }
+    return mat3(to_world) * lift;
+}
+// ANCHOR_END: lift
+
 // ANCHOR: place
-// Fills position, face and height of a hit: of a ray in direction `ray`, on a triangle of an instance that
+// Fills position, face, height and lift of a hit: of a ray in direction `ray`, on a triangle of an instance that
 // `to_world` places. What is `const` needs no copy, which could cost registers.
 void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, const mat4x3 to_world,
         const mat4x3 to_object, const vec3 ray) {
@@ -65,31 +91,6 @@ void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, 
     hit.face = normalize(dot(face, face) > 1e-37 ? face : ray);
     hit.face = faceforward(hit.face, ray, hit.face);
     hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);
+    hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);
 }
 // ANCHOR_END: place
-
-// ANCHOR: lift
-// From the flat triangle to the round surface that its normals pretend: the mean of the point's
-// projections onto the planes through the corners, across their normals, where those lie above it.
-// A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
-// the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
-vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weights,
-        const mat4x3 to_world) {
-    uvec3 corner = instance.triangles.at[triangle];
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
-    Vertex corners[3];
-    vec3 point = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        corners[k] = instance.vertices.at[corner[k]];
-        point += w[k] * corners[k].position;
-    }
-    vec3 up = face * mat3(to_world);
-    vec3 lift = vec3(0.0);
-    for (uint k = 0; k < 3; k++) {
-        vec3 normal = corners[k].normal;
-        normal = faceforward(normal, -up, normal);
-        lift -= w[k] * min(dot(point - corners[k].position, normal), 0.0) * normal;
-    }
-    return mat3(to_world) * lift;
-}
-// ANCHOR_END: lift

@@ -1,9 +1,9 @@
 // Taught by 05_shadow_miss.
 //
-// How a light lights a surface that a ray has met. A shadow ray finds out whether the light reaches the
-// surface. The including shader defines how this ray is traced.
+// How light lights a surface that a ray has met. A shadow ray finds out whether it arrives there. The
+// including shader defines how this ray is traced.
 
-// Whether nothing lies between a point above a surface and a point of the light.
+// Whether nothing lies between a point above a surface and the light.
 bool is_lit(vec3 origin, vec3 to_light, float end);
 
 // ANCHOR: start
@@ -21,30 +21,17 @@ Start shadow_start(Hit hit) {
 // ANCHOR_END: start
 
 // ANCHOR: visibility
-// What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else several
-// rays go to points of it, which begin at the random numbers `first`.
-float visibility(Light light, Start start, vec2 first) {
-    bool soft = light.size > 0.0;
-    uint count = soft ? light.samples : 1;
-    uint seen = 0;
-    for (uint i = 0; i < count; i++) {
-        vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
-        vec3 to_light = towards_light(light, start.origin, point);
-        // What is below the surface, the surface itself hides; that needs no ray.
-        if (dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, light_end(light))) {
-            seen++;
-        }
-    }
-    return float(seen) / float(count);
+// 1 if light arrives from a direction, else 0: it comes from t = `end` along `to_light`.
+float visibility(Start start, vec3 to_light, float end) {
+    // What is below the surface, the surface itself hides; that needs no ray.
+    return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
 }
 // ANCHOR_END: visibility
 
 // ANCHOR: light
-// The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
-// light arrives at the surface.
-vec3 lit_by(Light light, Hit hit, MaterialRecord material, Start start, vec3 view, float visible) {
-    vec3 to_light = normalize(towards_light(light, start.origin, vec2(0.0)));
-    return visible * arriving_light(light, start.origin)
-        * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view, to_light);
+// What a surface sends to the eye, in direction `view`, of the light that arrives at it from a direction.
+vec3 lit_by(vec3 arriving, vec3 to_light, Hit hit, MaterialRecord material, vec3 view) {
+    return arriving * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view,
+        normalize(to_light));
 }
 // ANCHOR_END: light

@@ -1,6 +1,6 @@
 // Taught by 05_shadow_miss.
 //
-// The shadow ray. The including shader's `SHADOW_RAYS` says which hit ends it.
+// The shadow ray.
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
@@ -9,10 +9,8 @@ layout(location = 1) rayPayloadEXT bool lit;
 
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
-    uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT;
-    if (SHADOW_RAYS == SHADOW_FIRST_HIT) {
-        flags |= gl_RayFlagsTerminateOnFirstHitEXT;
-    }
+    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
+        | gl_RayFlagsOpaqueEXT;
     lit = false;
     traceRayEXT(
         tlas,

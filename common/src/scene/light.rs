@@ -58,19 +58,10 @@ common::shader_enum! {
         /// At a place.
         Point,
     }
-    /// How a shadow ray is traced (`push.glsl` of 05_shadow_miss and of those that follow it).
-    pub enum ShadowRays: SHADOW {
-        /// It ends at the first hit that it finds.
-        FirstHit,
-        /// It finds the nearest hit.
-        NearestHit,
-        /// There are none.
-        Off,
-    }
 }
 
 common::shader_struct! {
-    /// A light of either kind, with a size, as shaders get it (`shaders/common/light.glsl`).
+    /// A light of either kind, as shaders get it (`shaders/common/light.glsl`).
     pub struct Light {
         /// Directional: unit vector towards the light. Point: its position.
         pub place: Vec3,
@@ -78,34 +69,34 @@ common::shader_struct! {
         pub kind: Number<LightKind>,
         /// Linear RGB. Directional: radiance. Point: intensity.
         pub strength: Vec3,
-        /// Radius of the disk that shines, around `place`; 0 casts hard shadows.
-        pub size: f32,
-        /// Shadow rays a hit, where it has a size.
+    }
+}
+
+common::shader_struct! {
+    /// A disk that shines, around a light and facing whoever looks at it (`shaders/common/disk.glsl`).
+    pub struct DiskLight {
+        /// Its middle, and how strong all of it is.
+        pub light: Light,
+        /// Point: in the world. Directional: as seen from distance 1; the true sun's is 0.0047.
+        pub radius: f32,
+        /// Shadow rays a hit, where the radius is not 0.
         pub samples: u32,
     }
 }
 
 impl Light {
-    /// The sun as a disk: `size` is its radius as seen from distance 1, the true sun's 0.0047.
-    pub fn directional(sun: &Sun, size: f32) -> Self {
+    /// The sun.
+    pub fn directional(sun: &Sun) -> Self {
         let DirectionalLight { direction, radiance } = sun.light();
-        Self {
-            place: direction,
-            kind: LightKind::Directional.into(),
-            strength: radiance,
-            size,
-            samples: 1,
-        }
+        Self { place: direction, kind: LightKind::Directional.into(), strength: radiance }
     }
 
-    /// A lamp as a disk that faces whoever looks at it; `size` is its radius in the world.
-    pub fn point(lamp: &PointLight, size: f32) -> Self {
+    /// A lamp.
+    pub fn point(lamp: &PointLight) -> Self {
         Self {
             place: lamp.position,
             kind: LightKind::Point.into(),
             strength: lamp.intensity,
-            size,
-            samples: 1,
         }
     }
 }

@@ -24,7 +24,7 @@ mod world;
 
 pub use camera::{Camera, CameraBasis};
 pub use chess::{assets, place_position};
-pub use light::{DirectionalLight, Light, LightKind, PointLight, ShadowRays, Sun};
+pub use light::{DirectionalLight, DiskLight, Light, LightKind, PointLight, Sun};
 pub use material::Material;
 pub use mesh::{Mesh, REACH, Vertex};
 pub use meshes::triangle_order;

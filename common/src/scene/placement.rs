@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, DVec3};
 
-use super::{Camera, Instance, PointLight, Scene};
+use super::{Camera, Instance, Scene};
 
 crate::shader_enum! {
     /// How many times as large a scene is, to find out what rounding makes of it.
@@ -73,14 +73,6 @@ impl Placement {
     /// A camera that sees there what this one sees here.
     pub fn camera(&self, camera: &Camera) -> Camera {
         Camera { eye: self.point(camera.eye), target: self.point(camera.target), ..*camera }
-    }
-
-    /// A lamp that lights there as this one does here: its intensity grows with the square of the size.
-    pub fn lamp(&self, lamp: &PointLight) -> PointLight {
-        PointLight {
-            position: self.point(lamp.position.as_dvec3()).as_vec3(),
-            intensity: lamp.intensity * (self.size * self.size) as f32,
-        }
     }
 
     fn point(&self, point: DVec3) -> DVec3 {

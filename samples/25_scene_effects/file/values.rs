@@ -1,6 +1,6 @@
 //! From a table of a scene file to the value that it stands for.
 
-use common::scene::{Light, LightKind, Material, PointLight, Sun};
+use common::scene::{DiskLight, Light, LightKind, Material, PointLight, Sun};
 
 use super::description::{HeightfieldTable, LightTable, MaterialTable, PlaneTable};
 use crate::{BoardPlane, Finish, GlassKind, Heightfield, SceneLight};
@@ -16,7 +16,7 @@ impl LightTable {
                 position: None,
                 intensity: None,
                 ..
-            } => Light::directional(&Sun { azimuth, elevation, radiance }, self.size),
+            } => Light::directional(&Sun { azimuth, elevation, radiance }),
             Self {
                 kind: LightKind::Point,
                 position: Some(position),
@@ -25,7 +25,7 @@ impl LightTable {
                 elevation: None,
                 radiance: None,
                 ..
-            } => Light::point(&PointLight { position, intensity }, self.size),
+            } => Light::point(&PointLight { position, intensity }),
             Self { kind: LightKind::Directional, .. } => {
                 return Err("a directional light has `azimuth`, `elevation` and `radiance`");
             }
@@ -33,7 +33,8 @@ impl LightTable {
                 return Err("a point light has `position` and `intensity`");
             }
         };
-        Ok(SceneLight { light, shadows: self.shadows })
+        let disk = DiskLight { light, radius: self.size, samples: 1 };
+        Ok(SceneLight { disk, shadows: self.shadows })
     }
 }
 

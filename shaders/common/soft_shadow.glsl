@@ -1,0 +1,20 @@
+// Taught by 35_soft_shadows.
+//
+// What part of a disk that shines is seen from a surface.
+#include "common/lighting.glsl"
+#include "common/disk.glsl"
+
+// ANCHOR: part
+// From 0 to 1. One ray tells if the disk is a mere point; else several rays go to points of it, which begin
+// at the random numbers `first`.
+float visible_part(DiskLight disk, Start start, vec2 first) {
+    bool soft = disk.radius > 0.0;
+    uint count = soft ? disk.samples : 1;
+    float seen = 0.0;
+    for (uint i = 0; i < count; i++) {
+        vec2 point = soft ? disk_point(i, count, first) : vec2(0.0);
+        seen += visibility(start, towards_disk(disk, start.origin, point), light_end(disk.light));
+    }
+    return seen / float(count);
+}
+// ANCHOR_END: part
