@@ -54,13 +54,7 @@ impl Sample for Demo {
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
-        Ok(Self {
-            scene,
-            pipelines: Variants::default(),
-            camera,
-            sun,
-            show: Show::Picture,
-        })
+        Ok(Self { scene, pipelines: Variants::default(), camera, sun, show: Show::Picture })
     }
 
     // ANCHOR: controls

@@ -56,8 +56,10 @@ impl Recipe {
     // ANCHOR: constants
     /// For a scene, and no other.
     pub fn specialised(scene: &Composition, effects: Effects) -> Self {
-        let kinds =
-            scene.lights.iter().fold(0, |kinds, light| kinds | 1 << u32::from(light.disk.light.kind));
+        let kinds = scene
+            .lights
+            .iter()
+            .fold(0, |kinds, light| kinds | 1 << u32::from(light.disk.light.kind));
         let patterns = scene.finishes.iter().filter_map(Finish::pattern);
         Self {
             effects,

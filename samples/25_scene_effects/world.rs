@@ -121,11 +121,8 @@ impl World {
         let normal = board.normal.as_dvec3();
         let plane =
             Plane::new((normal, f64::from(board.distance) * normal.length()), eye.as_vec3());
-        let dark = Light {
-            place: Vec3::Y,
-            kind: LightKind::Directional.into(),
-            strength: Vec3::ZERO,
-        };
+        let dark =
+            Light { place: Vec3::Y, kind: LightKind::Directional.into(), strength: Vec3::ZERO };
         let mut lights = [DiskLight { light: dark, radius: 0.0, samples: 1 }; MAX_LIGHTS];
         let mut shadows = 0;
         for (number, light) in scene.lights.iter().enumerate() {

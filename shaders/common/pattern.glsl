@@ -4,6 +4,7 @@
 //
 // A place is in cells of the lattice. Its whole part is an integer, so the hash that it is the key of is the
 // same on every device; `far` moves it by whole cells along x, and no digit of its fraction is lost.
+#include "common/random.glsl"
 
 struct Pattern {
     vec3 place;

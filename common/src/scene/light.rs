@@ -93,11 +93,7 @@ impl Light {
 
     /// A lamp.
     pub fn point(lamp: &PointLight) -> Self {
-        Self {
-            place: lamp.position,
-            kind: LightKind::Point.into(),
-            strength: lamp.intensity,
-        }
+        Self { place: lamp.position, kind: LightKind::Point.into(), strength: lamp.intensity }
     }
 }
 

@@ -1,0 +1,117 @@
+//! 35 · Soft shadows: many rays to a disk estimate its visible part.
+//!
+//! New since 34_lights: `DiskLight`, a light with a size; points of its disk, as even as a sunflower's seeds; random
+//! numbers, which give each pixel points of its own.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
+};
+use common::scene::{Camera, CameraBasis, DiskLight, Scene, SceneAddresses, SceneOnGpu, Sun};
+use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use glam::Vec3;
+
+fn main() -> ExitCode {
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipelines: Variants<Show>,
+    camera: Camera,
+    lighting: Lighting,
+    radius: f32,
+    samples: u32,
+    show: Show,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+    }
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DiskLight,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(Scene::chess)?;
+        let camera = scene.camera;
+        let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
+        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
+        Ok(Self {
+            scene,
+            pipelines: Variants::default(),
+            camera,
+            lighting: Lighting::new(sun),
+            radius: 0.05,
+            samples: 16,
+            show: Show::Picture,
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.choice("show", &mut self.show);
+        self.lighting.controls(c);
+        c.slider("light size", &mut self.radius, 0.0..=1.0);
+        c.integer("light samples", &mut self.samples, 1..=64);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: DiskLight {
+                light: self.lighting.shader(),
+                radius: self.radius,
+                samples: self.samples,
+            },
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &self.scene.textures, self.show, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+}
+
+// ANCHOR: pipeline
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, show)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline
