@@ -171,11 +171,22 @@ pub fn copy_of_shaders() -> tempfile::TempDir {
 /// A copy of `shaders/` with one line of a file replaced.
 pub fn shaders_with(file: &str, from: &str, to: &str) -> tempfile::TempDir {
     let folder = copy_of_shaders();
-    let path = folder.path().join(file);
+    replace_line(folder.path(), file, from, to);
+    folder
+}
+
+/// Replaces what must stand once in a file of a copy of the shaders.
+pub fn replace_line(shaders: &Path, file: &str, from: &str, to: &str) {
+    let path = shaders.join(file);
     let text = std::fs::read_to_string(&path).expect("a shader can be read");
     assert_eq!(text.matches(from).count(), 1, "{file} has not one '{from}'");
     std::fs::write(&path, text.replace(from, to)).expect("a copy can be written");
-    folder
+}
+
+/// A copy of `shaders/` where rays leave triangles as they are, not the round surfaces that they stand for.
+pub fn flat_shaders() -> tempfile::TempDir {
+    let lift = "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);";
+    shaders_with("common/above.glsl", lift, "hit.lift = vec3(0.0);")
 }
 
 /// Copies a folder and all below it.

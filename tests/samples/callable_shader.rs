@@ -23,7 +23,7 @@ fn the_picture_is_the_golden_one() {
 
 #[test]
 fn every_way_to_choose_gives_the_same_bits() {
-    for light in ["light=directional", "light=point", "light size=0.2"] {
+    for light in ["light=directional", "light=point"] {
         let by_callables = picture("120x75", &[light]);
         for (choose, stage) in [
             ("callable", "closest hit"),

@@ -75,13 +75,6 @@ const EQUALITIES: [Equality; 12] = [
         is_quick: false,
     },
     Equality {
-        what: "05's shadow rays to the first hit = to the nearest",
-        one: ("05_shadow_miss", &["shadow rays=first hit"]),
-        other: ("05_shadow_miss", &["shadow rays=nearest hit"]),
-        shows_answers: false,
-        is_quick: false,
-    },
-    Equality {
         what: "06 by a loop = by recursion",
         one: ("06_reflection", &["method=iterative"]),
         other: ("06_reflection", &["method=recursive"]),

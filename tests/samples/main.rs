@@ -27,6 +27,7 @@ mod reflection;
 mod sequences;
 mod settings;
 mod shadow_miss;
+mod shadow_rays;
 mod slivers;
 mod soft_shadows;
 mod solids;

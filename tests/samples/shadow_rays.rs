@@ -1,0 +1,179 @@
+//! Shadow rays of a chapter, held to the reference: where they start, and what they meet.
+
+use std::path::Path;
+
+use common::app::Picture;
+use common::scene::Scene;
+use glam::{DVec3, Vec3};
+use reference::Ray;
+use reference::scene::Scene as Exact;
+
+use run::primary_hits::{answer, rays, reference};
+use run::{command, flat_shaders, render_by};
+
+const SIZE: &str = "240x150";
+
+/// A picture by shaders of a folder, with these controls set.
+pub fn picture_by(shaders: &Path, name: &str, sets: &[&str]) -> Picture {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    render_by(command(name).env("SHADERS", shaders), SIZE, &arguments).picture
+}
+
+/// A ray from a point to the light, of the very bits that a shader in f32 makes of them.
+pub type Shadow = fn(Vec3) -> Ray;
+
+/// A surface that was seen, and the shadow ray that left it.
+pub struct Seen {
+    pub instance: u32,
+    pub triangle: u32,
+    /// The hit, in f64.
+    pub point: DVec3,
+    /// Unit normal of the triangle, towards the eye.
+    pub normal: DVec3,
+    /// Where the GPU's shadow ray started.
+    pub origin: Vec3,
+    /// Whether it found its way.
+    pub lit: bool,
+}
+
+/// The surface that each pixel of a chapter saw, but for pixels that saw the sky.
+pub fn seen(exact: &Exact, shaders: &Path, name: &str) -> Vec<Seen> {
+    let camera = Scene::chess().unwrap().camera;
+    let show = |view| picture_by(shaders, name, &[view]);
+    let (hits, directions) = (show("show=hit"), show("show=ray direction"));
+    let origins = show("show=shadow origin");
+    let rays = rays(&camera, &directions);
+    let pixels = rays.zip(&hits.pixels).zip(&origins.pixels);
+    let surfaces = pixels.filter_map(|((ray, hit), &[x, y, z, lit])| {
+        let answer = answer(hit)?;
+        let (instance, triangle) = (answer.instance, answer.primitive);
+        let t = exact.candidate_at(&ray, instance, triangle).unwrap().hit.t;
+        let [a, b, c] = *exact.triangle(instance, triangle).unwrap();
+        let normal = (b - a).cross(c - a).normalize();
+        let normal = normal * -normal.dot(ray.direction).signum();
+        assert!(lit == 0.0 || lit == 1.0, "{lit}");
+        let (point, origin, lit) = (ray.at(t), Vec3::new(x, y, z), lit == 1.0);
+        Some(Seen { instance, triangle, point, normal, origin, lit })
+    });
+    surfaces.collect()
+}
+
+/// What became of the shadow rays of a picture.
+pub struct Answers {
+    pub surfaces: usize,
+    pub lit: usize,
+    /// Rays that met an edge: there either answer is right.
+    pub edges: usize,
+    /// Surfaces that face away from the light, which no ray had to find out.
+    pub turned_away: usize,
+}
+
+/// Holds each shadow ray of a chapter to the reference: from a triangle as it is, or as round as it looks.
+pub fn hold_answers(name: &str, shadow: Shadow, is_flat: bool) -> Answers {
+    let exact = reference(&Scene::chess().unwrap());
+    let shaders = if is_flat { flat_shaders() } else { run::copy_of_shaders() };
+    let surfaces = seen(&exact, shaders.path(), name);
+    let (mut lit, mut edges, mut sides) = (0, 0, 0);
+    for surface in &surfaces {
+        lit += usize::from(surface.lit);
+        let ray = shadow(surface.origin);
+        // Its own triangle lies below: to be stopped by it is a fault, however near it is.
+        let own = (surface.instance, surface.triangle);
+        let mut candidates = exact.near_candidates(&ray);
+        candidates.retain(|candidate| (candidate.hit.instance, candidate.hit.primitive) != own);
+        if candidates.iter().any(|candidate| candidate.must_hit(&ray)) {
+            assert!(!surface.lit, "lit through a triangle: {ray:?}");
+        } else if !candidates.is_empty() {
+            edges += 1;
+        } else if !surface.lit {
+            // The way is free, so the shader must have found the light below the surface.
+            // Without the lift that is the triangle; the cosine is off by a few roundings.
+            let cosine = surface.normal.dot(ray.direction) / ray.direction.length();
+            assert!(!is_flat || cosine < 1e-6, "dark: {ray:?} {cosine}");
+            sides += 1;
+        }
+    }
+    let all = surfaces.len();
+    println!(
+        "{name}, flat {is_flat}: {all} surfaces, {lit} lit, {edges} at edges, {sides} turned away"
+    );
+    assert!(lit > all / 4 && lit < all * 9 / 10, "{lit} of {all}");
+    // Most of those start beside an edge that the own triangle shares with one in the same plane.
+    assert!(edges * 100 < all, "{edges} of {all}");
+    Answers { surfaces: all, lit, edges, turned_away: sides }
+}
+
+/// How far origins are from the exact hits, and what that changes.
+pub struct Origins {
+    /// Surfaces whose shadow is not that of the exact hit.
+    pub differ: usize,
+    pub surfaces: usize,
+    /// The highest origin above its triangle; slivers are apart.
+    pub height: f64,
+    pub height_on_slivers: f64,
+    /// The farthest from the exact hit.
+    pub moved: f64,
+}
+
+/// The question itself: is the segment from the hit, exactly, to the light blocked?
+pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
+    let exact = reference(&Scene::chess().unwrap());
+    let surfaces = seen(&exact, flat_shaders().path(), name);
+    let mut differ = 0;
+    let (mut highest, mut highest_on_slivers, mut farthest) = (0.0, 0.0, 0.0);
+    for surface in &surfaces {
+        let rounded = shadow(surface.origin);
+        let moved = surface.point - rounded.origin;
+        let height = -moved.dot(surface.normal);
+        assert!(height > 0.0, "a shadow ray starts {height} above its triangle");
+        let [a, b, c] = *exact.triangle(surface.instance, surface.triangle).unwrap();
+        let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+        let width = (b - a).cross(c - a).length() / longest;
+        let sliver = width < longest / 50.0;
+        let bound = if sliver { &mut highest_on_slivers } else { &mut highest };
+        *bound = f64::max(*bound, height);
+        farthest = f64::max(farthest, moved.length());
+
+        let end = rounded.origin + rounded.direction;
+        let direction = if rounded.tmax == 1.0 { end - surface.point } else { rounded.direction };
+        let ray = Ray { origin: surface.point, direction, ..rounded };
+        let own = (surface.instance, surface.triangle);
+        let above = surface.normal.dot(direction) > 0.0;
+        let blocker = exact.closest_hit(&ray, |hit| (hit.instance, hit.primitive) != own);
+        let lit = above && blocker.is_none();
+        if lit == surface.lit {
+            continue;
+        }
+        differ += 1;
+        // The origin was moved by a distance that is known, and an edge, a contact or the
+        // horizon must be as near as that, or as the bound on the triangle test.
+        let cosine = surface.normal.dot(direction) / direction.length();
+        let near = exact.near_candidates(&rounded);
+        let doubtful = blocker.map(|hit| exact.candidate(&ray, hit)).into_iter().chain(near);
+        let moved = moved.length();
+        let excused = doubtful.into_iter().any(|candidate| {
+            let at_edge = candidate.graze.margin.abs() <= candidate.graze.bound + moved;
+            let [a, b, c] = *exact
+                .triangle(candidate.hit.instance, candidate.hit.primitive)
+                .expect("a triangle of the scene");
+            let slope = (b - a).cross(c - a).normalize().dot(ray.direction).abs();
+            let at_contact = candidate.hit.t * slope <= candidate.t_bound * slope + moved;
+            at_edge || at_contact
+        });
+        assert!(excused || cosine.abs() < 1e-6, "{ray:?} {moved} {cosine}");
+    }
+    let all = surfaces.len();
+    println!(
+        "{name}: {differ} of {all} differ; origins are {highest:.1e} high at most, \
+         {highest_on_slivers:.1e} on slivers, {farthest:.1e} from the exact hit"
+    );
+    assert!(differ * 500 < all, "{differ} of {all}");
+    // A board's square is 1: a shadow begins where the piece stands.
+    assert!(highest < 1e-4 && highest_on_slivers < 2e-3, "{highest} {highest_on_slivers}");
+    Origins { differ, surfaces: all, height: highest, height_on_slivers: highest_on_slivers, moved: farthest }
+}
+
+/// Whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
+pub fn is_on_a_square(&[x, y, z, lit]: &[f32; 4]) -> bool {
+    lit >= 0.0 && y.abs() < 1e-4 && x.abs() < 3.99 && z.abs() < 3.99
+}
