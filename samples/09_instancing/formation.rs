@@ -48,10 +48,9 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// As an instance, moved by `shift`; here the place is rounded to f32.
-    pub fn instance(&self, shift: DVec3) -> Instance {
-        let translation = (self.at + shift).as_vec3();
-        let transform = Affine3A::from_mat3_translation(self.linear, translation);
+    /// As an instance; here the place is rounded to f32.
+    pub fn instance(&self) -> Instance {
+        let transform = Affine3A::from_mat3_translation(self.linear, self.at.as_vec3());
         instance(self.mesh, self.material, transform)
     }
 }

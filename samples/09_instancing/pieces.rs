@@ -1,27 +1,28 @@
-//! The pieces: what they are made from, and their instances as two origins see them.
+//! The pieces: what they are made from, and their instances.
 
 use anyhow::Result;
 use ash::vk;
+use ash::vk::GeometryInstanceFlagsKHR as Flags;
 use common::gpu::Gpu;
 use common::scene::{Mesh, Scene, SceneOnGpu};
 
 use crate::formation::{Build, Formation};
-use crate::top_level::{PieceRecord, TopLevel, TopLevelBuild};
+use crate::top_level::{PieceRecord, TopLevel};
 
 /// The pieces, on the host and on the device.
 pub struct Pieces {
     /// Of each mesh one instance, which the device needs to find it.
     pub meshes: Scene,
     formation: Formation,
-    /// The top level about each of the two origins, as it was last needed.
-    top_levels: [Option<TopLevel>; 2],
+    /// As it was last needed.
+    top_level: Option<TopLevel>,
     built: Build,
 }
 
 impl Pieces {
     pub fn new(build: Build) -> Result<Self> {
         let (meshes, formation) = Formation::build(build)?;
-        Ok(Self { meshes, formation, top_levels: [None, None], built: build })
+        Ok(Self { meshes, formation, top_level: None, built: build })
     }
 
     /// Makes meshes and pieces again if they were made from something else.
@@ -37,20 +38,14 @@ impl Pieces {
         Ok(())
     }
 
-    /// The top level about one of the two origins, made again if it was made for something else.
-    pub fn top_level(
-        &mut self,
-        gpu: &Gpu,
-        scene: &SceneOnGpu,
-        which: usize,
-        build: TopLevelBuild,
-    ) -> Result<&TopLevel> {
-        let known = self.top_levels[which].take().filter(|known| known.build == build);
+    /// The top level, made again if it was made with other flags of the white pieces.
+    pub fn top_level(&mut self, gpu: &Gpu, scene: &SceneOnGpu, white: Flags) -> Result<&TopLevel> {
+        let known = self.top_level.take().filter(|known| known.flags == white);
         let top_level = match known {
             Some(known) => known,
-            None => TopLevel::new(gpu, &self.meshes, scene, &self.formation, build)?,
+            None => TopLevel::new(gpu, &self.meshes, scene, &self.formation, white)?,
         };
-        Ok(self.top_levels[which].insert(top_level))
+        Ok(self.top_level.insert(top_level))
     }
 
     // ANCHOR: memory
@@ -58,7 +53,7 @@ impl Pieces {
     pub fn memory(&self, scene: &SceneOnGpu) -> serde_json::Value {
         let meshes = &self.meshes.model.meshes;
         let bytes = |mesh: &Mesh| size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
-        let top_levels = self.top_levels.iter().flatten();
+        let top_levels = self.top_level.iter();
         let pieces = self.formation.pieces.len();
         serde_json::json!({
             "pieces": pieces,

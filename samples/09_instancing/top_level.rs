@@ -5,7 +5,7 @@ use ash::vk;
 use ash::vk::GeometryInstanceFlagsKHR as Flags;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
 use common::scene::{Scene, SceneOnGpu, build_top, input_usage, transform};
-use glam::{DMat3, DVec3, Mat3, Vec3};
+use glam::{DMat3, Mat3};
 
 use crate::formation::{BLACK, BOARD, Formation, Piece, WHITE};
 
@@ -33,7 +33,6 @@ common::shader_struct! {
     /// What a piece has of its own, at its custom index.
     pub struct PieceRecord {
         inverse: Mat3,
-        at: Vec3,
         mesh: u32,
         material: u32,
         tone: f32,
@@ -41,20 +40,13 @@ common::shader_struct! {
 }
 // ANCHOR_END: record
 
-/// What the instances are made for: where the set is, seen from an origin, and the flags of its white
-/// pieces.
-#[derive(Clone, Copy, PartialEq)]
-pub struct TopLevelBuild {
-    pub shift: DVec3,
-    pub flags: Flags,
-}
-
 /// Every piece as an instance of the top level.
 pub struct TopLevel {
     pub tlas: AccelerationStructure,
     /// A [`PieceRecord`] each, by custom index.
     pub records: Buffer,
-    pub build: TopLevelBuild,
+    /// The flags of the white pieces.
+    pub flags: Flags,
 }
 
 impl TopLevel {
@@ -63,19 +55,18 @@ impl TopLevel {
         meshes: &Scene,
         scene: &SceneOnGpu,
         formation: &Formation,
-        build: TopLevelBuild,
+        white: Flags,
     ) -> Result<Self> {
         let pieces = &formation.pieces;
-        let bounds =
-            pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance(DVec3::ZERO)));
+        let bounds = pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance()));
         let bounds: Vec<_> = bounds.collect();
         let order = order::for_build(gpu, &bounds, scene.options.ordering);
         // ANCHOR: instances
         let instances = order.iter().map(|&index| {
             let piece = &pieces[index as usize];
-            let flags = if piece.mask == WHITE { build.flags } else { NO_FLAGS };
+            let flags = if piece.mask == WHITE { white } else { NO_FLAGS };
             vk::AccelerationStructureInstanceKHR {
-                transform: transform(&piece.instance(build.shift).transform),
+                transform: transform(&piece.instance().transform),
                 // Eight bits of mask; the index has 24, so 16,777,216 pieces at most.
                 instance_custom_index_and_mask: vk::Packed24_8::new(index, piece.mask),
                 instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
@@ -89,19 +80,18 @@ impl TopLevel {
         });
         let tlas = build_top(gpu, &instances.collect::<Vec<_>>())?;
         // ANCHOR_END: instances
-        let records: Vec<_> = pieces.iter().map(|piece| record(piece, build.shift)).collect();
+        let records: Vec<_> = pieces.iter().map(record).collect();
         let records = Buffer::with_data(gpu, "piece records", &records, input_usage())?;
-        Ok(Self { tlas, records, build })
+        Ok(Self { tlas, records, flags: white })
     }
 }
 
 // ANCHOR: inverse
 /// The inverse in f64, once a piece, and not in f32, once a ray or by the device.
-fn record(piece: &Piece, shift: DVec3) -> PieceRecord {
+fn record(piece: &Piece) -> PieceRecord {
     let columns = piece.linear.to_cols_array().map(f64::from);
     PieceRecord {
         inverse: DMat3::from_cols_array(&columns).inverse().as_mat3(),
-        at: piece.instance(shift).transform.translation.into(),
         mesh: piece.mesh as u32,
         material: piece.material as u32,
         tone: piece.tone,

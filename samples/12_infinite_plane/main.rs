@@ -17,8 +17,7 @@ use common::gpu::{
 use common::scene::board::Board;
 use common::scene::plane::Plane;
 use common::scene::{
-    Camera, CameraBasis, Light, Placement, Scene, SceneAddresses, SceneOnGpu, ShadowRays,
-    input_usage,
+    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage,
 };
 use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
@@ -63,8 +62,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     rung: Rung,
     plane_test: PlaneTest,
     plane: bool,
@@ -121,8 +118,6 @@ impl Sample for Demo {
             minimum_contribution: 1.0 / 512.0,
             constants: Constants {
                 show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
                 rung: Rung::Compensated,
                 plane_test: PlaneTest::Before,
                 plane: true,
@@ -144,8 +139,6 @@ impl Sample for Demo {
         c.choice("show", &mut self.constants.show);
         c.choice("light", &mut self.lights);
         self.lighting.controls_of_both(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
         c.integer("depth", &mut self.depth, 0..=8);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         self.plane.controls(c);
@@ -168,7 +161,7 @@ impl Sample for Demo {
         // ANCHOR: world
         let camera = self.camera.basis(frame.aspect());
         let (plane, board) = self.plane.for_shaders(camera.origin);
-        let [sun, lamp] = self.lighting.both(&Placement::default());
+        let [sun, lamp] = self.lighting.both();
         let world = World {
             reflections: self.reflections.address.into(),
             plane,
@@ -225,12 +218,10 @@ fn pipeline(
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.rung)
-        .constant(4, constants.plane_test)
-        .constant(5, constants.plane)
-        .constant(6, constants.inside)
+        .constant(1, constants.rung)
+        .constant(2, constants.plane_test)
+        .constant(3, constants.plane)
+        .constant(4, constants.inside)
         .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)

@@ -19,10 +19,10 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, SceneAddresses, SceneOptions, ShadowRays, Sun, assets, text,
+    Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOptions, Sun, assets, text,
 };
 use common::usage::Usage;
-use common::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use flag::Flag;
 use glam::{DVec3, Vec3};
 use levels::{Levels, Plan, Policy};
@@ -42,10 +42,10 @@ struct Demo {
     /// How many cells the flag shall have across.
     cells: u32,
     options: SceneOptions,
-    pipelines: Variants<Constants>,
+    pipelines: Variants<Show>,
     camera: Camera,
-    lighting: Lighting,
-    constants: Constants,
+    sun: Sun,
+    show: Show,
 }
 
 common::shader_enum! {
@@ -55,20 +55,12 @@ common::shader_enum! {
     }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
-#[derive(Clone, Copy, PartialEq)]
-struct Constants {
-    show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
-}
-
 common::shader_struct! {
     /// What every shader of this chapter can read.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        light: Light,
+        light: DirectionalLight,
     }
 }
 
@@ -96,12 +88,8 @@ impl Sample for Demo {
             options: setup.options,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
-            constants: Constants {
-                show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
-            },
+            sun,
+            show: Show::Picture,
         })
     }
 
@@ -112,10 +100,8 @@ impl Sample for Demo {
         c.choice("top level", &mut self.plan.top);
         c.integer("build every", &mut self.plan.every, 1..=3600);
         c.integer("flag cells", &mut self.cells, 1..=512);
-        c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.choice("show", &mut self.show);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -142,14 +128,14 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.world.addresses,
-            light: self.lighting.shader(),
+            light: self.sun.light(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.levels.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame, &self.world.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.world.scene.textures, self.show, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
@@ -185,19 +171,13 @@ fn motion(setup: &Setup) -> Result<Motion> {
 
 // ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
-fn pipeline(
-    gpu: &Gpu,
-    textures: &TextureTable,
-    constants: Constants,
-) -> Result<RayTracingPipeline> {
+fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
+        .constant(0, show)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -10,10 +10,10 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Moved, Placement, Scene, SceneAddresses, SceneOnGpu, ShadowRays,
-    Size, Sun,
+    Camera, CameraBasis, DirectionalLight, Moved, Placement, Scene, SceneAddresses, SceneOnGpu, Size,
+    Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
@@ -28,7 +28,7 @@ struct Demo {
     placement: Placement,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     depth: u32,
     minimum_contribution: f32,
     size: Size,
@@ -51,8 +51,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     origin: Origin,
 }
 
@@ -61,7 +59,7 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        light: Light,
+        light: DirectionalLight,
         depth: u32,
         minimum_contribution: f32,
         bounce: u32,
@@ -84,7 +82,7 @@ impl Sample for Demo {
             placement: Placement::default(),
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
+            sun,
             depth: 4,
             minimum_contribution: 1.0 / 512.0,
             size: Size::Usual,
@@ -92,8 +90,6 @@ impl Sample for Demo {
             bounce: 0,
             constants: Constants {
                 show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
                 origin: Origin::Bound,
             },
         })
@@ -102,9 +98,7 @@ impl Sample for Demo {
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.sun(&mut self.sun);
         c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
         c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         c.choice("origin", &mut self.constants.origin);
@@ -131,7 +125,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.placement.camera(&self.camera).basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: self.lighting.placed(&self.placement),
+            light: self.sun.light(),
             depth: self.depth,
             minimum_contribution: self.minimum_contribution,
             bounce: self.bounce,
@@ -162,9 +156,7 @@ fn pipeline(
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.origin)
+        .constant(1, constants.origin)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -13,7 +13,7 @@ struct Hit {
     uint triangle;    // which triangle of the model
     vec3 lift;        // from the flat triangle to the round surface that its normals pretend
     uint instance;    // which piece: gl_InstanceCustomIndexEXT
-    vec3 object;      // in the mesh's space, for a view: the normal, or the ray's origin
+    vec3 object;      // in the mesh's space, for a view: the normal
     uint place;       // the instance's place in the array that was built: gl_InstanceID
 };                    // 96 bytes
 // ANCHOR_END: hit

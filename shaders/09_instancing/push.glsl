@@ -2,15 +2,12 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 // ANCHOR: record
 // What a piece has of its own, at its custom index.
 struct PieceRecord {
     mat3 inverse;         // of its matrix without the translation, made in 64 bits
-    vec3 at;              // the translation
     uint mesh;            // which of scene.instances
     uint material;
     float tone;           // multiplies the base colour
@@ -23,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Pieces pieces;
-    Light light;
+    DirectionalLight light;
     uint camera_mask;     // which instances primary rays see
     uint shadow_mask;     // which instances throw shadows
 } push;
@@ -39,26 +36,13 @@ const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_INSTANCE_ID = 7;
 const uint SHOW_OBJECT_NORMAL = 8;
-const uint SHOW_OBJECT_ORIGIN = 9;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
-layout(constant_id = 3) const uint CULLING = 0;
+layout(constant_id = 1) const uint CULLING = 0;
 const uint CULL_OFF = 0;
 const uint CULL_BACK = 1;
 const uint CULL_FRONT = 2;
 
-layout(constant_id = 4) const uint NORMALS = 2;
+layout(constant_id = 2) const uint NORMALS = 2;
 const uint NORMALS_MATRIX = 0;
 const uint NORMALS_DEVICE_INVERSE = 1;
 const uint NORMALS_HOST_INVERSE = 2;
-
-layout(constant_id = 5) const uint OBJECT_RAY = 0;
-const uint OBJECT_RAY_DEVICE = 0;
-const uint OBJECT_RAY_MATRIX = 1;
-const uint OBJECT_RAY_INVERSE = 2;

@@ -7,7 +7,6 @@
 #include "push.glsl"
 #include "hit.glsl"
 #include "common/place.glsl"
-#include "common/instance.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
@@ -29,17 +28,6 @@ vec3 world_normal(PieceRecord piece, vec3 normal) {
 }
 // ANCHOR_END: world_normal
 
-// The ray's origin in the mesh's space.
-vec3 object_origin(PieceRecord piece) {
-    if (OBJECT_RAY == OBJECT_RAY_DEVICE) {
-        return gl_ObjectRayOriginEXT;
-    }
-    if (OBJECT_RAY == OBJECT_RAY_MATRIX) {
-        return object_origin_matrix(gl_WorldToObjectEXT, gl_WorldRayOriginEXT);
-    }
-    return object_origin_inverse(piece.inverse, piece.at, gl_WorldRayOriginEXT);
-}
-
 // The nearest hit: what surface it is, and where.
 void main() {
     // ANCHOR: fetch
@@ -55,10 +43,6 @@ void main() {
     vec3 normal = normalize(world_normal(piece, surface.normal));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
-    hit.lift = vec3(0.0);
-    if (SMOOTH_TERMINATOR) {
-        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
-    }
 
     hit.color = material.base_color * piece.tone;
     if (material.base_texture >= 0) {
@@ -68,6 +52,6 @@ void main() {
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.place = gl_InstanceID;
-    hit.object = SHOW == SHOW_OBJECT_ORIGIN ? object_origin(piece) : surface.normal;
+    hit.object = surface.normal;
     // ANCHOR_END: report
 }

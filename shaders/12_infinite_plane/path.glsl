@@ -4,7 +4,6 @@
 
 // ANCHOR: path
 struct Path {
-    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -73,12 +72,10 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         visible = 0.0;
         for (uint i = 0; i < push.world.light_count; i++) {
             Light light = push.world.lights[i];
-            float part = 1.0;
-            if (SHADOW_RAYS != SHADOW_OFF) {
-                vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
-                part = visibility(light, start, first);
-            }
-            color += lit_by(light, hit, material, start, -ray.direction, part);
+            vec3 to_light = towards_light(light, start.origin);
+            float part = visibility(start, to_light, light_end(light));
+            color += lit_by(part * arriving_light(light, start.origin), to_light, hit, material,
+                -ray.direction);
             visible += part / float(push.world.light_count);
         }
     }

@@ -3,7 +3,6 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 #include "common/plane.glsl"
 #include "board.glsl"
@@ -41,23 +40,16 @@ const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_RUNGS = 7;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
-layout(constant_id = 3) const uint PLANE_RUNG = PLANE_COMPENSATED;
+layout(constant_id = 1) const uint PLANE_RUNG = PLANE_COMPENSATED;
 
 // When the plane is tested.
-layout(constant_id = 4) const uint PLANE_TEST = 0;
+layout(constant_id = 2) const uint PLANE_TEST = 0;
 const uint TEST_BEFORE = 0;
 const uint TEST_AFTER = 1;
 
-layout(constant_id = 5) const bool HAS_PLANE = true;
+layout(constant_id = 3) const bool HAS_PLANE = true;
 
-layout(constant_id = 6) const uint INSIDE = 0;
+layout(constant_id = 4) const uint INSIDE = 0;
 const uint INSIDE_SURFACE = 0;   // seen from both sides
 const uint INSIDE_COLOR = 1;     // shines from inside in a colour of its own
 const uint INSIDE_THROUGH = 2;   // seen from outside only

@@ -12,10 +12,8 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
         return false;
     }
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
-    uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT;
-    if (SHADOW_RAYS == SHADOW_FIRST_HIT) {
-        flags |= gl_RayFlagsTerminateOnFirstHitEXT;
-    }
+    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
+        | gl_RayFlagsOpaqueEXT;
     lit = false;
     traceRayEXT(
         tlas,

@@ -2,14 +2,12 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    Light light;
+    DirectionalLight light;
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.
@@ -21,10 +19,3 @@ const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
 const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
-
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;

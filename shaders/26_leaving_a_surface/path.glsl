@@ -2,7 +2,6 @@
 
 // ANCHOR: path
 struct Path {
-    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -26,7 +25,7 @@ bool goes_on(Path path) {
 // ANCHOR_END: path
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, Ray ray, vec3 shadow_origin, float visible) {
+vec4 view_of(Hit hit, Ray ray, Start start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {
         case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
@@ -35,35 +34,31 @@ vec4 view_of(Hit hit, Ray ray, vec3 shadow_origin, float visible) {
         case SHOW_DIRECTION: return vec4(ray.direction, hit.t);
         case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
         case SHOW_RAY_ORIGIN: return vec4(ray.start.origin, ray.start.tmin);
-        default: return missed ? vec4(-1.0) : vec4(shadow_origin, visible);
+        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
     }
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     vec3 color = hit.color;
-    vec3 shadow_origin = vec3(0.0);
+    Start start = Start(vec3(0.0), 0.0);
     float visible = 1.0;
     vec3 mirror = vec3(0.0);
     Ray next = ray;
     if (hit.t >= 0.0) {
         // ANCHOR: light
         Departure from = departure(hit, push.scene.instances.at[hit.instance], ray);
-        if (SHADOW_RAYS != SHADOW_OFF) {
-            vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
-            visible = visibility(push.light, hit, from, first);
-        }
-        // Fetched after the shadow rays: a material would wait in registers for them.
+        start = shadow_start(hit, from, push.light.direction);
+        visible = visibility(hit, start, push.light.direction);
+        // Fetched after the shadow ray: a material would wait in registers for it.
         MaterialRecord material = push.scene.materials.at[hit.material];
         if (material.illumination >= ILLUMINATION_MIRROR) {
             mirror = fresnel(material.specular, max(dot(hit.normal, -ray.direction), 0.0));
         }
         // What is reflected does not reach the colour below.
         hit.color *= 1.0 - mirror;
-        vec3 to_light = light_direction(push.light, hit);
-        shadow_origin = start_of_ray(from, to_light).origin + hit.lift;
         color = material.emission + hit.color * ambient(hit.normal)
-            + lit_by(push.light, hit, material, to_light, -ray.direction, visible);
+            + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -ray.direction);
         // ANCHOR_END: light
         // ANCHOR: next
         next.direction = mirrored(ray.direction, hit.normal, hit.face);
@@ -71,7 +66,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         // ANCHOR_END: next
     }
     bool is_picture = SHOW == SHOW_PICTURE;
-    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray, shadow_origin, visible));
+    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray, start, visible));
     path.throughput *= mirror;
     path.bounce++;
     ray = next;

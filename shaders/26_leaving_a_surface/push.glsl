@@ -2,14 +2,12 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    Light light;
+    DirectionalLight light;
     uint depth;           // how often a path may be reflected
     float minimum_contribution;
     uint bounce;          // which ray of a path `show` looks at, 0 for the camera's
@@ -26,14 +24,7 @@ const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_RAY_ORIGIN = 7;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
-layout(constant_id = 3) const uint ORIGIN = 5;
+layout(constant_id = 1) const uint ORIGIN = 5;
 const uint ORIGIN_NOTHING = 0;
 const uint ORIGIN_TMIN = 1;
 const uint ORIGIN_NORMAL = 2;

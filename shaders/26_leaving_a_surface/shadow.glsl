@@ -5,12 +5,10 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(location = 1) rayPayloadEXT bool lit;
 
 // ANCHOR: shadow
-bool is_lit(Start start, vec3 to_light, float end) {
+bool is_lit(Start start, vec3 to_light) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
-    uint flags = gl_RayFlagsSkipClosestHitShaderEXT | gl_RayFlagsOpaqueEXT;
-    if (SHADOW_RAYS == SHADOW_FIRST_HIT) {
-        flags |= gl_RayFlagsTerminateOnFirstHitEXT;
-    }
+    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
+        | gl_RayFlagsOpaqueEXT;
     lit = false;
     traceRayEXT(
         tlas,
@@ -20,9 +18,9 @@ bool is_lit(Start start, vec3 to_light, float end) {
         1,                          // sbtRecordStride: one record a geometry
         1,                          // missIndex: shadow.rmiss
         start.origin,
-        min(start.tmin / max(length(to_light), 1e-20), end),   // a lamp may be nearer than tmin
+        start.tmin,
         to_light,
-        end,                        // tmax
+        1e30,                       // tmax
         1                           // payload location
     );
     return lit;
