@@ -1,7 +1,9 @@
 //! 06 · Reflection: a hit sends the next ray on its way, from a loop or by recursion.
 //!
 //! New since 05_shadow_miss: a path of rays, which mirrors turn. A loop in the raygen shader traces it; or
-//! the closest hit shader lights what it reports, and traces the next ray itself.
+//! the closest hit shader lights what it reports, and traces the next ray itself (`recursion.rs`).
+
+mod recursion;
 
 use std::process::ExitCode;
 
@@ -10,28 +12,29 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
+use recursion::Recursion;
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
+/// How often a path may be reflected at most.
 const MAX_DEPTH: u32 = 8;
 
 struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
-    method: Method,
+    sun: Sun,
+    recursion: Recursion,
     depth: u32,
-    deepest: u32,
     minimum_contribution: f32,
     bounce: u32,
-    constants: Constants,
+    show: Show,
 }
 
 common::shader_enum! {
@@ -39,16 +42,12 @@ common::shader_enum! {
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
     }
-    /// What traces a path: a loop, or hits by recursion.
-    enum Method { Iterative, Recursive }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders, and the method.
+/// What a pipeline is made for: the specialization constant of its shaders, and the method.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     /// How often a path may be reflected if hits trace the rays; `None` if a loop does.
     recursive: Option<u32>,
 }
@@ -58,7 +57,7 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        light: Light,
+        light: DirectionalLight,
         depth: u32,
         minimum_contribution: f32,
         bounce: u32,
@@ -79,29 +78,20 @@ impl Sample for Demo {
             scene,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
-            method: Method::Iterative,
+            sun,
+            recursion: Recursion::new(gpu),
             depth: 4,
-            deepest: MAX_DEPTH.min(gpu.limits.max_ray_recursion_depth.saturating_sub(2)),
             minimum_contribution: 1.0 / 512.0,
             bounce: 0,
-            constants: Constants {
-                show: Show::Picture,
-                shadow_rays: ShadowRays::FirstHit,
-                smooth_terminator: true,
-                recursive: None,
-            },
+            show: Show::Picture,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
-        c.choice("method", &mut self.method);
-        let deepest = if self.method == Method::Recursive { self.deepest } else { MAX_DEPTH };
+        c.choice("show", &mut self.show);
+        c.sun(&mut self.sun);
+        let deepest = self.recursion.controls(c);
         // What a loop may do can be too deep for this device's recursion.
         self.depth = self.depth.min(deepest);
         c.integer("depth", &mut self.depth, 0..=deepest);
@@ -113,10 +103,10 @@ impl Sample for Demo {
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: variant
-        let recursive = (self.method == Method::Recursive).then_some(self.depth);
-        let constants = Constants { recursive, ..self.constants };
+        let recursive = self.recursion.nested(self.depth);
+        let wanted = Constants { show: self.show, recursive };
         let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, wanted, recursion::pipeline)?;
         // While a pipeline is made, the last one goes on, and no ray may nest deeper than it declares.
         let depth = key.recursive.unwrap_or(self.depth);
         // ANCHOR_END: variant
@@ -124,7 +114,7 @@ impl Sample for Demo {
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
-            light: self.lighting.shader(),
+            light: self.sun.light(),
             depth,
             minimum_contribution: self.minimum_contribution,
             bounce: self.bounce,
@@ -141,26 +131,19 @@ impl Sample for Demo {
 }
 
 // ANCHOR: pipeline
-/// The method decides which shaders there are, and how deep their rays nest.
+/// Only the raygen shader traces rays: however long a path is, its rays do not nest.
 fn pipeline(
     gpu: &Gpu,
     textures: &TextureTable,
     constants: Constants,
 ) -> Result<RayTracingPipeline> {
-    let (raygen, sky, hit, recursion) = match constants.recursive {
-        None => ("camera.rgen", "sky.rmiss", "shade.rchit", 1),
-        // The camera's ray and every reflection are a level each, and so is the last hit's shadow ray.
-        Some(depth) => ("recursive.rgen", "recursive.rmiss", "recursive.rchit", 1 + depth + 1),
-    };
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
-        .raygen(raygen)
-        .miss(sky)
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
         .miss("shadow.rmiss")
-        .hit(HitGroup::triangles().closest_hit(hit))
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .recursion(recursion)
+        .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
         .textures(textures)

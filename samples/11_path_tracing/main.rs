@@ -1,8 +1,7 @@
 //! 11 · Path tracing: the loop goes on where light is scattered, and the mean of many paths is the picture.
 //!
-//! New since 06_reflection: a surface sends a path on in a direction by chance; sequences that place those
-//! chances; roulette, which ends a path without a bias; a sum of samples that nothing is lost from; and
-//! scenes whose light is known in closed form.
+//! New since 06_reflection: a surface sends a path on in a direction by chance; roulette, which ends a path
+//! without a bias; a sum of samples that nothing is lost from; and scenes whose light is known in closed form.
 
 mod closed_forms;
 mod scenes;
@@ -15,8 +14,10 @@ use common::gpu::{
     Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
     TextureTable, barrier,
 };
-use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage};
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::scene::{
+    Camera, CameraBasis, DiskLight, Light, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
+};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
 use scenes::{SceneName, Sky, Staged};
 
@@ -33,24 +34,21 @@ struct Demo {
     scene: SceneOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
+    light_size: f32,
     name: SceneName,
     /// The scene that was built.
     built: SceneName,
     depth: u32,
-    minimum_contribution: f32,
     clamp: f32,
     seed: u32,
     constants: Constants,
     sums: Buffer,
-    can_reorder: bool,
 }
 
 common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW { Picture, Direct, Bounced, Rays }
-    /// What random numbers are made of.
-    enum Sequence: SEQUENCE { Random, Unshuffled = "Sobol unshuffled", Shuffled = "Sobol" }
     /// How samples are added up.
     enum Sum: SUM { Integers, Floats }
 }
@@ -60,11 +58,8 @@ common::shader_enum! {
 struct Constants {
     show: Show,
     sky: Sky,
-    sequence: Sequence,
     roulette: bool,
     sum: Sum,
-    /// Whether threads may change places; only where the device lets them.
-    reorder: bool,
 }
 
 common::shader_struct! {
@@ -73,9 +68,8 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         sums: Address<PixelSum>,
-        light: Light,
+        light: DiskLight,
         depth: u32,
-        minimum_contribution: f32,
         most: f32,
         seed: u32,
         sample_index: u32,
@@ -93,37 +87,32 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures().invocation_reorder_where_offered()
+        Requirements::ray_tracing().textures()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let source = setup.scene_or(scenes::chess)?;
-        let Staged { scene, sun, lamp, sky } = Staged::new(SceneName::Chess, &source);
+        let Staged { scene, sun, sky } = Staged::new(SceneName::Chess, &source);
         let camera = scene.camera;
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
-        // Each path asks for the light at one point of it.
-        let lighting = Lighting { lamp, size: 0.03, samples: 1, ..Lighting::new(sun) };
         Ok(Self {
             source,
             scene,
             pipelines: Variants::default(),
             camera,
-            lighting,
+            sun,
+            light_size: 0.03,
             name: SceneName::Chess,
             built: SceneName::Chess,
             depth: 16,
-            minimum_contribution: 0.0,
             clamp: 0.0,
             seed: 0,
             constants: Constants {
                 show: Show::Picture,
                 sky,
-                sequence: Sequence::Shuffled,
                 roulette: true,
                 sum: Sum::Integers,
-                reorder: false,
             },
-            can_reorder: gpu.invocation_reorder,
             sums: Buffer::new(gpu, "sums", 0, input_usage())?,
         })
     }
@@ -135,17 +124,13 @@ impl Sample for Demo {
         }
         c.choice("show", &mut self.constants.show);
         c.choice("sky", &mut self.constants.sky);
-        self.lighting.controls(c);
+        c.sun(&mut self.sun);
+        c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
-        c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         c.checkbox("roulette", &mut self.constants.roulette);
         c.slider("clamp", &mut self.clamp, 0.0..=100.0);
-        c.choice("sequence", &mut self.constants.sequence);
         c.integer("seed", &mut self.seed, 0..=1000);
         c.choice("sum", &mut self.constants.sum);
-        if self.can_reorder {
-            c.checkbox("reorder", &mut self.constants.reorder);
-        }
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -175,13 +160,14 @@ impl Sample for Demo {
         barrier::trace_to_trace(frame.gpu, frame.cmd);
         // ANCHOR_END: sums
         // ANCHOR: trace
+        let light = Light::directional(&self.sun);
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             sums: self.sums.address.into(),
-            light: self.lighting.shader(),
+            // Each path asks for the light at one point of the disk.
+            light: DiskLight { light, radius: self.light_size, samples: 1 },
             depth: self.depth,
-            minimum_contribution: self.minimum_contribution,
             most: self.clamp,
             seed: self.seed,
             sample_index: frame.index,
@@ -204,34 +190,29 @@ impl Sample for Demo {
 }
 
 impl Demo {
-    /// Takes over what a scene brings: view, lights and sky.
+    /// Takes over what a scene brings: view, sun and sky.
     fn take_scene(&mut self) {
-        let Staged { scene, sun, lamp, sky } = Staged::new(self.name, &self.source);
-        self.camera = scene.camera;
-        (self.lighting.sun, self.lighting.lamp, self.constants.sky) = (sun, lamp, sky);
+        let Staged { scene, sun, sky } = Staged::new(self.name, &self.source);
+        (self.camera, self.sun, self.constants.sky) = (scene.camera, sun, sky);
     }
 }
 
 // ANCHOR: pipeline
-/// Raygen traces every ray of a path: however long that is, rays do not nest.
+/// Only the raygen shader traces rays: however long a path is, its rays do not nest.
 fn pipeline(
     gpu: &Gpu,
     textures: &TextureTable,
     constants: Constants,
 ) -> Result<RayTracingPipeline> {
-    let builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"));
-    // A shader that has the words of an extension can be loaded only where that is.
-    let builder = if constants.reorder { builder.define("REORDER", 1) } else { builder };
-    builder
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.sky)
-        .constant(2, constants.sequence)
-        .constant(3, constants.roulette)
-        .constant(4, constants.sum)
+        .constant(2, constants.roulette)
+        .constant(3, constants.sum)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -1,7 +1,7 @@
 //! The scenes of this chapter: one to look at, and four whose light is known without a path.
 
 use anyhow::Result;
-use common::scene::{Camera, Material, PointLight, Scene, Sun};
+use common::scene::{Camera, Material, Scene, Sun};
 use glam::{DVec3, Vec3};
 
 use super::closed_forms;
@@ -32,8 +32,6 @@ pub struct Staged {
     pub scene: Scene,
     /// The sun.
     pub sun: Sun,
-    /// The lamp.
-    pub lamp: PointLight,
     /// The sky.
     pub sky: Sky,
 }
@@ -53,8 +51,7 @@ impl Staged {
     pub fn new(name: SceneName, source: &Scene) -> Self {
         let sun = Sun { azimuth: 150.0, elevation: 24.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         if name == SceneName::Chess {
-            let lamp = PointLight::default();
-            return Self { scene: source.clone(), sun, lamp, sky: Sky::Day };
+            return Self { scene: source.clone(), sun, sky: Sky::Day };
         }
         let (scene, sky) = match name {
             SceneName::Chess | SceneName::Furnace => (white(source, false), Sky::White),
@@ -65,8 +62,7 @@ impl Staged {
         };
         // No light but what the closed form has.
         let sun = Sun { radiance: Vec3::ZERO, ..sun };
-        let lamp = PointLight { intensity: Vec3::ZERO, ..PointLight::default() };
-        Self { scene, sun, lamp, sky }
+        Self { scene, sun, sky }
     }
 }
 

@@ -16,9 +16,9 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, LightKind, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
+    Camera, CameraBasis, DiskLight, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, input_usage,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;
 use glass::{Glass, media_at};
 use scenes::{SceneName, Sky, Staged};
@@ -37,12 +37,12 @@ struct Demo {
     glasses: Buffer,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    lamp: PointLight,
+    light_size: f32,
     name: SceneName,
     /// The scene that was built.
     built: SceneName,
     depth: u32,
-    minimum_contribution: f32,
     clamp: f32,
     seed: u32,
     constants: Constants,
@@ -68,7 +68,6 @@ common::shader_struct! {
         camera: CameraBasis,
         world: Address<World>,
         depth: u32,
-        minimum_contribution: f32,
         most: f32,
         seed: u32,
         sample_index: u32,
@@ -81,7 +80,7 @@ common::shader_struct! {
         scene: SceneAddresses,
         glasses: Address<Glass>,
         sums: Address<PixelSum>,
-        light: Light,
+        light: DiskLight,
         media: [u32; 4],
     }
 }
@@ -104,10 +103,6 @@ impl Sample for Demo {
         let source = setup.scene_or(scenes::chess)?;
         let Staged { scene, lamp, sky } = Staged::new(SceneName::Chess, &source);
         let on_gpu = SceneOnGpu::new(gpu, &scene, setup.options)?;
-        // Each path asks for the light at one point of it.
-        let kind = LightKind::Point;
-        let lighting =
-            Lighting { lamp, kind, size: 1.0, samples: 1, ..Lighting::new(Sun::default()) };
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         Ok(Self {
             source,
@@ -116,11 +111,11 @@ impl Sample for Demo {
             scene,
             on_gpu,
             pipelines: Variants::default(),
-            lighting,
+            lamp,
+            light_size: 1.0,
             name: SceneName::Chess,
             built: SceneName::Chess,
             depth: 32,
-            minimum_contribution: 0.0,
             clamp: 0.0,
             seed: 0,
             constants: Constants { show: Show::Picture, sky },
@@ -133,13 +128,13 @@ impl Sample for Demo {
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.name) {
             let Staged { scene, lamp, sky } = Staged::new(self.name, &self.source);
-            (self.camera, self.lighting.lamp, self.constants.sky) = (scene.camera, lamp, sky);
+            (self.camera, self.lamp, self.constants.sky) = (scene.camera, lamp, sky);
         }
         c.choice("show", &mut self.constants.show);
         c.choice("sky", &mut self.constants.sky);
-        self.lighting.controls(c);
+        c.vector("lamp position", &mut self.lamp.position, -100.0..=100.0);
+        c.slider("light size", &mut self.light_size, 0.0..=1.0);
         c.integer("depth", &mut self.depth, 0..=MAX_DEPTH);
-        c.slider("minimum contribution", &mut self.minimum_contribution, 0.0..=1.0);
         c.slider("clamp", &mut self.clamp, 0.0..=100.0);
         c.integer("seed", &mut self.seed, 0..=1000);
         c.camera(&mut self.camera);
@@ -174,11 +169,13 @@ impl Sample for Demo {
         // ANCHOR_END: sums
         // ANCHOR: world
         if is_start {
+            let light = Light::point(&self.lamp);
             let world = World {
                 scene: self.on_gpu.addresses,
                 glasses: self.glasses.address.into(),
                 sums: self.sums.address.into(),
-                light: self.lighting.shader(),
+                // Each path asks for the light at one point of the disk.
+                light: DiskLight { light, radius: self.light_size, samples: 1 },
                 media: media_at(&self.scene, self.camera.eye),
             };
             self.world.update(frame.cmd, &[world])?;
@@ -189,7 +186,6 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             world: self.world.address.into(),
             depth: self.depth,
-            minimum_contribution: self.minimum_contribution,
             most: self.clamp,
             seed: self.seed,
             sample_index: frame.index,

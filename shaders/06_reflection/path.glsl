@@ -2,7 +2,6 @@
 
 // ANCHOR: path
 struct Path {
-    uvec2 pixel;       // whose colour it makes
     vec4 color;        // what the eye sees so far
     vec3 throughput;   // what part of the light at the end of the next ray reaches the eye
     uint bounce;       // the next ray's number: 0 comes from the camera
@@ -57,12 +56,9 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         }
         // What is reflected does not reach the colour below.
         hit.color *= 1.0 - mirror;
-        if (SHADOW_RAYS != SHADOW_OFF) {
-            vec2 first = random(path.pixel, 0, path.bounce, DIMENSION_LIGHT).xy;
-            visible = visibility(push.light, start, first);
-        }
+        visible = visibility(start, push.light.direction, 1e30);
         color = material.emission + hit.color * ambient(hit.normal)
-            + lit_by(push.light, hit, material, start, -ray.direction, visible);
+            + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -ray.direction);
     }
     // ANCHOR_END: light
     // ANCHOR: next

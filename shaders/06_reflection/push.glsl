@@ -2,14 +2,12 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
-    Light light;
+    DirectionalLight light;
     uint depth;           // how often a path may be reflected
     float minimum_contribution;
     uint bounce;          // which ray of a path `show` looks at, 0 for the camera's
@@ -24,10 +22,3 @@ const uint SHOW_HIT = 3;
 const uint SHOW_DIRECTION = 4;
 const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
-
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;

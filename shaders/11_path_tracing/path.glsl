@@ -35,7 +35,7 @@ const float LIKELIEST = 0.95;
 // Whether the next ray is worth tracing.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
-    if (path.bounce > push.depth || contribution <= 0.0 || contribution < push.minimum_contribution) {
+    if (path.bounce > push.depth || contribution <= 0.0) {
         return false;
     }
     if (ROULETTE && path.bounce > 1) {
@@ -62,12 +62,13 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     // No ray meets this light by chance: here alone it is asked for.
     Start start = shadow_start(hit);
-    float visible = visibility(push.light, start, numbers(path, DIMENSION_LIGHT));
-    vec3 to_light = normalize(towards_light(push.light, start.origin, vec2(0.0)));
-    hit.color = scattered(material, color, to_eye, max(dot(hit.normal, to_light), 0.0));
+    float visible = visible_part(push.light, start, numbers(path, DIMENSION_LIGHT));
+    vec3 to_light = towards_light(push.light.light, start.origin);
+    hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
     MaterialRecord lit = material;
     lit.specular *= kept_of_highlight(material.shininess);
-    gather(path, material.emission + lit_by(push.light, hit, lit, start, -ray.direction, visible));
+    vec3 arriving = visible * arriving_light(push.light.light, start.origin);
+    gather(path, material.emission + lit_by(arriving, to_light, hit, lit, -ray.direction));
     // ANCHOR_END: light
     // ANCHOR: next
     bool polished = material.illumination >= ILLUMINATION_MIRROR;

@@ -2,16 +2,15 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
+#include "common/disk.glsl"
 #include "float_sum.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Sums sums;
-    Light light;
+    DiskLight light;
     uint depth;           // how often a path may be reflected
-    float minimum_contribution;
     float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
     uint seed;
     uint sample_index;    // which of a pixel's samples
@@ -29,13 +28,8 @@ const uint SKY_DAY = 0;
 const uint SKY_WHITE = 1;
 const uint SKY_BLACK = 2;
 
-layout(constant_id = 2) const uint SEQUENCE = 0;
-const uint SEQUENCE_RANDOM = 0;
-const uint SEQUENCE_UNSHUFFLED = 1;
-const uint SEQUENCE_SHUFFLED = 2;
+layout(constant_id = 2) const bool ROULETTE = true;
 
-layout(constant_id = 3) const bool ROULETTE = true;
-
-layout(constant_id = 4) const uint SUM = 0;
+layout(constant_id = 3) const uint SUM = 0;
 const uint SUM_INTEGERS = 0;
 const uint SUM_FLOATS = 1;

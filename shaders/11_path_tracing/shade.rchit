@@ -6,12 +6,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "report.glsl"
+#include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(weights);
+    hit = report(push.scene, weights);
 }

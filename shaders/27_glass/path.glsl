@@ -35,7 +35,7 @@ void gather(inout Path path, vec3 seen) {
 // Whether the next ray is worth tracing. Clear glass takes nothing, and ends no path by chance: the depth does.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
-    if (path.bounce > push.depth || contribution <= 0.0 || contribution < push.minimum_contribution) {
+    if (path.bounce > push.depth || contribution <= 0.0) {
         return false;
     }
     if (path.bounce > 1 && contribution < 1.0) {
@@ -122,13 +122,14 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     bool asks = path.media.x == AIR;
     if (asks) {
         Start start = shadow_start(hit);
-        float visible = visibility(push.world.light, start, numbers(path, DIMENSION_LIGHT));
-        vec3 to_light = normalize(towards_light(push.world.light, start.origin, vec2(0.0)));
-        hit.color = scattered(material, color, to_eye, max(dot(hit.normal, to_light), 0.0));
+        float visible = visible_part(push.world.light, start, numbers(path, DIMENSION_LIGHT));
+        vec3 to_light = towards_light(push.world.light.light, start.origin);
+        hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
         MaterialRecord lit = material;
         // A mirror meets the light by chance: its image is the highlight.
         lit.specular *= polished ? 0.0 : kept_of_highlight(material.shininess);
-        gather(path, lit_by(push.world.light, hit, lit, start, -ray.direction, visible));
+        vec3 arriving = visible * arriving_light(push.world.light.light, start.origin);
+        gather(path, lit_by(arriving, to_light, hit, lit, -ray.direction));
     }
     // ANCHOR_END: light
     // ANCHOR: next

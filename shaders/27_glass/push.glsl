@@ -2,7 +2,7 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
+#include "common/disk.glsl"
 #include "common/pixel_sum.glsl"
 #include "common/glass.glsl"
 
@@ -13,7 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     SceneAddresses scene;
     Glasses glasses;      // one for each material
     Sums sums;
-    Light light;
+    DiskLight light;
     uint media[4];        // the bodies that the camera is in
 };
 
@@ -21,7 +21,6 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     World world;
     uint depth;           // how many surfaces a path may leave
-    float minimum_contribution;
     float most;           // what a hit or the sky may add after the first ray; 0 for whatever it brings
     uint seed;
     uint sample_index;    // which of a pixel's samples

@@ -6,12 +6,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 #include "hit.glsl"
-#include "report.glsl"
+#include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(weights);
+    hit = report(push.world.scene, weights);
+    // A normal without faceforward looks out of the body.
+    InstanceRecord instance = push.world.scene.instances.at[hit.instance];
+    vec3 out_of = vec3(surface_at(instance, hit.triangle, weights).face * gl_WorldToObjectEXT);
+    hit.entering = dot(out_of, hit.face) > 0.0;
 }

@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "hit.glsl"
+#include "common/hit.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 

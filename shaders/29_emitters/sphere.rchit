@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
-#include "hit.glsl"
+#include "common/hit.glsl"
 #include "common/above.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
@@ -22,6 +22,7 @@ void main() {
     hit.t = gl_HitTEXT;
     // A sphere has one normal, and is as round as it looks.
     hit.normal = hit.face;
+    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[sphere.material].base_color;
     hit.material = sphere.material;
     hit.triangle = id;

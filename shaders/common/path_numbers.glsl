@@ -1,9 +1,10 @@
-// Like numbers.glsl in 11_path_tracing, but by one sequence alone: the random numbers of a path.
+// Taught by 11_path_tracing.
 //
-// Two for each purpose at each bounce, that belong to the pixel and to one of its samples.
+// The random numbers of a path: two for each purpose at each bounce, that belong to the pixel and to one of its
+// samples.
 #include "common/sobol.glsl"
 
-// What else than in chapters before a number is for.
+// The purposes of numbers that earlier chapters do not have.
 const uint DIMENSION_CHOICE = 2;
 const uint DIMENSION_BOUNCE = 3;
 const uint DIMENSION_ROULETTE = 4;

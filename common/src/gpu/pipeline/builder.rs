@@ -72,10 +72,14 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// The number of a stage: each is compiled once, however many groups have it.
+    /// The number of a stage: each is compiled once, however many groups have it. It lies in the folder of
+    /// the pipeline's name, or where its path below `shaders/` says.
     fn stage(&mut self, shader: &str) -> u32 {
         let Blueprint { name, stages, .. } = &mut self.blueprint;
-        let path = format!("{name}/{shader}");
+        let path = match shader.contains('/') {
+            true => shader.to_owned(),
+            false => format!("{name}/{shader}"),
+        };
         if let Some(known) = stages.iter().position(|stage| stage.path == path) {
             return known as u32;
         }

@@ -4,13 +4,13 @@
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "push.glsl"
+#include "06_reflection/push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
 #include "common/mirror.glsl"
-#include "path.glsl"
+#include "06_reflection/path.glsl"
 #include "common/shadow.glsl"
-#include "report.glsl"
+#include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;
 hitAttributeEXT vec2 weights;
@@ -20,7 +20,7 @@ void main() {
     // ANCHOR: trace
     // The built-in variables are read before anything is traced: afterwards the software driver takes
     // these for the last ray's own.
-    Hit hit = report(weights);
+    Hit hit = report(push.scene, weights);
     Ray ray = Ray(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT);
     advance(path, ray, hit);
     if (goes_on(path)) {

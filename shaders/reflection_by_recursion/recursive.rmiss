@@ -3,11 +3,11 @@
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "push.glsl"
+#include "06_reflection/push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
 #include "common/mirror.glsl"
-#include "path.glsl"
+#include "06_reflection/path.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;
 

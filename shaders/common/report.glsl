@@ -1,14 +1,16 @@
-// What a hit shader reports of the surface that a ray met.
+// Taught by 06_reflection.
+//
+// What a closest hit shader reports of the triangle that a ray met.
 #include "common/place.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 // The built-in variables of a hit shader say which surface it is.
-Hit report(vec2 weights) {
-    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
+Hit report(SceneAddresses scene, vec2 weights) {
+    InstanceRecord instance = scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
-    MaterialRecord material = push.scene.materials.at[instance.material];
+    MaterialRecord material = scene.materials.at[instance.material];
     Hit hit;
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
@@ -16,7 +18,6 @@ Hit report(vec2 weights) {
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
-    hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
 
     hit.color = material.base_color;
     if (material.base_texture >= 0) {
