@@ -87,7 +87,7 @@ fn a_depth_only_takes_light_away() {
 /// What is missing of the light that the deepest path brings, by the same random numbers.
 #[test]
 #[ignore = "nightly: gives a table of the page; quick: glass::a_depth_only_takes_light_away"]
-fn what_depth_and_minimum_contribution_leave_out() {
+fn what_depth_leaves_out() {
     let of = |set: &str| mean(&picture("96x60", 16, &["clamp=20", set]));
     let all = of("depth=128");
     let mut table = Map::new();
@@ -104,19 +104,6 @@ fn what_depth_and_minimum_contribution_leave_out() {
     let bright_path = 20.0 / f64::from(96 * 60 * 16) / all;
     let paths = if figures::are_of_this_driver("27_glass/left_out") { 0.0 } else { 8.0 };
     assert!(last < 1e-3 + paths * bright_path, "depth 32 leaves out {last}");
-    last = 0.0;
-    for part in ["0.001", "0.01", "0.1"] {
-        let missing = 1.0
-            - mean(&picture(
-                "96x60",
-                16,
-                &["clamp=20", "depth=128", &format!("minimum contribution={part}")],
-            )) / all;
-        println!("minimum contribution {part}: {missing:.6}");
-        assert!(missing >= last, "{part}: {missing}");
-        last = missing;
-        table.insert(format!("part_{part}"), json!(missing));
-    }
     figures::hold("27_glass/left_out", table.into());
 }
 

@@ -7,7 +7,7 @@ mod surfaces;
 
 use common::app::Picture;
 
-use run::{bits, golden, render, same_paths};
+use run::{bits, command, golden, render, render_by, shaders_with};
 
 const NAME: &str = "11_path_tracing";
 const SIZE: &str = "64x40";
@@ -17,6 +17,19 @@ fn picture(size: &str, frames: u32, sets: &[&str]) -> Picture {
     let mut arguments = vec!["--frames", &frames];
     arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
     render(NAME, size, &arguments).picture
+}
+
+/// The same by random numbers in the place of Sobol's points: the samples of a pixel are independent.
+fn picture_by_chance(size: &str, frames: u32, sets: &[&str]) -> Picture {
+    let points = "uvec2 point = sobol(owen(sample_index, key.z));\n    \
+                  return vec2(to_unit(owen(point.x, key.x)), to_unit(owen(point.y, key.y)));";
+    let chance = "uvec2 bits = hash(uvec4(key.xy, sample_index, 0)).xy;\n    \
+                  return vec2(to_unit(bits.x), to_unit(bits.y));";
+    let shaders = shaders_with("common/path_numbers.glsl", points, chance);
+    let frames = frames.to_string();
+    let mut arguments = vec!["--frames", &frames];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    render_by(command(NAME).env("SHADERS", shaders.path()), size, &arguments).picture
 }
 
 /// Every colour of every pixel.
@@ -135,18 +148,4 @@ fn sums_of_integers_and_of_floats_begin_alike() {
     assert_ne!(bits(&integers), bits(&floats));
     let bound = 34.0 * 0.5f64.powi(24);
     assert!(colors(&integers).zip(colors(&floats)).all(|(a, b)| (a - b).abs() <= bound * a + 1e-9));
-}
-
-#[test]
-fn threads_that_change_places_make_the_same_picture() {
-    let listed = run::command(NAME).arg("--list-controls").output().expect("the sample starts");
-    let controls = String::from_utf8(listed.stdout).expect("text");
-    assert!(controls.contains("roulette"), "{controls}");
-    if !controls.lines().any(|line| line.starts_with("reorder\t")) {
-        println!("not tried: this device does not reorder");
-        return;
-    }
-    let [off, on, anew] =
-        ["reorder=off", "reorder=on", "seed=1"].map(|set| picture(SIZE, 4, &[set]));
-    same_paths("with and without reordering", 5.0, &off, &on, &anew);
 }

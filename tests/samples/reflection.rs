@@ -2,16 +2,20 @@
 
 mod plots;
 
+use std::path::Path;
+
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, RayTracingPipeline, Requirements};
-use common::scene::{Light, Scene, Sun};
+use common::scene::{Scene, Sun};
 use glam::{DVec3, Vec3};
 use reference::Ray;
 use serde_json::json;
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, figures, golden, refused, render, same_answers, same_colors};
+use run::{
+    bits, command, figures, golden, refused, render, render_by, same_answers, same_colors, shaders_with,
+};
 
 const NAME: &str = "06_reflection";
 const SIZE: &str = "120x75";
@@ -20,6 +24,12 @@ const SIZE: &str = "120x75";
 fn picture(size: &str, sets: &[&str]) -> Picture {
     let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
     render(NAME, size, &arguments).picture
+}
+
+/// The same by other shaders.
+fn picture_by(shaders: &Path, size: &str, sets: &[&str]) -> Picture {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    render_by(command(NAME).env("SHADERS", shaders), size, &arguments).picture
 }
 
 #[test]
@@ -50,11 +60,12 @@ fn a_loop_and_recursion_give_the_same_picture() {
 
 #[test]
 fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
+    let asks = "visible = visibility(start, push.light.direction, 1e30);";
+    let without = shaders_with("06_reflection/path.glsl", asks, "");
     for method in ["method=iterative", "method=recursive"] {
-        let [off, traced] = ["off", "first hit"].map(|rays| {
-            picture(SIZE, &["show=hit", "bounce=1", method, &format!("shadow rays={rays}")])
-        });
-        same_answers(method, NAME, &off, &traced);
+        let sets = ["show=hit", "bounce=1", method];
+        let off = picture_by(without.path(), SIZE, &sets);
+        same_answers(method, NAME, &off, &picture(SIZE, &sets));
     }
 }
 
@@ -130,13 +141,17 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
     // Where nothing is lifted, a mirrored ray starts where the shadow ray of the same hit does.
-    let sets = ["minimum contribution=0", "smooth terminator=off"];
-    let show = |sets_too: &[&str]| picture("240x150", &[&sets[..], sets_too].concat()).pixels;
-    let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]));
-    let directions = picture("240x150", &[&sets[..], &["show=ray direction"]].concat());
-    let [on, found] = ["show=ray direction", "show=hit"].map(|view| show(&[view, "bounce=1"]));
+    let lifts = "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);";
+    let flat = shaders_with("common/above.glsl", lifts, "hit.lift = vec3(0.0);");
+    let show = |sets: &[&str]| {
+        picture_by(flat.path(), "240x150", &[&["minimum contribution=0"], sets].concat())
+    };
+    let [hits, starts] = ["show=hit", "show=shadow origin"].map(|view| show(&[view]).pixels);
+    let directions = show(&["show=ray direction"]);
+    let [on, found] =
+        ["show=ray direction", "show=hit"].map(|view| show(&[view, "bounce=1"]).pixels);
     let sun = Sun { azimuth: 340.0, elevation: 20.0, ..Sun::default() };
-    let light = Light::directional(&sun, 0.0).place.to_array();
+    let light = sun.light().direction.to_array();
     let [mut mirrored, mut shadows] = [(); 2].map(|()| Tally::default());
     for (i, arriving) in rays(&scene.camera, &directions).enumerate() {
         let Some(hit) = answer(&hits[i]) else { continue };

@@ -33,7 +33,6 @@ const CAPABILITIES: [(Capability, Option<&str>); 14] = [
     ),
     (Capability::RayTracingPositionFetchKHR, Some("rayTracingPositionFetch")),
     (Capability::RayQueryKHR, Some("rayQuery")),
-    (Capability::ShaderInvocationReorderNV, Some("rayTracingInvocationReorder")),
     (Capability::Float64, Some("shaderFloat64")),
     (Capability::SignedZeroInfNanPreserve, Some("shaderSignedZeroInfNanPreserveFloat32")),
     (Capability::RoundingModeRTE, Some("shaderRoundingModeRTEFloat32")),
@@ -51,7 +50,6 @@ fn asked_for(chapter: &str) -> Vec<&'static str> {
         // What all chapters share adds up pictures.
         "common" => &[],
         "10_position_fetch" => &[textures[0], textures[1], "rayTracingPositionFetch"],
-        "11_path_tracing" => &[textures[0], textures[1], "rayTracingInvocationReorder"],
         "16_ray_query" | "17_ray_query_raster" => &[textures[0], textures[1], "rayQuery"],
         // It binds the scene's textures and reads none.
         "20_wireframe" => &["rayTracingPositionFetch"],
@@ -83,9 +81,6 @@ fn compiled() -> Vec<Form> {
         let mut variants: Vec<Vec<(&str, String)>> = vec![Vec::new()];
         if chapter == "24_accuracy" {
             variants = (0..9).map(|number| vec![("PRIMITIVE", number.to_string())]).collect();
-        }
-        if chapter == "11_path_tracing" {
-            variants.push(vec![("REORDER", "1".to_owned())]);
         }
         if chapter == "25_scene_effects" {
             let specialised = |effects: &[&'static str]| {

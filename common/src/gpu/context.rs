@@ -71,8 +71,6 @@ pub struct GpuContext {
     pub chosen: Candidate,
     /// The one queue in use: compute, and graphics where the device has it.
     pub queue: vk::Queue,
-    /// Whether shaders may sort rays by what they met: the device offers it, and the sample asks for it.
-    pub invocation_reorder: bool,
     /// What the driver has compiled in earlier runs, and in this one.
     pub pipeline_cache: PipelineCache,
     /// What the sample has asked for.
@@ -165,7 +163,6 @@ impl Gpu {
             push_descriptor: khr::push_descriptor::Device::new(instance, &device),
             executable_properties: tells_executables
                 .then(|| khr::pipeline_executable_properties::Device::new(instance, &device)),
-            invocation_reorder: features.reorder.ray_tracing_invocation_reorder == vk::TRUE,
             pipeline_cache: PipelineCache::open(PipelineCache::FOLDER, &device, &chosen.properties),
             names: ext::debug_utils::Device::new(instance, &device),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use ash::{khr, nv, vk};
+use ash::{khr, vk};
 
 /// The feature structures that a chapter may ask for, as the device fills them or as it is opened with them.
 #[derive(Clone, Copy, Default)]
@@ -16,7 +16,6 @@ pub struct Features {
     pub position_fetch: vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR<'static>,
     pub ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
     pub executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
-    pub reorder: vk::PhysicalDeviceRayTracingInvocationReorderFeaturesNV<'static>,
 }
 
 impl Features {
@@ -43,9 +42,6 @@ impl Features {
         }
         if has(khr::pipeline_executable_properties::NAME) {
             chain = chain.push_next(&mut self.executable);
-        }
-        if has(nv::ray_tracing_invocation_reorder::NAME) {
-            chain = chain.push_next(&mut self.reorder);
         }
         chain
     }

@@ -5,7 +5,7 @@
 
 use std::ffi::CStr;
 
-use ash::{khr, nv, vk};
+use ash::{khr, vk};
 
 use super::{Features, Limits};
 
@@ -166,17 +166,6 @@ impl Requirements {
             Some(khr::ray_tracing_pipeline::NAME),
             "rayTraversalPrimitiveCulling",
             ray_tracing_pipeline.ray_traversal_primitive_culling
-        ));
-        self
-    }
-
-    /// Shaders that may sort rays by what they met, where the device has it:
-    /// [`Gpu::invocation_reorder`](super::GpuContext) tells.
-    pub fn invocation_reorder_where_offered(mut self) -> Self {
-        self.wishes.push(requirement!(
-            Some(nv::ray_tracing_invocation_reorder::NAME),
-            "rayTracingInvocationReorder",
-            reorder.ray_tracing_invocation_reorder
         ));
         self
     }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde_json::json;
 
-use super::{Estimate, brightness, picture};
+use super::{Estimate, brightness, picture, picture_by_chance};
 use run::{bits, figures};
 
 /// The square that shines, in the scene of each name.
@@ -76,7 +76,7 @@ fn squares_light_each_other_as_their_form_factors_say() {
     const FRAMES: u32 = 64;
     for ((name, square), expected) in SQUARES.iter().zip(catalogued()) {
         let scene = format!("scene={name}");
-        let shown = brightness(&picture("64x64", FRAMES, &[&scene, "sequence=random"]));
+        let shown = brightness(&picture_by_chance("64x64", FRAMES, &[&scene]));
         let factors = form_factors(SIDE, square);
         // Each sample is a toss of a coin: it meets the shining square or not.
         let variance = |p: f64| p * (1.0 - p) / f64::from(FRAMES);
@@ -144,13 +144,13 @@ pub const ROOM_VARIANCE: f64 = 0.3125;
 
 #[test]
 fn roulette_ends_a_path_that_has_no_end_and_keeps_its_mean() {
-    let sets = ["scene=closed room", "depth=256", "sequence=random"];
-    let estimate = Estimate::of(&brightness(&picture("96x60", 4, &sets)));
+    let sets = ["scene=closed room", "depth=256"];
+    let estimate = Estimate::of(&brightness(&picture_by_chance("96x60", 4, &sets)));
     estimate.is(1.0, "closed room with roulette");
     let expected = (ROOM_VARIANCE / 4.0).sqrt();
     let off = (estimate.deviation / expected - 1.0).abs();
     assert!(off < 0.05, "the deviation is {}, not {expected}", estimate.deviation);
-    let rays = picture("96x60", 4, &[&sets[..], &["show=rays"]].concat());
+    let rays = picture_by_chance("96x60", 4, &[&sets[..], &["show=rays"]].concat());
     let rays = Estimate::of(&brightness(&rays));
     // Two rays, a third for a quarter of the paths, and for these another for each head of a coin.
     rays.is(2.5, "rays a path");

@@ -5,7 +5,7 @@ use common::app::Picture;
 use serde_json::Map;
 
 use super::closed_forms::{ROOM_VARIANCE, SQUARES, form_factors};
-use super::{Estimate, brightness, colors, error, picture};
+use super::{Estimate, brightness, colors, error, picture, picture_by_chance};
 use run::figures;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
@@ -32,14 +32,16 @@ fn furnace() {
     draw_panels("11_furnace.png", 1, &[Shown::row(&[1, 2, 5, 256].map(show))]);
 }
 
-const SEQUENCES: [&str; 3] = ["random", "Sobol unshuffled", "Sobol"];
+/// What makes a picture, and what the numbers of its paths are called.
+type Numbers = (&'static str, fn(&str, u32, &[&str]) -> Picture);
+const NUMBERS: [Numbers; 2] = [("random", picture_by_chance), ("Sobol", picture)];
 const FRAMES: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 
-/// The error of a scene whose light is known, for each sequence and number of samples.
-fn curves(scene: &str, expected: &[f64]) -> [[f64; 6]; 3] {
-    SEQUENCES.map(|sequence| {
+/// The error of a scene whose light is known, for each kind of numbers and number of samples.
+fn curves(scene: &str, expected: &[f64]) -> [[f64; 6]; 2] {
+    NUMBERS.map(|(_, picture)| {
         FRAMES.map(|frames| {
-            let sets = [&format!("scene={scene}"), "depth=256", &format!("sequence={sequence}")];
+            let sets = [&format!("scene={scene}"), "depth=256"];
             let shown = brightness(&picture("32x32", frames, &sets));
             let squares = shown.iter().zip(expected).map(|(shown, value)| (shown - value).powi(2));
             (squares.sum::<f64>() / expected.len() as f64).sqrt()
@@ -75,19 +77,19 @@ fn errors() {
             };
             let mut series = vec![line];
             held.insert(format!("{name}.theory"), theory(256).into());
-            for (sequence, curve) in SEQUENCES.iter().zip(curves(name, expected)) {
-                println!("{name}, {sequence}: {curve:.5?}");
-                held.insert(format!("{name}.{sequence}"), curve[4].into());
+            for ((numbers, _), curve) in NUMBERS.iter().zip(curves(name, expected)) {
+                println!("{name}, {numbers}: {curve:.5?}");
+                held.insert(format!("{name}.{numbers}"), curve[4].into());
                 let points = FRAMES.iter().zip(curve).map(|(&n, error)| [f64::from(n), error]);
                 let points = points.collect();
                 series.push(Series {
-                    name: sequence,
+                    name: numbers,
                     points,
                     line: true,
                     dots: true,
                     names: vec![],
                 });
-                if *sequence == "random" {
+                if *numbers == "random" {
                     // 1024 pixels tell a deviation to within a twentieth, by four standard errors of it.
                     for (frames, error) in FRAMES.iter().zip(curve).skip(1) {
                         let off = (error / theory(*frames) - 1.0).abs();
@@ -111,7 +113,7 @@ fn relative(picture: &Picture, reference: &Picture) -> f64 {
 const SMALL: &str = "96x60";
 
 #[test]
-#[ignore = "by hand: prints what depth, minimum, roulette and clamp cost in error"]
+#[ignore = "by hand: prints what stopping at a depth costs in error"]
 fn biases() {
     // The random numbers are the same: pictures differ only by what was left out, not by chance.
     let of =
@@ -122,11 +124,6 @@ fn biases() {
         let error = relative(&of(&[&format!("depth={depth}")]), &all);
         println!("| depth {depth} | {error:.5} |");
         held.insert(format!("depth.{depth}"), error.into());
-    }
-    for minimum in ["0.001953125", "0.01", "0.05", "0.2"] {
-        let error = relative(&of(&[&format!("minimum contribution={minimum}")]), &all);
-        println!("| minimum {minimum} | {error:.5} |");
-        held.insert(format!("minimum.{minimum}"), error.into());
     }
     figures::hold("11_path_tracing/biases", held.into());
 }
