@@ -3,6 +3,7 @@
 //! New since 05_shadow_miss: bottom levels of boxes, the intersection shaders `sphere.rint` and
 //! `box.rint`, a closest hit shader for both, hit groups per instance, and how exact all that is.
 
+mod boxes;
 mod shapes;
 mod shapes_on_gpu;
 
@@ -13,9 +14,9 @@ use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use shapes::{SceneKind, ShapeAddresses};
 use shapes_on_gpu::{Build, ShapesOnGpu};
@@ -30,7 +31,7 @@ struct Demo {
     shapes: ShapesOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     build: Build,
     distance: f32,
     constants: Constants,
@@ -52,8 +53,7 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
+    shadows: bool,
     sphere_rung: SphereRung,
     box_rung: BoxRung,
 }
@@ -65,7 +65,7 @@ common::shader_struct! {
         scene: SceneAddresses,
         shapes: Address<ShapeAddresses>,
         host_c: Address,
-        light: Light,
+        light: DirectionalLight,
     }
 }
 
@@ -79,13 +79,11 @@ impl Sample for Demo {
         source.model.materials.extend(shapes::materials());
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let ordering = setup.options.ordering;
-        let build = Build { scene: SceneKind::Chess, count: 10_000, ordering, margin: true };
+        let build = Build { scene: SceneKind::Chess, count: 10_000, margin: true };
         let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
         let constants = Constants {
             show: Show::Picture,
-            shadow_rays: ShadowRays::FirstHit,
-            smooth_terminator: true,
+            shadows: true,
             sphere_rung: SphereRung::Stable,
             box_rung: BoxRung::Division,
         };
@@ -96,7 +94,7 @@ impl Sample for Demo {
             shapes,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
+            sun,
             build,
             distance: 100.0,
             constants,
@@ -108,9 +106,8 @@ impl Sample for Demo {
         // A scene brings its size, its view, and whether its shadows are worth their time.
         if c.choice("scene", &mut self.build.scene) {
             self.build.count = shapes::default_count(self.build.scene);
-            let shadows = [SceneKind::Chess, SceneKind::Grid].contains(&self.build.scene);
-            self.constants.shadow_rays =
-                if shadows { ShadowRays::FirstHit } else { ShadowRays::Off };
+            self.constants.shadows =
+                [SceneKind::Chess, SceneKind::Grid].contains(&self.build.scene);
             self.camera = self.scene_camera();
         }
         if c.integer("count", &mut self.build.count, 1..=1_000_000) {
@@ -121,12 +118,9 @@ impl Sample for Demo {
         }
         c.choice("sphere rung", &mut self.constants.sphere_rung);
         c.choice("box rung", &mut self.constants.box_rung);
-        c.checkbox("ordering", &mut self.build.ordering);
         c.checkbox("margin", &mut self.build.margin);
         c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -153,7 +147,7 @@ impl Sample for Demo {
             scene: self.scene.addresses,
             shapes: self.shapes.addresses.address.into(),
             host_c: self.shapes.host_c_address(),
-            light: self.lighting.shader(),
+            light: self.sun.light(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.shapes.tlas),
@@ -189,10 +183,9 @@ fn pipeline(
         .hit(HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"))
         .hit(HitGroup::procedural("box.rint").closest_hit("shape.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.sphere_rung)
-        .constant(4, constants.box_rung)
+        .constant(1, constants.shadows)
+        .constant(2, constants.sphere_rung)
+        .constant(3, constants.box_rung)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

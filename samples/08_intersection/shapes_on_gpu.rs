@@ -1,16 +1,13 @@
-//! The shapes on the device: a bottom level of spheres and one of boxes, in order and with a margin.
+//! The shapes on the device: a bottom level of spheres and one of boxes, in order.
 
 use anyhow::Result;
 use ash::vk;
 use common::Frame;
-use common::gpu::{
-    AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order, padded,
-};
-use common::scene::{
-    Instance, Scene, SceneOnGpu, boxes_on_gpu, build_top, input_usage, instance_on_gpu,
-};
+use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, order};
+use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
+use crate::boxes::{self, reach};
 use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
 
 /// What the shapes are built from; where it changes, they are built again.
@@ -18,7 +15,6 @@ use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
 pub struct Build {
     pub scene: SceneKind,
     pub count: u32,
-    pub ordering: bool,
     /// Whether the boxes around shapes are larger than the shapes.
     pub margin: bool,
 }
@@ -61,6 +57,7 @@ impl ShapesOnGpu {
         let everything = around(bounds.iter().chain(&spheres).chain(&boxes));
         let reach = if build.margin { reach(everything, eye) } else { 0.0 };
 
+        let ordering = scene.options.ordering;
         // ANCHOR: instances
         let mut instances = Vec::new();
         for (index, piece) in pieces {
@@ -69,8 +66,8 @@ impl ShapesOnGpu {
         }
         // One more instance for all spheres and one for all boxes. The record offset makes the device
         // run their intersection shaders: hit group 0 is that of triangles, 1 of spheres, 2 of boxes.
-        let spheres = Level::new(gpu, "spheres", &spheres, build.ordering, reach)?;
-        let boxes = Level::new(gpu, "boxes", &boxes, build.ordering, reach)?;
+        let spheres = Level::new(gpu, "spheres", &spheres, ordering, reach)?;
+        let boxes = Level::new(gpu, "boxes", &boxes, ordering, reach)?;
         for (record, level) in [(1, &spheres), (2, &boxes)] {
             if let Some(blas) = &level.blas {
                 let index = source.instances.len() + record as usize - 1;
@@ -79,7 +76,7 @@ impl ShapesOnGpu {
             }
         }
         // ANCHOR_END: instances
-        let ordered = order::for_build(gpu, &bounds, build.ordering);
+        let ordered = order::for_build(gpu, &bounds, ordering);
         let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
         let tlas = build_top(gpu, &ordered)?;
 
@@ -168,18 +165,9 @@ impl Level {
         let order = order::for_build(gpu, bounds, ordering);
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order
-        // ANCHOR: margin
-        let boxes: Vec<[Vec3; 2]> =
-            order.iter().map(|&i| padded(bounds[i as usize], reach)).collect();
-        // ANCHOR_END: margin
-        // ANCHOR: boxes
-        let input = boxes_on_gpu(gpu, name, &boxes)?;
-        let count = boxes.len() as u32;
-        let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
-        // ANCHOR_END: boxes
-        let options = BuildOptions { compact: true, ..BuildOptions::default() };
-        let blas = (count > 0)
-            .then(|| AccelerationStructure::bottom(gpu, name, &[geometry], options))
+        let ordered = order.iter().map(|&i| bounds[i as usize]);
+        let blas = (!bounds.is_empty())
+            .then(|| boxes::bottom(gpu, name, ordered, reach))
             .transpose()?;
         Ok(Self { blas, ids, bounds: around(bounds) })
     }
@@ -190,12 +178,3 @@ fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bou
     let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
 }
-
-// ANCHOR: reach
-/// How far a ray may begin from a shape: at the eye or, as shadow rays do, anywhere on the scene.
-/// Rounded up to a power of two, so that few steps of a camera change it.
-fn reach((low, high): order::Bounds, eye: Vec3) -> f32 {
-    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
-    farthest.length().log2().ceil().exp2()
-}
-// ANCHOR_END: reach

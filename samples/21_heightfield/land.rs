@@ -1,10 +1,11 @@
 //! The ground on the device: one box, beside the pieces that stand on it.
 
 use anyhow::Result;
-use common::gpu::{self, AccelerationStructure, BuildOptions, Geometry, Gpu, order};
-use common::scene::{Instance, Mesh, Scene, SceneOnGpu, boxes_on_gpu, build_top, instance_on_gpu};
+use common::gpu::{self, AccelerationStructure, Gpu, order};
+use common::scene::{Instance, Mesh, Scene, SceneOnGpu, build_top, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
+use super::boxes;
 use super::ground::{Ground, Landscape};
 
 /// How much the ground may fall under a piece's foot.
@@ -18,7 +19,7 @@ pub struct Land {
     pub landscape: Landscape,
     /// Corners of the ground's box.
     pub bounds: (Vec3, Vec3),
-    margin: f32,
+    reach: f32,
     _blas: AccelerationStructure,
 }
 
@@ -32,13 +33,9 @@ impl Land {
         landscape: Landscape,
         eye: Vec3,
     ) -> Result<Self> {
-        let margin = margin(landscape, eye);
-        let bounds = landscape.bounds(margin);
-        let input = [[bounds.0 - margin, bounds.1 + margin]];
-        let input = boxes_on_gpu(gpu, "ground's box", &input)?;
-        let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
-        let options = BuildOptions { compact: true, ..BuildOptions::default() };
-        let blas = AccelerationStructure::bottom(gpu, "ground", &[geometry], options)?;
+        let reach = boxes::reach(landscape.bounds(0.0), eye);
+        let bounds = landscape.bounds(gpu::margin(reach));
+        let blas = boxes::bottom(gpu, "ground", [bounds], reach)?;
 
         let mut instances =
             vec![instance_on_gpu(&Affine3A::IDENTITY, source.instances.len(), 1, &blas)];
@@ -57,7 +54,7 @@ impl Land {
         // ANCHOR_END: build
         let order = order::for_build(gpu, &boxes, scene.options.ordering).into_iter();
         let tlas = build_top(gpu, &order.map(|i| instances[i as usize]).collect::<Vec<_>>())?;
-        Ok(Self { tlas, landscape, bounds, margin, _blas: blas })
+        Ok(Self { tlas, landscape, bounds, reach, _blas: blas })
     }
 
     /// The ground that was built, of this material.
@@ -71,16 +68,8 @@ impl Land {
 
     /// Whether another landscape is wanted, or another eye sees it.
     pub fn is_outdated(&self, landscape: Landscape, eye: Vec3) -> bool {
-        self.landscape != landscape || self.margin != margin(landscape, eye)
+        self.landscape != landscape || self.reach != boxes::reach(landscape.bounds(0.0), eye)
     }
-}
-
-/// A driver's box test rounds (chapter 08). In steps of powers of two, so that few steps of a camera change
-/// it.
-fn margin(landscape: Landscape, eye: Vec3) -> f32 {
-    let (low, high) = landscape.bounds(0.0);
-    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
-    gpu::margin(farthest.length().log2().ceil().exp2())
 }
 
 // ANCHOR: stand

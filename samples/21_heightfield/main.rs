@@ -3,6 +3,7 @@
 //! New since 08_intersection: a height for every (x, z), four ways to march a ray to it, pieces that
 //! stand on the ground, views of steps and errors, and five views of the land.
 
+mod boxes;
 mod ground;
 mod land;
 mod scenes;
@@ -17,9 +18,9 @@ use common::gpu::{
     TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays, input_usage,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun, input_usage,
 };
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use ground::{Ground, Landscape};
 use land::Land;
 use scenes::{Preset, PresetName};
@@ -35,7 +36,7 @@ struct Demo {
     ground: Buffer,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     preset: PresetName,
     landscape: Landscape,
     constants: Constants,
@@ -55,8 +56,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     rung: Rung,
 }
 
@@ -66,7 +65,7 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         ground: Address<Ground>,
-        light: Light,
+        light: DirectionalLight,
     }
 }
 
@@ -78,17 +77,12 @@ impl Sample for Demo {
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut source = setup.scene_or(scenes::chess)?;
         source.model.materials.push(scenes::earth());
-        let Preset { landscape, camera, sun, lamp } = Preset::new(PresetName::Hills);
+        let Preset { landscape, camera, sun } = Preset::new(PresetName::Hills);
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let land = Land::new(gpu, &source, &scene, landscape, camera.eye.as_vec3())?;
         let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
         let ground = Buffer::new(gpu, "ground", size_of::<Ground>() as u64, usage)?;
-        let constants = Constants {
-            show: Show::Picture,
-            shadow_rays: ShadowRays::FirstHit,
-            smooth_terminator: true,
-            rung: Rung::Bisected,
-        };
+        let constants = Constants { show: Show::Picture, rung: Rung::Bisected };
         Ok(Self {
             source,
             scene,
@@ -96,7 +90,7 @@ impl Sample for Demo {
             ground,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting { lamp, ..Lighting::new(sun) },
+            sun,
             preset: PresetName::Hills,
             landscape,
             constants,
@@ -105,19 +99,16 @@ impl Sample for Demo {
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        // A preset brings its landscape, its view and its lights.
+        // A preset brings its landscape, its view and its sun.
         if c.choice("preset", &mut self.preset) {
-            let Preset { landscape, camera, sun, lamp } = Preset::new(self.preset);
-            (self.landscape, self.camera) = (landscape, camera);
-            (self.lighting.sun, self.lighting.lamp) = (sun, lamp);
+            let Preset { landscape, camera, sun } = Preset::new(self.preset);
+            (self.landscape, self.camera, self.sun) = (landscape, camera, sun);
         }
         c.slider("steepness", &mut self.landscape.k, 0.0..=16.0);
         c.integer("rings", &mut self.landscape.rings, 0..=100);
         c.choice("rung", &mut self.constants.rung);
         c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -141,7 +132,7 @@ impl Sample for Demo {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             ground: self.ground.address.into(),
-            light: self.lighting.shader(),
+            light: self.sun.light(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.land.tlas),
@@ -172,9 +163,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("terrain.rint").closest_hit("terrain.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.rung)
+        .constant(1, constants.rung)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -1,7 +1,7 @@
 //! The scenes of this chapter: one landscape, as steep as you like, and where it is looked at from.
 
 use anyhow::Result;
-use common::scene::{Camera, Instance, Material, PointLight, Scene, Sun};
+use common::scene::{Camera, Instance, Material, Scene, Sun};
 use glam::{DVec3, Vec3, Vec3A};
 
 use super::ground::{Landscape, MIDDLE};
@@ -19,8 +19,6 @@ pub struct Preset {
     pub camera: Camera,
     /// The sun.
     pub sun: Sun,
-    /// The lamp.
-    pub lamp: PointLight,
 }
 
 /// The chess set without its board, on the middle hill.
@@ -61,7 +59,6 @@ impl Preset {
             landscape: Landscape { k, rings },
             camera: Camera::new(DVec3::from(eye), DVec3::from(target), field),
             sun: Sun { azimuth: 270.0, elevation: 17.0, radiance: Vec3::new(5.6, 3.9, 2.3) },
-            lamp: PointLight { position: Vec3::new(8.0, 6.0, 3.0), ..PointLight::default() },
         }
     }
     // ANCHOR_END: presets

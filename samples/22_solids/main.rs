@@ -3,6 +3,7 @@
 //! New since 08_intersection: solids by an intersection shader, union, intersection, difference and
 //! inverse, a clip that cuts open, fog that fills what is outside, and seven scenes.
 
+mod boxes;
 mod fog;
 mod modifiers;
 mod pieces;
@@ -18,8 +19,10 @@ use anyhow::Result;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
-use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, ShadowRays};
-use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use fog::{Extent, Fog};
 use scenes::{Preset, PresetName};
 use solids::{Build, Solids, SolidsOnGpu};
@@ -34,7 +37,7 @@ struct Demo {
     solids: SolidsOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
-    lighting: Lighting,
+    sun: Sun,
     build: Build,
     fog: Fog,
     section_distance: f32,
@@ -55,8 +58,6 @@ common::shader_enum! {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadow_rays: ShadowRays,
-    smooth_terminator: bool,
     rung: Rung,
     fog: Extent,
 }
@@ -67,7 +68,7 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         solids: Address<Solids>,
-        light: Light,
+        light: DirectionalLight,
         fog: Fog,
         section_distance: f32,
     }
@@ -89,8 +90,6 @@ impl Sample for Demo {
         let solids = SolidsOnGpu::new(gpu, &scene, &on_gpu, &solids, build)?;
         let constants = Constants {
             show: Show::Picture,
-            shadow_rays: ShadowRays::FirstHit,
-            smooth_terminator: true,
             rung: Rung::Compensated,
             fog: Extent::None,
         };
@@ -100,7 +99,7 @@ impl Sample for Demo {
             solids,
             pipelines: Variants::default(),
             camera,
-            lighting: Lighting::new(sun),
+            sun,
             build,
             fog,
             section_distance: 5.0,
@@ -114,7 +113,7 @@ impl Sample for Demo {
         if c.choice("preset", &mut self.build.preset) {
             let Build { preset, modifiers, .. } = &self.build;
             let Preset { scene, sun, fog, .. } = Preset::new(*preset, &self.source, modifiers);
-            (self.camera, self.lighting.sun, self.fog) = (scene.camera, sun, fog);
+            (self.camera, self.sun, self.fog) = (scene.camera, sun, fog);
         }
         self.build.modifiers.controls(c);
         c.choice("size", &mut self.build.size);
@@ -123,9 +122,7 @@ impl Sample for Demo {
         self.fog.controls(c);
         c.slider("section distance", &mut self.section_distance, 0.0..=1e4);
         c.choice("show", &mut self.constants.show);
-        self.lighting.controls(c);
-        c.choice("shadow rays", &mut self.constants.shadow_rays);
-        c.checkbox("smooth terminator", &mut self.constants.smooth_terminator);
+        c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
@@ -156,7 +153,7 @@ impl Sample for Demo {
             camera,
             scene: self.scene.addresses,
             solids: self.solids.addresses.address.into(),
-            light: self.lighting.placed(&placement),
+            light: self.sun.light(),
             fog: self.fog.placed(placement.size),
             section_distance: self.section_distance * placement.size as f32,
         };
@@ -189,10 +186,8 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("solid.rint").closest_hit("solid.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadow_rays)
-        .constant(2, constants.smooth_terminator)
-        .constant(3, constants.rung)
-        .constant(4, constants.fog)
+        .constant(1, constants.rung)
+        .constant(2, constants.fog)
         .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)

@@ -2,14 +2,14 @@
 
 use anyhow::Result;
 use common::bytemuck::cast_slice;
-use common::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
+use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, order};
 use common::scene::plane::Plane;
 use common::scene::{
-    Moved, Placement, Scene, SceneOnGpu, Size, boxes_on_gpu, build_top, input_usage,
-    instance_on_gpu,
+    Moved, Placement, Scene, SceneOnGpu, Size, build_top, input_usage, instance_on_gpu,
 };
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
 
+use crate::boxes;
 use crate::modifiers::Modifiers;
 use crate::program::{Face, Part, Programs};
 use crate::scenes::{self, PresetName, SolidInstance};
@@ -140,10 +140,8 @@ impl SolidsOnGpu {
             let clip = if clips.is_empty() { NO_CLIP } else { programs.add_part(&clips, 0) };
             // ANCHOR_END: clip
             let corners = box_around(low, high);
-            let input = boxes_on_gpu(gpu, "solid", &[corners])?;
-            let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
-            let options = BuildOptions::default();
-            let level = AccelerationStructure::bottom(gpu, "solid", &[geometry], options)?;
+            // The margin is in the corners already.
+            let level = boxes::bottom(gpu, "solid", [corners], 0.0)?;
             let to_world = place(&solid_instance.transform, &build.placement());
             instances.push(instance_on_gpu(&to_world, first + records.len(), 1, &level));
             bounds.push(around(&to_world, corners));
@@ -203,12 +201,12 @@ impl SolidsOnGpu {
 ///
 /// A hundredth larger than the solid: room for what the device's box test rounds, 10u of the way (chapter
 /// 08), for rays that come from as far as sixteen thousand times its size.
-fn box_around(low: DVec3, high: DVec3) -> [Vec3; 2] {
+fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
     let margin = 0.01 * (high - low).max_element();
     // Where a solid is empty, any box will do: its shader finds nothing.
     match low.is_finite() && low.cmple(high).all() {
-        true => [(low - margin).as_vec3(), (high + margin).as_vec3()],
-        false => [Vec3::ZERO, Vec3::splat(1e-3)],
+        true => ((low - margin).as_vec3(), (high + margin).as_vec3()),
+        false => (Vec3::ZERO, Vec3::splat(1e-3)),
     }
 }
 // ANCHOR_END: box
@@ -237,7 +235,7 @@ fn to_world_f64(transform: &Affine3A) -> DAffine3 {
 }
 
 /// The box in the world around a box.
-fn around(to_world: &Affine3A, [low, high]: [Vec3; 2]) -> order::Bounds {
+fn around(to_world: &Affine3A, (low, high): order::Bounds) -> order::Bounds {
     let middle: Vec3 = to_world.transform_point3((low + high) * 0.5);
     let matrix = to_world.matrix3;
     let half = (high - low) * 0.5;

@@ -2,8 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 
 // ANCHOR: shapes
@@ -36,7 +34,7 @@ layout(push_constant, scalar) uniform Push {
     SceneAddresses scene;
     ShapeAddresses shapes;
     HostC host_c;         // of each sphere: |camera - center|^2 - radius^2
-    Light light;
+    DirectionalLight light;
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.
@@ -50,12 +48,8 @@ const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_KIND = 7;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
+// A scene says whether its shadows are worth their time.
+layout(constant_id = 1) const bool SHADOWS = true;
 
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_SPHERE = 0;

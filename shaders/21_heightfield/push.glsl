@@ -2,8 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 #include "common/heightfield.glsl"
 
@@ -22,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Ground ground;
-    Light light;
+    DirectionalLight light;
 } push;
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.
@@ -38,11 +36,4 @@ const uint SHOW_STEPS = 7;
 const uint SHOW_ERROR = 8;
 const uint SHOW_MARCH = 9;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
-layout(constant_id = 3) const uint RUNG = HEIGHTFIELD_BISECTED;
+layout(constant_id = 1) const uint RUNG = HEIGHTFIELD_BISECTED;

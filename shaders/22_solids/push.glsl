@@ -2,8 +2,6 @@
 #include "common/camera.glsl"
 #include "common/scene.glsl"
 #include "common/shade.glsl"
-#include "common/light.glsl"
-#include "common/random.glsl"
 #include "common/false_color.glsl"
 #include "common/plane.glsl"
 
@@ -78,7 +76,7 @@ layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     Solids solids;
-    Light light;
+    DirectionalLight light;
     Fog fog;
     float section_distance;
 } push;
@@ -96,21 +94,14 @@ const uint SHOW_KIND = 7;
 const uint SHOW_SECTION = 8;
 const uint SHOW_FOG = 9;
 
-layout(constant_id = 1) const uint SHADOW_RAYS = 0;
-const uint SHADOW_FIRST_HIT = 0;
-const uint SHADOW_NEAREST_HIT = 1;
-const uint SHADOW_OFF = 2;
-
-layout(constant_id = 2) const bool SMOOTH_TERMINATOR = true;
-
 // Which way half-spaces are met.
-layout(constant_id = 3) const uint RUNG = 2;
+layout(constant_id = 1) const uint RUNG = 2;
 const uint RUNG_POV = 0;
 const uint RUNG_POINT = 1;
 const uint RUNG_COMPENSATED = 2;
 
 // Where fog is: what a scene does not call for is not compiled.
-layout(constant_id = 4) const uint FOG = 0;
+layout(constant_id = 2) const uint FOG = 0;
 const uint FOG_NONE = 0;
 const uint FOG_EVERYWHERE = 1;
 const uint FOG_OUTSIDE = 2;

@@ -28,10 +28,6 @@ void main() {
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
-    hit.lift = vec3(0.0);
-    if (SMOOTH_TERMINATOR) {
-        hit.lift = lift_to_smooth(hit.face, instance, triangle, weights);
-    }
 
     hit.color = material.base_color;
     if (material.base_texture >= 0) {
