@@ -9,6 +9,7 @@ mod lights;
 mod map;
 mod march;
 mod rays;
+mod shadows;
 mod shapes;
 mod sheet;
 mod squares;
@@ -34,7 +35,9 @@ const DRAWINGS: &[Drawing] = &[
     ("heightfield_steps", march::steps),
     ("owen_scrambling", squares::scrambling),
     ("map", map::chapters),
+    ("penumbra", shadows::penumbra),
     ("refit", structures::refit),
+    ("shadow_lift", shadows::lift),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),
     ("slabs", shapes::slabs),
@@ -43,6 +46,7 @@ const DRAWINGS: &[Drawing] = &[
     ("solid_intervals", shapes::intervals),
     ("table_of_foundation", table::chapter_01),
     ("thin_lens", lens::thin_lens),
+    ("two_lights", shadows::two_lights),
 ];
 
 fn folder() -> PathBuf {

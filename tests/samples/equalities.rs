@@ -25,7 +25,7 @@ struct Equality {
     is_quick: bool,
 }
 
-const EQUALITIES: [Equality; 12] = [
+const EQUALITIES: [Equality; 11] = [
     Equality {
         what: "04 through pixels' centres = 02",
         one: ("04_jitter_camera", &["jitter=off"]),

@@ -6,6 +6,9 @@ mod standing;
 mod world;
 
 #[allow(dead_code)]
+#[path = "../../samples/21_heightfield/boxes.rs"]
+mod boxes;
+#[allow(dead_code)]
 #[path = "../../samples/21_heightfield/ground.rs"]
 mod ground;
 #[allow(dead_code)]

@@ -5,8 +5,8 @@ use common::scene::{PointLight, Scene};
 use glam::Vec3;
 use reference::Ray;
 
-use crate::shadow_rays::{hold_answers, hold_origins, is_on_a_square};
-use run::{golden, render, same_colors};
+use crate::shadow_rays::{hold_answers, hold_origins, is_on_a_square, picture_by};
+use run::{golden, render, same_colors, shaders_with};
 
 const NAME: &str = "34_lights";
 const SIZE: &str = "240x150";
@@ -53,12 +53,13 @@ fn a_light_below_the_board_lights_nothing() {
     assert!(lit.is_none(), "{lit:?}");
 }
 
-/// What is farther away than the lamp casts no shadow: the board does not hide a lamp above it.
+/// What is farther away than the lamp casts no shadow: a piece that stands behind a lamp between pieces.
 #[test]
 fn a_shadow_ray_ends_at_the_lamp() {
-    let endless = run::shaders_with("common/light.glsl", "? 1.0 : 1e30", "? 1e30 : 1e30");
-    let endless = crate::shadow_rays::picture_by(endless.path(), NAME, &["show=shadow origin"]);
-    let picture = picture(&["show=shadow origin"]);
+    let low = ["lamp position=2.5,1.1,1.5", "show=shadow origin"];
+    let endless = shaders_with("common/light.glsl", "? 1.0 : 1e30", "? 1e30 : 1e30");
+    let endless = picture_by(endless.path(), NAME, &low);
+    let picture = picture(&low);
     let lit = |picture: &Picture| picture.pixels.iter().filter(|pixel| pixel[3] == 1.0).count();
     let (ends, goes_on) = (lit(&picture), lit(&endless));
     println!("{ends} lit; {goes_on} where the ray goes on behind the lamp");
