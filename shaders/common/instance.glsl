@@ -1,4 +1,4 @@
-// Taught by 09_instancing.
+// Taught by 39_far_from_origin.
 //
 // A ray's origin as an instance's mesh sees it: two ways through the same matrix.
 //

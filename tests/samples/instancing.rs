@@ -1,8 +1,7 @@
-//! 09_instancing: every matrix, mask and flag held to the reference, and the set moved far away.
+//! 09_instancing: every matrix, mask and flag held to the reference.
 
-mod far;
 mod flags;
-mod normals;
+pub mod normals;
 
 use std::cell::OnceCell;
 
@@ -14,79 +13,91 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Near, Run, figures, golden, render, same_hits};
+use run::{Near, Run, command, figures, golden, render, render_by, same_hits, shaders_with};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
 #[path = "../../samples/09_instancing/formation.rs"]
-mod formation;
+pub mod formation;
 
 use formation::{Formation, Piece, SceneKind};
 
 const NAME: &str = "09_instancing";
 const SIZE: &str = "120x75";
-const SPECIMEN: &str = "scene=specimens";
+pub const SPECIMEN: &str = "scene=specimens";
 /// Few enough pieces for the reference to hold a copy of each.
 const FEW: [&str; 3] = ["squares=60", "camera eye=1,5,8", "camera target=0,0.8,0"];
 
 fn run(size: &str, sets: &[&str]) -> Run {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(NAME, size, &arguments)
+    render(NAME, size, &arguments(sets))
 }
 
 fn picture(sets: &[&str]) -> Picture {
     run(SIZE, sets).picture
 }
 
-/// A scene and a view of it: its pieces, and the same for the reference.
-struct ViewedScene {
-    pieces: Vec<Piece>,
+pub fn arguments<'a>(sets: &[&'a str]) -> Vec<&'a str> {
+    sets.iter().flat_map(|&set| ["--set", set]).collect()
+}
+
+/// A scene and a sample's view of it: its pieces, and the same for the reference.
+pub struct ViewedScene {
+    sample: &'static str,
+    pub pieces: Vec<Piece>,
     exact: Exact,
-    camera: Camera,
-    shift: DVec3,
+    pub camera: Camera,
     /// What `show=ray direction` wrote: no control but the camera's changes it.
     directions: OnceCell<Picture>,
 }
 
 impl ViewedScene {
-    /// A scene and a view of it, moved by `far` and seen from the origin of its coordinates.
-    fn new(
+    /// A scene and a view of it, both moved by `shift`.
+    pub fn new(
+        sample: &'static str,
         scene: SceneKind,
         squares: u32,
         mut camera: Camera,
-        far: f64,
-        is_relative: bool,
+        shift: DVec3,
     ) -> Self {
         let meshes = formation::meshes().unwrap();
-        let pieces = Formation::new(scene, squares, &meshes.model).unwrap().pieces;
-        let moved = DVec3::new(far, 0.0, far);
-        let step = ((camera.eye + moved) / 16.0).round() * 16.0;
-        let shift = moved - if is_relative { step } else { DVec3::ZERO };
+        let mut pieces = Formation::new(scene, squares, &meshes.model).unwrap().pieces;
+        pieces.iter_mut().for_each(|piece| piece.at += shift);
         camera.eye += shift;
-        let instances = pieces.iter().map(|piece| piece.instance(shift)).collect();
+        let instances = pieces.iter().map(Piece::instance).collect();
         let exact = reference(&Scene { model: meshes.model, instances, camera });
-        Self { pieces, exact, camera, shift, directions: OnceCell::new() }
+        Self { sample, pieces, exact, camera, directions: OnceCell::new() }
+    }
+
+    /// The specimens as a sample has them that moves them by `shift`.
+    pub fn moved_specimens(sample: &'static str, shift: DVec3) -> Self {
+        let camera = formation::camera(SceneKind::Specimens);
+        Self::new(sample, SceneKind::Specimens, 0, camera, shift)
     }
 
     fn specimens() -> Self {
-        Self::new(SceneKind::Specimens, 0, formation::camera(SceneKind::Specimens), 0.0, true)
+        Self::moved_specimens(NAME, DVec3::ZERO)
     }
 
     fn few() -> Self {
         let camera = Camera::new(DVec3::new(1.0, 5.0, 8.0), DVec3::new(0.0, 0.8, 0.0), 36.0);
-        Self::new(SceneKind::Ripples, 60, camera, 0.0, true)
+        Self::new(NAME, SceneKind::Ripples, 60, camera, DVec3::ZERO)
+    }
+
+    /// What the sample shows of it.
+    pub fn picture(&self, sets: &[&str]) -> Picture {
+        render(self.sample, SIZE, &arguments(sets)).picture
     }
 
     /// The matrix of a piece, as the device has it.
-    fn transform(&self, index: usize) -> Transform {
-        let rows = scene::transform(&self.pieces[index].instance(self.shift).transform).matrix;
+    pub fn transform(&self, index: usize) -> Transform {
+        let rows = scene::transform(&self.pieces[index].instance().transform).matrix;
         let row = |i: usize| std::array::from_fn(|k| rows[4 * i + k]);
         Transform::from_rows([row(0), row(1), row(2)]).unwrap()
     }
 
     /// The rays of a picture with what they hit.
     fn hits(&self, sets: &[&str]) -> Vec<(Ray, [f32; 4])> {
-        let show = |view| picture(&[sets, &[view]].concat());
+        let show = |view| self.picture(&[sets, &[view]].concat());
         let directions = self.directions.get_or_init(|| show("show=ray direction"));
         rays(&self.camera, directions).zip(show("show=hit").pixels).collect()
     }
@@ -129,9 +140,15 @@ fn hits_agree_under_every_matrix() {
 #[test]
 fn no_matrix_makes_a_triangle_shadow_itself() {
     let viewed = ViewedScene::specimens();
-    let sets = [SPECIMEN, "smooth terminator=off"];
-    let hits = viewed.hits(&sets);
-    let origins = picture(&[&sets[..], &["show=shadow origin"]].concat());
+    let hits = viewed.hits(&[SPECIMEN]);
+    // The start is that of the flat triangle: from the round surface, few would be near it.
+    const PLACE: &str = "place(hit, instance, triangle, weights);";
+    let flat = format!("{PLACE} hit.lift = vec3(0.0);");
+    let shaders = shaders_with("09_instancing/shade.rchit", PLACE, &flat);
+    let mut sample = command(NAME);
+    sample.env("SHADERS", shaders.path());
+    let origins = arguments(&[SPECIMEN, "show=shadow origin"]);
+    let origins = render_by(&mut sample, SIZE, &origins).picture;
     let sun = Sun { azimuth: 300.0, elevation: 22.0, ..Sun::default() }.light().direction;
     let (mut lit, mut dark) = (0, 0);
     for ((ray, hit), &[x, y, z, seen]) in hits.iter().zip(&origins.pixels).step_by(3) {
@@ -155,7 +172,7 @@ fn no_matrix_makes_a_triangle_shadow_itself() {
     assert!(lit > 500 && dark > 100, "{lit} {dark}");
 }
 
-fn absolute(m: DMat3) -> DMat3 {
+pub fn absolute(m: DMat3) -> DMat3 {
     DMat3::from_cols_array(&m.to_cols_array().map(f64::abs))
 }
 
@@ -179,7 +196,7 @@ fn the_custom_index_does_not_depend_on_the_order() {
 }
 
 /// In how many pixels of a hundred two pictures of hits show another triangle.
-fn percent_changed(a: &Picture, b: &Picture) -> f64 {
+pub fn percent_changed(a: &Picture, b: &Picture) -> f64 {
     let pairs = a.pixels.iter().zip(&b.pixels);
     let changed = pairs.filter(|(a, b)| a[..2] != b[..2]).count();
     100.0 * changed as f64 / a.pixels.len() as f64

@@ -8,6 +8,7 @@ mod callable_shader;
 mod depth_of_field;
 mod emitters;
 mod equalities;
+mod far_from_origin;
 mod foundation;
 mod glass;
 mod heightfield;

@@ -1,12 +1,39 @@
-//! The set far from the origin: what coordinates and object rays are worth there.
+//! 39_far_from_origin: what coordinates, object rays and normals are worth far from the origin.
 
-use glam::Vec3;
+use common::app::Picture;
+use glam::{DVec3, Vec3};
 use reference::transform::U;
-use run::figures;
+use run::{figures, golden, render, same_colors};
 use serde_json::{Map, json};
 
-use super::formation::{self, SceneKind};
-use super::{SPECIMEN, ViewedScene, absolute, percent_changed, picture};
+use super::instancing::normals::by_the_inverses;
+use super::instancing::{SPECIMEN, ViewedScene, absolute, arguments, percent_changed};
+
+const NAME: &str = "39_far_from_origin";
+const SIZE: &str = "120x75";
+
+fn picture(sets: &[&str]) -> Picture {
+    render(NAME, SIZE, &arguments(sets)).picture
+}
+
+/// The knights where a control moves them, in world coordinates: its value, and they.
+fn specimens(far: f64) -> (String, ViewedScene) {
+    let viewed = ViewedScene::moved_specimens(NAME, DVec3::new(far, 0.0, far));
+    (format!("far={far}"), viewed)
+}
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
+}
+
+/// The steps of the origin are powers of two, so that a million has no other remainder than nothing.
+#[test]
+fn camera_relative_coordinates_are_the_same_bits_a_million_units_away() {
+    let [near, far] = ["far=0", "far=1000000"].map(|far| picture(&[far]));
+    same_colors("near and far", NAME, &near, &far);
+}
 
 #[test]
 fn far_away_only_camera_relative_coordinates_keep_the_picture() {
@@ -49,21 +76,26 @@ fn far_away_only_camera_relative_coordinates_keep_the_picture() {
     }
     table.insert("relative.triangles".to_owned(), json!(most[0]));
     table.insert("relative.shadows".to_owned(), json!(most[1]));
-    figures::hold("09_instancing/coordinates", table.into());
+    figures::hold("39_far_from_origin/coordinates", table.into());
 }
 
 #[test]
 fn both_coordinates_side_by_side_are_the_two_pictures() {
-    // A soft light, or its random numbers would not tell the pixels apart.
-    let sets = ["far=1000000", "light size=0.1", "light samples=2"];
-    let show = |coordinates: &str| {
-        picture(&[&sets[..], &[&format!("coordinates={coordinates}")]].concat())
-    };
+    let show = |coordinates: &str| picture(&[&format!("coordinates={coordinates}")]);
     let [both, world, relative] = ["both", "world", "camera-relative"].map(show);
+    assert!(percent_changed(&world, &relative) > 20.0);
     for (index, pixel) in both.pixels.iter().enumerate() {
         let half = if index % 120 < 60 { &world } else { &relative };
         assert_eq!(pixel, &half.pixels[index], "pixel {index}");
     }
+}
+
+/// A normal knows no place: the translation is not in its matrix.
+#[test]
+fn normals_are_as_good_far_away() {
+    let (far, viewed) = specimens(1e6);
+    let table = by_the_inverses(&viewed, &["coordinates=world", &far]);
+    figures::hold("39_far_from_origin/normals", table.into());
 }
 
 /// The ray's origin in the space of each piece that was seen: error by rung, in parts of the bound of
@@ -89,16 +121,10 @@ fn the_difference_first_keeps_the_object_space_origin() {
     let mut table = Map::new();
     println!("| far | object ray | error, relative, most | parts of the bound |");
     for far in [0.0, 1e3, 1e6] {
-        let viewed = ViewedScene::new(
-            SceneKind::Specimens,
-            0,
-            formation::camera(SceneKind::Specimens),
-            far,
-            false,
-        );
+        let (far_set, viewed) = specimens(far);
         let first = viewed.pieces.len() - 6;
         for rung in ["device", "matrix", "inverse"] {
-            let (far_set, rung_set) = (format!("far={far}"), format!("object ray={rung}"));
+            let rung_set = format!("object ray={rung}");
             let sets = [SPECIMEN, "coordinates=world", &far_set, &rung_set];
             let errors = origin_errors(&viewed, &sets);
             let knights = errors.iter().filter(|(index, ..)| *index >= first);
@@ -114,5 +140,5 @@ fn the_difference_first_keeps_the_object_space_origin() {
             }
         }
     }
-    figures::hold("09_instancing/object_ray", table.into());
+    figures::hold("39_far_from_origin/object_ray", table.into());
 }

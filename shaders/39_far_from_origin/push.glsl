@@ -1,0 +1,55 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/false_color.glsl"
+
+// ANCHOR: record
+// What a piece has of its own, at its custom index.
+struct PieceRecord {
+    mat3 inverse;         // of its matrix without the translation, made in 64 bits
+    vec3 at;              // the translation
+    uint mesh;            // which of scene.instances
+    uint material;
+    float tone;           // multiplies the base colour
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pieces { PieceRecord at[]; };
+// ANCHOR_END: record
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    Pieces pieces;
+    DirectionalLight light;
+    uint camera_mask;     // which instances primary rays see
+    uint shadow_mask;     // which instances throw shadows
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_TRIANGLE = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
+const uint SHOW_SHADOW = 5;
+const uint SHOW_ORIGIN = 6;
+const uint SHOW_INSTANCE_ID = 7;
+const uint SHOW_OBJECT_NORMAL = 8;
+const uint SHOW_OBJECT_ORIGIN = 9;
+
+layout(constant_id = 1) const uint CULLING = 0;
+const uint CULL_OFF = 0;
+const uint CULL_BACK = 1;
+const uint CULL_FRONT = 2;
+
+layout(constant_id = 2) const uint NORMALS = 2;
+const uint NORMALS_MATRIX = 0;
+const uint NORMALS_DEVICE_INVERSE = 1;
+const uint NORMALS_HOST_INVERSE = 2;
+
+layout(constant_id = 3) const uint OBJECT_RAY = 0;
+const uint OBJECT_RAY_DEVICE = 0;
+const uint OBJECT_RAY_MATRIX = 1;
+const uint OBJECT_RAY_INVERSE = 2;

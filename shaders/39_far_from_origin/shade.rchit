@@ -1,0 +1,69 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "hit.glsl"
+#include "common/place.glsl"
+#include "common/instance.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+layout(location = 0) rayPayloadInEXT Hit hit;
+hitAttributeEXT vec2 weights;
+
+// ANCHOR: world_normal
+// From the mesh's space to the world, not of unit length. The matrix is right only if it turns and no
+// more: whatever stretches a surface one way must turn its normal the other way.
+vec3 world_normal(PieceRecord piece, vec3 normal) {
+    if (NORMALS == NORMALS_MATRIX) {
+        return mat3(gl_ObjectToWorldEXT) * normal;
+    }
+    // A row vector times a matrix is the product with the transpose.
+    if (NORMALS == NORMALS_DEVICE_INVERSE) {
+        return vec3(normal * gl_WorldToObjectEXT);
+    }
+    return normal * piece.inverse;
+}
+// ANCHOR_END: world_normal
+
+// The ray's origin in the mesh's space.
+vec3 object_origin(PieceRecord piece) {
+    if (OBJECT_RAY == OBJECT_RAY_DEVICE) {
+        return gl_ObjectRayOriginEXT;
+    }
+    if (OBJECT_RAY == OBJECT_RAY_MATRIX) {
+        return object_origin_matrix(gl_WorldToObjectEXT, gl_WorldRayOriginEXT);
+    }
+    return object_origin_inverse(piece.inverse, piece.at, gl_WorldRayOriginEXT);
+}
+
+// The nearest hit: what surface it is, and where.
+void main() {
+    // ANCHOR: fetch
+    PieceRecord piece = push.pieces.at[gl_InstanceCustomIndexEXT];
+    InstanceRecord instance = push.scene.instances.at[piece.mesh];
+    uint triangle = instance.original.at[gl_PrimitiveID];
+    Surface surface = surface_at(instance, triangle, weights);
+    MaterialRecord material = push.scene.materials.at[piece.material];
+    // ANCHOR_END: fetch
+    // ANCHOR: report
+    place(hit, instance, triangle, weights);
+    hit.t = gl_HitTEXT;
+    vec3 normal = normalize(world_normal(piece, surface.normal));
+    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
+    hit.normal = faceforward(normal, -hit.face, normal);
+
+    hit.color = material.base_color * piece.tone;
+    if (material.base_texture >= 0) {
+        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+    }
+    hit.material = piece.material;
+    hit.triangle = triangle;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.place = gl_InstanceID;
+    hit.object = SHOW == SHOW_OBJECT_ORIGIN ? object_origin(piece) : surface.normal;
+    // ANCHOR_END: report
+}
