@@ -22,6 +22,7 @@ mod long_renders;
 mod multi_closest_hit;
 mod path_tracing;
 mod position_fetch;
+mod primitive_order;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;
