@@ -166,9 +166,8 @@ impl Level {
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order
         let ordered = order.iter().map(|&i| bounds[i as usize]);
-        let blas = (!bounds.is_empty())
-            .then(|| boxes::bottom(gpu, name, ordered, reach))
-            .transpose()?;
+        let blas =
+            (!bounds.is_empty()).then(|| boxes::bottom(gpu, name, ordered, reach)).transpose()?;
         Ok(Self { blas, ids, bounds: around(bounds) })
     }
 }

@@ -88,11 +88,8 @@ impl Sample for Demo {
         let camera = scene.camera;
         let on_gpu = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let solids = SolidsOnGpu::new(gpu, &scene, &on_gpu, &solids, build)?;
-        let constants = Constants {
-            show: Show::Picture,
-            rung: Rung::Compensated,
-            fog: Extent::None,
-        };
+        let constants =
+            Constants { show: Show::Picture, rung: Rung::Compensated, fog: Extent::None };
         Ok(Self {
             source,
             scene: on_gpu,

@@ -3,8 +3,10 @@
 //! New since 08_intersection: what is new.
 
 mod boxes;
+mod order;
 mod shapes;
 mod shapes_on_gpu;
+mod tree;
 
 use std::process::ExitCode;
 
@@ -17,6 +19,7 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
+use order::Order;
 use shapes::{SceneKind, ShapeAddresses};
 use shapes_on_gpu::{Build, ShapesOnGpu};
 
@@ -40,7 +43,7 @@ common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
-        Kind = "hit kind",
+        Kind = "hit kind", Place = "place in order", Tests = "box tests",
     }
     /// Which way spheres are intersected.
     enum SphereRung: SPHERE { Textbook, Projection, Stable, HostC, Offered }
@@ -55,6 +58,7 @@ struct Constants {
     shadows: bool,
     sphere_rung: SphereRung,
     box_rung: BoxRung,
+    copies: bool,
 }
 
 common::shader_struct! {
@@ -76,15 +80,18 @@ impl Sample for Demo {
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut source = setup.scene_or(Scene::chess)?;
         source.model.materials.extend(shapes::materials());
-        let camera = source.camera;
+        let order = if setup.options.ordering { Order::Halves } else { Order::Given };
+        let (scene, count) = (SceneKind::RandomBall, 10_000);
+        let build = Build { scene, count, order, margin: true };
+        let camera = shapes::camera(scene, source.camera, count, 0.0);
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let build = Build { scene: SceneKind::Chess, count: 10_000, margin: true };
         let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
         let constants = Constants {
             show: Show::Picture,
-            shadows: true,
+            shadows: false,
             sphere_rung: SphereRung::Stable,
             box_rung: BoxRung::Division,
+            copies: false,
         };
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
@@ -112,6 +119,10 @@ impl Sample for Demo {
         if c.integer("count", &mut self.build.count, 1..=1_000_000) {
             self.camera = self.scene_camera();
         }
+        c.choice("order", &mut self.build.order);
+        c.checkbox("copies in order", &mut self.constants.copies);
+        let [spheres, boxes] = self.shapes.expected_tests;
+        c.note("expected tests", &format!("{spheres:.0} of spheres, {boxes:.0} of boxes"));
         if c.slider("distance", &mut self.distance, 1e-3..=1e6) {
             self.camera = self.scene_camera();
         }
@@ -185,6 +196,7 @@ fn pipeline(
         .constant(1, constants.shadows)
         .constant(2, constants.sphere_rung)
         .constant(3, constants.box_rung)
+        .constant(4, constants.copies)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

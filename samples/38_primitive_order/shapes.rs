@@ -5,6 +5,8 @@ use common::gpu::order::Bounds;
 use common::scene::{Camera, Instance, Material, Model};
 use glam::{DVec3, Vec3};
 
+use super::tree::Node;
+
 common::shader_struct! {
     /// A sphere.
     pub struct Sphere {
@@ -24,12 +26,16 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where shaders find them, and which of them a primitive of the build is.
+    /// Where shaders find them, which of them a primitive of the build is, and the trees.
     pub struct ShapeAddresses {
         pub spheres: Address<Sphere>,
         pub boxes: Address<Box>,
         pub sphere_ids: Address,
         pub box_ids: Address,
+        pub built_spheres: Address<Sphere>,
+        pub built_boxes: Address<Box>,
+        pub sphere_tree: Address<Node>,
+        pub box_tree: Address<Node>,
     }
 }
 

@@ -8,13 +8,16 @@ use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instanc
 use glam::{Affine3A, Vec3};
 
 use crate::boxes::{self, reach};
+use crate::order::Order;
 use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
+use crate::tree::{self, Node};
 
 /// What the shapes are built from; where it changes, they are built again.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
     pub count: u32,
+    pub order: Order,
     /// Whether the boxes around shapes are larger than the shapes.
     pub margin: bool,
 }
@@ -24,6 +27,8 @@ pub struct ShapesOnGpu {
     pub tlas: AccelerationStructure,
     /// Where shaders find the shapes: a [`ShapeAddresses`].
     pub addresses: Buffer,
+    /// How many boxes a line through all spheres, or all boxes, is expected to be tested against.
+    pub expected_tests: [f64; 2],
     /// |eye - center|² - radius² of each sphere, for this eye.
     host_c: Option<(Vec3, Buffer)>,
     shapes: Shapes,
@@ -66,8 +71,8 @@ impl ShapesOnGpu {
         }
         // One more instance for all spheres and one for all boxes. The record offset makes the device
         // run their intersection shaders: hit group 0 is that of triangles, 1 of spheres, 2 of boxes.
-        let spheres = Level::new(gpu, "spheres", &spheres, ordering, reach)?;
-        let boxes = Level::new(gpu, "boxes", &boxes, ordering, reach)?;
+        let spheres = Level::new(gpu, "spheres", &spheres, build.order, reach)?;
+        let boxes = Level::new(gpu, "boxes", &boxes, build.order, reach)?;
         for (record, level) in [(1, &spheres), (2, &boxes)] {
             if let Some(blas) = &level.blas {
                 let index = source.instances.len() + record as usize - 1;
@@ -83,19 +88,41 @@ impl ShapesOnGpu {
         let records = [
             Buffer::with_data(gpu, "spheres", &shapes.spheres, input_usage())?,
             Buffer::with_data(gpu, "boxes", &shapes.boxes, input_usage())?,
-            spheres.ids,
-            boxes.ids,
+            Buffer::with_data(gpu, "sphere ids", &spheres.order, input_usage())?,
+            Buffer::with_data(gpu, "box ids", &boxes.order, input_usage())?,
+            Buffer::with_data(
+                gpu,
+                "spheres as built",
+                &spheres.built(&shapes.spheres),
+                input_usage(),
+            )?,
+            Buffer::with_data(gpu, "boxes as built", &boxes.built(&shapes.boxes), input_usage())?,
+            Buffer::with_data(gpu, "tree of spheres", &spheres.tree, input_usage())?,
+            Buffer::with_data(gpu, "tree of boxes", &boxes.tree, input_usage())?,
         ];
-        let [spheres_at, boxes_at, sphere_ids, box_ids] =
-            records.each_ref().map(|buffer| buffer.address);
+        let [
+            spheres_at,
+            boxes_at,
+            sphere_ids,
+            box_ids,
+            built_spheres,
+            built_boxes,
+            sphere_tree,
+            box_tree,
+        ] = records.each_ref().map(|buffer| buffer.address);
         let addresses = ShapeAddresses {
             spheres: spheres_at.into(),
             boxes: boxes_at.into(),
             sphere_ids: sphere_ids.into(),
             box_ids: box_ids.into(),
+            built_spheres: built_spheres.into(),
+            built_boxes: built_boxes.into(),
+            sphere_tree: sphere_tree.into(),
+            box_tree: box_tree.into(),
         };
         Ok(Self {
             tlas,
+            expected_tests: [&spheres, &boxes].map(|level| tree::expected_tests(&level.tree)),
             addresses: Buffer::with_data(gpu, "shapes", &[addresses], input_usage())?,
             host_c: None,
             shapes,
@@ -149,7 +176,8 @@ struct Level {
     /// `None` without shapes.
     blas: Option<AccelerationStructure>,
     /// Which shape a primitive of the build is.
-    ids: Buffer,
+    order: Vec<u32>,
+    tree: Vec<Node>,
     bounds: order::Bounds,
 }
 
@@ -158,18 +186,22 @@ impl Level {
         gpu: &Gpu,
         name: &str,
         bounds: &[order::Bounds],
-        ordering: bool,
+        order: Order,
         reach: f32,
     ) -> Result<Self> {
         // ANCHOR: order
-        let order = order::for_build(gpu, bounds, ordering);
-        let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
+        let order = gpu.emulation.order(order.of(bounds));
+        let ordered: Vec<_> = order.iter().map(|&i| bounds[i as usize]).collect();
         // ANCHOR_END: order
-        let ordered = order.iter().map(|&i| bounds[i as usize]);
-        let blas = (!bounds.is_empty())
-            .then(|| boxes::bottom(gpu, name, ordered, reach))
-            .transpose()?;
-        Ok(Self { blas, ids, bounds: around(bounds) })
+        let tree = tree::nodes(&ordered);
+        let blas =
+            (!bounds.is_empty()).then(|| boxes::bottom(gpu, name, ordered, reach)).transpose()?;
+        Ok(Self { blas, order, tree, bounds: around(bounds) })
+    }
+
+    /// Things in the order of the build.
+    fn built<T: Copy>(&self, things: &[T]) -> Vec<T> {
+        self.order.iter().map(|&i| things[i as usize]).collect()
     }
 }
 

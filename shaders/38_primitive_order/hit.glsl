@@ -14,5 +14,6 @@ struct Hit {
     vec3 lift;        // from the flat triangle to the round surface that its normals pretend
     uint instance;    // which instance: gl_InstanceCustomIndexEXT
     uint kind;        // a triangle, KIND_SPHERE or KIND_BOX: gl_HitKindEXT
-};                    // 84 bytes
+    float place;      // of the shape in the list that was built: 0 is the first; -1 for a triangle
+};                    // 88 bytes
 // ANCHOR_END: hit

@@ -3,6 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
+#include "common/heat.glsl"
 
 // ANCHOR: shapes
 struct Sphere {
@@ -21,11 +22,24 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sph
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Boxes { Box at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer HostC { float at[]; };
 
+// A box of the tree that halves the list.
+struct Node {
+    vec3 low;
+    vec3 high;
+    uint next;             // the node that comes after all that this box holds
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Tree { Node at[]; };
+
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapeAddresses {
     Spheres spheres;
     Boxes boxes;
     Original sphere_ids;   // primitive i of the build is sphere sphere_ids.at[i]
     Original box_ids;
+    Spheres built_spheres; // primitive i of the build, without asking which sphere that is
+    Boxes built_boxes;
+    Tree sphere_tree;
+    Tree box_tree;
 };
 // ANCHOR_END: shapes
 
@@ -47,6 +61,8 @@ const uint SHOW_DIRECTION = 4;
 const uint SHOW_SHADOW = 5;
 const uint SHOW_ORIGIN = 6;
 const uint SHOW_KIND = 7;
+const uint SHOW_PLACE = 8;
+const uint SHOW_TESTS = 9;
 
 // A scene says whether its shadows are worth their time.
 layout(constant_id = 1) const bool SHADOWS = true;
@@ -54,3 +70,22 @@ layout(constant_id = 1) const bool SHADOWS = true;
 // Hit kinds of intersection shaders go from 0 to 127; those of triangles are 254 and 255.
 const uint KIND_SPHERE = 0;
 const uint KIND_BOX = 1;
+
+// ANCHOR: copies
+// Whether the shapes are read from copies that lie in the order of the build.
+layout(constant_id = 4) const bool COPIES = false;
+
+Sphere sphere_of(uint primitive) {
+    if (COPIES) {
+        return push.shapes.built_spheres.at[primitive];
+    }
+    return push.shapes.spheres.at[push.shapes.sphere_ids.at[primitive]];
+}
+
+Box box_of(uint primitive) {
+    if (COPIES) {
+        return push.shapes.built_boxes.at[primitive];
+    }
+    return push.shapes.boxes.at[push.shapes.box_ids.at[primitive]];
+}
+// ANCHOR_END: copies

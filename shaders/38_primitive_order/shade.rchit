@@ -37,5 +37,6 @@ void main() {
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.kind = gl_HitKindEXT;
+    hit.place = -1.0;
     // ANCHOR_END: report
 }

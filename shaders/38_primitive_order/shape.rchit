@@ -20,15 +20,15 @@ hitAttributeEXT vec3 outward;
 // 4u·r across, 10u·r of root and sum): 46u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
 // difference is never wrong. Then the instance's transform, as for triangles (common/above.glsl).
-void place_on_shape(uint id) {
+void place_on_shape() {
     precise vec3 point;
     vec3 own;
     if (gl_HitKindEXT == KIND_SPHERE) {
-        Sphere sphere = push.shapes.spheres.at[id];
+        Sphere sphere = sphere_of(gl_PrimitiveID);
         point = sphere.center + sphere.radius * outward;
         own = abs(point) + vec3(46.0 * sphere.radius);
     } else {
-        Box box = push.shapes.boxes.at[id];
+        Box box = box_of(gl_PrimitiveID);
         point = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
         point = mix(point, box.low, lessThan(outward, vec3(0.0)));
         point = mix(point, box.high, greaterThan(outward, vec3(0.0)));
@@ -57,10 +57,10 @@ void main() {
     bool sphere = gl_HitKindEXT == KIND_SPHERE;
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
-    uint material = sphere ? push.shapes.spheres.at[id].material : push.shapes.boxes.at[id].material;
+    uint material = sphere ? sphere_of(gl_PrimitiveID).material : box_of(gl_PrimitiveID).material;
     // ANCHOR_END: fetch
     // ANCHOR: report
-    place_on_shape(id);
+    place_on_shape();
     hit.t = gl_HitTEXT;
     // A shape has one normal, and is as round as it looks.
     hit.normal = hit.face;
@@ -70,5 +70,8 @@ void main() {
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.kind = gl_HitKindEXT;
+    // Half of a tree's nodes, and one more, are its leaves.
+    uint nodes = sphere ? push.shapes.sphere_tree.at[0].next : push.shapes.box_tree.at[0].next;
+    hit.place = float(gl_PrimitiveID) / float(nodes / 2 + 1);
     // ANCHOR_END: report
 }
