@@ -5,7 +5,7 @@ use glam::Vec3;
 
 common::shader_enum! {
     /// What decides which box comes first.
-    pub enum Order { Given, Chance, AlongX = "along x", Morton, Hilbert, Halves }
+    pub enum Order { Given, Chance, AlongX = "along x", Morton = "Morton", Hilbert = "Hilbert", Halves }
 }
 
 /// Binary digits of a coordinate that the curves look at: a grid of 1024 cells along each axis.

@@ -34,8 +34,10 @@ common::shader_struct! {
         pub box_ids: Address,
         pub built_spheres: Address<Sphere>,
         pub built_boxes: Address<Box>,
-        pub sphere_tree: Address<Node>,
-        pub box_tree: Address<Node>,
+        pub tree: Address<Node>,
+        pub nodes: u32,
+        pub sphere_count: u32,
+        pub box_count: u32,
     }
 }
 

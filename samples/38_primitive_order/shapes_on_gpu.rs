@@ -85,11 +85,8 @@ impl ShapesOnGpu {
         let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
         let tlas = build_top(gpu, &ordered)?;
 
-        let records = [
-            Buffer::with_data(gpu, "spheres", &shapes.spheres, input_usage())?,
-            Buffer::with_data(gpu, "boxes", &shapes.boxes, input_usage())?,
-            Buffer::with_data(gpu, "sphere ids", &spheres.order, input_usage())?,
-            Buffer::with_data(gpu, "box ids", &boxes.order, input_usage())?,
+        // ANCHOR: copies
+        let copies = [
             Buffer::with_data(
                 gpu,
                 "spheres as built",
@@ -97,32 +94,37 @@ impl ShapesOnGpu {
                 input_usage(),
             )?,
             Buffer::with_data(gpu, "boxes as built", &boxes.built(&shapes.boxes), input_usage())?,
-            Buffer::with_data(gpu, "tree of spheres", &spheres.tree, input_usage())?,
-            Buffer::with_data(gpu, "tree of boxes", &boxes.tree, input_usage())?,
         ];
-        let [
-            spheres_at,
-            boxes_at,
-            sphere_ids,
-            box_ids,
-            built_spheres,
-            built_boxes,
-            sphere_tree,
-            box_tree,
-        ] = records.each_ref().map(|buffer| buffer.address);
+        // ANCHOR_END: copies
+        let first = spheres.tree.len() as u32;
+        let behind = boxes.tree.iter().map(|node| Node { next: first + node.next, ..*node });
+        let tree: Vec<Node> = spheres.tree.iter().copied().chain(behind).collect();
+        let tree_at = Buffer::with_data(gpu, "tree", &tree, input_usage())?;
+        let expected_tests = [&spheres, &boxes].map(|level| tree::expected_tests(&level.tree));
+
+        let records = [
+            Buffer::with_data(gpu, "spheres", &shapes.spheres, input_usage())?,
+            Buffer::with_data(gpu, "boxes", &shapes.boxes, input_usage())?,
+            spheres.ids,
+            boxes.ids,
+        ];
+        let [spheres_at, boxes_at, sphere_ids, box_ids] =
+            records.each_ref().map(|buffer| buffer.address);
         let addresses = ShapeAddresses {
             spheres: spheres_at.into(),
             boxes: boxes_at.into(),
             sphere_ids: sphere_ids.into(),
             box_ids: box_ids.into(),
-            built_spheres: built_spheres.into(),
-            built_boxes: built_boxes.into(),
-            sphere_tree: sphere_tree.into(),
-            box_tree: box_tree.into(),
+            built_spheres: copies[0].address.into(),
+            built_boxes: copies[1].address.into(),
+            tree: tree_at.address.into(),
+            nodes: tree.len() as u32,
+            sphere_count: shapes.spheres.len() as u32,
+            box_count: shapes.boxes.len() as u32,
         };
         Ok(Self {
             tlas,
-            expected_tests: [&spheres, &boxes].map(|level| tree::expected_tests(&level.tree)),
+            expected_tests,
             addresses: Buffer::with_data(gpu, "shapes", &[addresses], input_usage())?,
             host_c: None,
             shapes,
@@ -130,7 +132,7 @@ impl ShapesOnGpu {
             reach,
             build,
             _levels: [spheres.blas, boxes.blas].into_iter().flatten().collect(),
-            _buffers: records.into(),
+            _buffers: records.into_iter().chain(copies).chain([tree_at]).collect(),
         })
     }
 
@@ -176,6 +178,7 @@ struct Level {
     /// `None` without shapes.
     blas: Option<AccelerationStructure>,
     /// Which shape a primitive of the build is.
+    ids: Buffer,
     order: Vec<u32>,
     tree: Vec<Node>,
     bounds: order::Bounds,
@@ -192,11 +195,12 @@ impl Level {
         // ANCHOR: order
         let order = gpu.emulation.order(order.of(bounds));
         let ordered: Vec<_> = order.iter().map(|&i| bounds[i as usize]).collect();
+        let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order
         let tree = tree::nodes(&ordered);
         let blas =
             (!bounds.is_empty()).then(|| boxes::bottom(gpu, name, ordered, reach)).transpose()?;
-        Ok(Self { blas, order, tree, bounds: around(bounds) })
+        Ok(Self { blas, ids, order, tree, bounds: around(bounds) })
     }
 
     /// Things in the order of the build.

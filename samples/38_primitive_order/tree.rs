@@ -14,13 +14,11 @@ common::shader_struct! {
 }
 
 // ANCHOR: tree
-/// Each box before those that it holds. Its first half comes right behind it; who misses it goes on at
-/// `next`. Without boxes there is one node that none can meet.
+/// Each box before those that it holds. Its first half comes right behind it; a ray that misses the box
+/// goes on at `next`.
 pub fn nodes(bounds: &[Bounds]) -> Vec<Node> {
     let mut nodes = Vec::new();
-    if bounds.is_empty() {
-        nodes.push(Node { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY, next: 1 });
-    } else {
+    if !bounds.is_empty() {
         grow(bounds, &mut nodes);
     }
     nodes
@@ -52,6 +50,7 @@ pub fn expected_tests(nodes: &[Node]) -> f64 {
         side.x * side.y + side.y * side.z + side.z * side.x
     };
     let halved = nodes.iter().enumerate().filter(|(i, node)| node.next as usize > i + 1);
-    1.0 + 2.0 * halved.map(|(_, node)| area(node)).sum::<f64>() / area(&nodes[0])
+    let all: f64 = halved.map(|(_, node)| area(node)).sum();
+    nodes.first().map_or(0.0, |root| 1.0 + 2.0 * all / area(root))
 }
 // ANCHOR_END: expected

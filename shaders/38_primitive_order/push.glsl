@@ -38,8 +38,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sha
     Original box_ids;
     Spheres built_spheres; // primitive i of the build, without asking which sphere that is
     Boxes built_boxes;
-    Tree sphere_tree;
-    Tree box_tree;
+    Tree tree;             // of all spheres, and behind it that of all boxes
+    uint nodes;
+    uint sphere_count;
+    uint box_count;
 };
 // ANCHOR_END: shapes
 

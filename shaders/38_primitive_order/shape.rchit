@@ -70,8 +70,7 @@ void main() {
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.kind = gl_HitKindEXT;
-    // Half of a tree's nodes, and one more, are its leaves.
-    uint nodes = sphere ? push.shapes.sphere_tree.at[0].next : push.shapes.box_tree.at[0].next;
-    hit.place = float(gl_PrimitiveID) / float(nodes / 2 + 1);
+    uint count = sphere ? push.shapes.sphere_count : push.shapes.box_count;
+    hit.place = float(gl_PrimitiveID) / float(count);
     // ANCHOR_END: report
 }

@@ -2,13 +2,12 @@
 #include "common/box.glsl"
 
 // ANCHOR: walk
-// How many boxes of a tree a ray is tested against, as far as `end`.
-uint boxes_tested(Tree tree, vec3 o, vec3 d, float end) {
+// How many boxes a ray is tested against, as far as `end`.
+uint boxes_tested(vec3 o, vec3 d, float end) {
     uint tested = 0;
-    uint count = tree.at[0].next;
     uint i = 0;
-    while (i < count) {
-        Node node = tree.at[i];
+    while (i < push.shapes.nodes) {
+        Node node = push.shapes.tree.at[i];
         vec2 t;
         vec3 faces[2];
         bool met = box_division(o, d, node.low, node.high, t, faces) && t.y >= 0.0 && t.x <= end;
@@ -19,9 +18,8 @@ uint boxes_tested(Tree tree, vec3 o, vec3 d, float end) {
 }
 // ANCHOR_END: walk
 
-// From dark blue over red to yellow and white: each step of color is as many times the tests.
+// From dark blue over red to yellow and white: each step of color is as many times as many tests.
 vec4 view_of_tests(vec3 origin, vec3 direction, float end) {
-    uint tested = boxes_tested(push.shapes.sphere_tree, origin, direction, end)
-        + boxes_tested(push.shapes.box_tree, origin, direction, end);
+    uint tested = boxes_tested(origin, direction, end);
     return vec4(heat(log2(float(tested)) / 14.0), tested);
 }
