@@ -8,6 +8,7 @@ mod lens;
 mod lights;
 mod map;
 mod march;
+mod orders;
 mod rays;
 mod shadows;
 mod shapes;
@@ -36,6 +37,7 @@ const DRAWINGS: &[Drawing] = &[
     ("owen_scrambling", squares::scrambling),
     ("map", map::chapters),
     ("penumbra", shadows::penumbra),
+    ("primitive_order", orders::quarters),
     ("refit", structures::refit),
     ("shadow_lift", shadows::lift),
     ("shader_binding_table", table::chapter_13),
