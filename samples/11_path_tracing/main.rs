@@ -107,12 +107,7 @@ impl Sample for Demo {
             depth: 16,
             clamp: 0.0,
             seed: 0,
-            constants: Constants {
-                show: Show::Picture,
-                sky,
-                roulette: true,
-                sum: Sum::Integers,
-            },
+            constants: Constants { show: Show::Picture, sky, roulette: true, sum: Sum::Integers },
             sums: Buffer::new(gpu, "sums", 0, input_usage())?,
         })
     }

@@ -16,7 +16,8 @@ use common::gpu::{
     TextureTable, barrier,
 };
 use common::scene::{
-    Camera, CameraBasis, DiskLight, Light, PointLight, Scene, SceneAddresses, SceneOnGpu, input_usage,
+    Camera, CameraBasis, DiskLight, Light, PointLight, Scene, SceneAddresses, SceneOnGpu,
+    input_usage,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::UVec3;

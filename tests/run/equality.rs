@@ -62,18 +62,6 @@ pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     }
 }
 
-/// The same of two pictures of random paths that meet `surfaces` each. A path that meets an edge goes elsewhere
-/// from there on, as with other random numbers, which `drawn_anew` shows: one of a hundred may at each surface,
-/// in either picture.
-#[track_caller]
-pub fn same_paths(what: &str, surfaces: f32, one: &Picture, other: &Picture, drawn_anew: &Picture) {
-    let (mean, anew) = (flip(one, other).0, flip(one, drawn_anew).0);
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: other bits, {mean}"),
-        false => assert!(mean <= 2.0 * 0.01 * surfaces * anew, "{what}: {mean}, {anew}"),
-    }
-}
-
 /// How far a chapter's picture by this device may be from the golden one, by the mean FLIP: `own` is what
 /// the software driver, which made it, keeps. `None` if a picture shows the device's own errors.
 pub(crate) fn golden_tolerance(name: &str, picture: &Picture, own: f32) -> Option<f32> {

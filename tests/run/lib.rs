@@ -22,7 +22,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, Requirements};
 pub use device;
-pub use equality::{Near, same_answers, same_colors, same_hits, same_paths};
+pub use equality::{Near, same_answers, same_colors, same_hits};
 pub use flip::near::pictures as flip;
 use serde_json::Value;
 #[cfg(target_os = "linux")]

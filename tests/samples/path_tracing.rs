@@ -1,6 +1,7 @@
 //! 11_path_tracing: that the mean of the paths is the light that closed forms give, and that no choice which
 //! shall only save time changes it.
 
+mod by_hand;
 pub mod closed_forms;
 mod plots;
 mod surfaces;

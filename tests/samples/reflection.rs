@@ -14,7 +14,8 @@ use serde_json::json;
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
 use run::{
-    bits, command, figures, golden, refused, render, render_by, same_answers, same_colors, shaders_with,
+    bits, command, figures, golden, refused, render, render_by, same_answers, same_colors,
+    shaders_with,
 };
 
 const NAME: &str = "06_reflection";

@@ -6,7 +6,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
-use common::gpu::shader::Shader;
+use common::gpu::shader::{Shader, StageText};
 use common::gpu::{ADDRESS_ALIGNMENT, Emulation};
 use instruments::arithmetic::Arithmetic;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -19,7 +19,7 @@ const PUSH_CONSTANTS: u32 = 128;
 
 /// The capabilities that modules may declare, and what has to be asked for with them: `None` where ray
 /// tracing pipelines bring them, or Vulkan 1.3 does.
-const CAPABILITIES: [(Capability, Option<&str>); 14] = [
+const CAPABILITIES: [(Capability, Option<&str>); 13] = [
     (Capability::Shader, None),
     (Capability::RayTracingKHR, None),
     (Capability::ImageQuery, None),
@@ -202,6 +202,56 @@ fn every_module_is_valid() {
     for form in forms() {
         validate(&form.name, &form.shader.spirv);
     }
+}
+
+/// Its hunks, a file each: what stands there, and what takes its place.
+fn hunks(patch: &str) -> Vec<(&str, Vec<[String; 2]>)> {
+    let mut files: Vec<(&str, Vec<[String; 2]>)> = Vec::new();
+    for line in patch.lines() {
+        if let Some(file) = line.strip_prefix("+++ ") {
+            files.push((file, Vec::new()));
+        } else if line.starts_with("@@") {
+            files.last_mut().expect("a file").1.push([String::new(), String::new()]);
+        } else if !line.starts_with("--- ") {
+            let [old, new] = files.last_mut().and_then(|(_, h)| h.last_mut()).expect("a hunk");
+            let (sign, text) = line.split_at(1);
+            if sign != "+" {
+                *old += &format!("{text}\n");
+            }
+            if sign != "-" {
+                *new += &format!("{text}\n");
+            }
+        }
+    }
+    files
+}
+
+/// No device of this project runs it: so it is held to what can be held without one.
+#[test]
+fn reordering_is_a_patch_that_applies_and_whose_module_is_valid() {
+    let read = |file: &str| std::fs::read_to_string(run::root().join(file)).expect("a text");
+    let patch = read("docs/reordering.diff");
+    let files = hunks(&patch);
+    for (file, hunks) in &files {
+        let text = read(file);
+        for [old, _] in hunks {
+            assert_eq!(text.matches(old).count(), 1, "{file} has not one\n{old}");
+        }
+    }
+    let (file, hunks) = files.last().expect("the shader comes last");
+    let path = file.strip_prefix("shaders/").expect("a shader");
+    let shader = Shader::of(path, &[], |stage| {
+        let text = hunks.iter().fold(stage.text.clone(), |text, [old, new]| {
+            assert_eq!(text.matches(old).count(), 1, "{path} has not one\n{old}");
+            text.replace(old, new)
+        });
+        StageText { text, ..stage }.words()
+    });
+    let shader = shader.expect("it compiles");
+    let module = rspirv::dr::load_words(&shader.spirv).expect("SPIR-V");
+    let reorders = Operand::Capability(Capability::ShaderInvocationReorderNV);
+    assert!(module.capabilities.iter().any(|declared| declared.operands[0] == reorders));
+    validate("docs/reordering.diff", &shader.spirv);
 }
 
 /// The rewrite knows every operation of every shader, and what it makes of them is SPIR-V.

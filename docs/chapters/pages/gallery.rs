@@ -14,6 +14,7 @@ const BEFORE: &[(&str, &str)] = &[
 const AFTER: &[(&str, &str)] = &[
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
+    ("reordering.md", "Threads that change places"),
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
     ("arithmetic.md", "The worst arithmetic that conforms"),
