@@ -79,11 +79,8 @@ impl Sample for Demo {
             Build { scene: SceneKind::Ripples, squares: 10_000, geometry: Geometry::Instances };
         let pieces = Pieces::new(build)?;
         let scene = SceneOnGpu::new(gpu, &pieces.meshes, setup.options)?;
-        let constants = Constants {
-            show: Show::Picture,
-            culling: Culling::Off,
-            normals: Normals::HostInverse,
-        };
+        let constants =
+            Constants { show: Show::Picture, culling: Culling::Off, normals: Normals::HostInverse };
         let sun = Sun { azimuth: 300.0, elevation: 22.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
             scene,

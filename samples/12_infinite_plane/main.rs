@@ -16,9 +16,7 @@ use common::gpu::{
 };
 use common::scene::board::Board;
 use common::scene::plane::Plane;
-use common::scene::{
-    Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage,
-};
+use common::scene::{Camera, CameraBasis, Light, Scene, SceneAddresses, SceneOnGpu, input_usage};
 use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 use plane::{InfinitePlane, Inside};

@@ -25,11 +25,11 @@ common::shader_enum! {
         Plane,
         /// Convex solids that a shader intersects (22).
         Solids,
-        /// Shadows of a light at a place (05).
+        /// Shadows of a light at a place (34).
         PointShadows,
         /// Shadows of a light at infinity (05).
         DirectionalShadows,
-        /// Soft shadows: a light with a size (05).
+        /// Soft shadows: a light with a size (35).
         AreaLight,
         /// Surfaces that mirror, `illum` 3 or more with `Ks` above 0 (06).
         Mirror,

@@ -10,8 +10,8 @@ use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Moved, Placement, Scene, SceneAddresses, SceneOnGpu, Size,
-    Sun,
+    Camera, CameraBasis, DirectionalLight, Moved, Placement, Scene, SceneAddresses, SceneOnGpu,
+    Size, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
@@ -88,10 +88,7 @@ impl Sample for Demo {
             size: Size::Usual,
             moved: Moved::Not,
             bounce: 0,
-            constants: Constants {
-                show: Show::Picture,
-                origin: Origin::Bound,
-            },
+            constants: Constants { show: Show::Picture, origin: Origin::Bound },
         })
     }
 

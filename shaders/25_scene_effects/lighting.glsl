@@ -77,7 +77,8 @@ DiskLight light_of(uint number) {
 // ANCHOR_END: kinds
 
 // The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
-// light arrives at the surface. The point itself is lit, not the one that shadow rays leave: without shadows there is no such point.
+// light arrives at the surface. The point itself is lit, not the one that shadow rays leave: without shadows
+// there is no such point.
 vec3 lit_by(Light light, Hit hit, MaterialRecord material, vec3 view, float visible) {
     vec3 to_light = normalize(towards_light(light, hit.position));
     return visible * arriving_light(light, hit.position)

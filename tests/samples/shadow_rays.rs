@@ -170,7 +170,13 @@ pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
     assert!(differ * 500 < all, "{differ} of {all}");
     // A board's square is 1: a shadow begins where the piece stands.
     assert!(highest < 1e-4 && highest_on_slivers < 2e-3, "{highest} {highest_on_slivers}");
-    Origins { differ, surfaces: all, height: highest, height_on_slivers: highest_on_slivers, moved: farthest }
+    Origins {
+        differ,
+        surfaces: all,
+        height: highest,
+        height_on_slivers: highest_on_slivers,
+        moved: farthest,
+    }
 }
 
 /// Whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
