@@ -13,7 +13,9 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Near, Run, command, figures, golden, render, render_by, same_hits, shaders_with};
+use run::{
+    Near, Run, command, figures, flat_shaders, golden, render, render_by, same_hits,
+};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
@@ -141,14 +143,11 @@ fn hits_agree_under_every_matrix() {
 fn no_matrix_makes_a_triangle_shadow_itself() {
     let viewed = ViewedScene::specimens();
     let hits = viewed.hits(&[SPECIMEN]);
-    // The start is that of the flat triangle: from the round surface, few would be near it.
-    const PLACE: &str = "place(hit, instance, triangle, weights);";
-    let flat = format!("{PLACE} hit.lift = vec3(0.0);");
-    let shaders = shaders_with("09_instancing/shade.rchit", PLACE, &flat);
+    let shaders = flat_shaders();
+    let sets = [SPECIMEN, "show=shadow origin"];
     let mut sample = command(NAME);
-    sample.env("SHADERS", shaders.path());
-    let origins = arguments(&[SPECIMEN, "show=shadow origin"]);
-    let origins = render_by(&mut sample, SIZE, &origins).picture;
+    let origins = render_by(sample.env("SHADERS", shaders.path()), SIZE, &arguments(&sets));
+    let origins = origins.picture;
     let sun = Sun { azimuth: 300.0, elevation: 22.0, ..Sun::default() }.light().direction;
     let (mut lit, mut dark) = (0, 0);
     for ((ray, hit), &[x, y, z, seen]) in hits.iter().zip(&origins.pixels).step_by(3) {

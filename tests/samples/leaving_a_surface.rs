@@ -2,10 +2,9 @@
 
 mod plots;
 
-use std::path::PathBuf;
 
 use common::app::Picture;
-use common::scene::{Camera, Light, Placement, Scene, Sun};
+use common::scene::{Camera, Placement, Scene, Sun};
 use glam::DVec3;
 use reference::Ray;
 use reference::scene::Scene as Exact;
@@ -13,7 +12,11 @@ use serde_json::{Map, json};
 
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
-use run::{command, figures, golden, render, render_by, same_answers, shaders_with};
+use run::{
+    command, figures, flat_shaders, golden, render, render_by, replace_line, same_answers,
+    shaders_with,
+};
+use tempfile::TempDir;
 
 const NAME: &str = "26_leaving_a_surface";
 const SIZE: &str = "120x75";
@@ -41,9 +44,11 @@ fn the_picture_is_the_golden_one() {
 
 #[test]
 fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
-    let [off, traced] = ["off", "first hit"]
-        .map(|rays| picture(SIZE, &["show=hit", "bounce=1", &format!("shadow rays={rays}")]));
-    same_answers("with and without shadow rays", NAME, &off, &traced);
+    let asks = "visible = visibility(hit, start, push.light.direction);";
+    let without = shaders_with("26_leaving_a_surface/path.glsl", asks, "");
+    let sets = arguments("driver", &["show=hit", "bounce=1"]);
+    let off = render_by(command(NAME).env("SHADERS", without.path()), SIZE, &sets).picture;
+    same_answers("with and without shadow rays", NAME, &off, &render(NAME, SIZE, &sets).picture);
 }
 
 /// The camera that the tests of rays look through, from above and from low down.
@@ -70,8 +75,8 @@ struct Setting<'a> {
     camera: Camera,
     directions: Picture,
     hits: Picture,
-    /// A copy of the shaders that says where rays start, if not the book's.
-    shaders: Option<PathBuf>,
+    /// A copy of the shaders where rays leave flat triangles.
+    shaders: TempDir,
 }
 
 impl<'a> Setting<'a> {
@@ -81,23 +86,22 @@ impl<'a> Setting<'a> {
 
     fn computed(arithmetic: &'a str, setting: usize, size: &'a str, camera: [&'a str; 3]) -> Self {
         let (place, placement) = SETTINGS[setting];
-        let more = ["minimum contribution=0", "smooth terminator=off"];
-        let sun = ["sun azimuth=278", "sun elevation=22"];
-        let sets = [&place[..], &camera, &more, &sun].concat();
+        let more = ["minimum contribution=0", "sun azimuth=278", "sun elevation=22"];
+        let sets = [&place[..], &camera, &more].concat();
         let mut scene = Scene::chess().unwrap();
         scene.camera.eye = point(camera[0]);
         let scene = placement.scene(&scene);
         let show = |view: &str| computed(arithmetic, size, &[&sets[..], &[view]].concat());
         let (directions, hits) = (show("show=ray direction"), show("show=hit"));
         let (exact, camera) = (reference(&scene), scene.camera);
-        Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: None }
+        Self { arithmetic, exact, camera, sets, size, directions, hits, shaders: flat_shaders() }
     }
 
     fn show(&self, rule: &str, sets: &[&str]) -> Picture {
         let rule = format!("origin={rule}");
         let sets = [&self.sets[..], &[&rule], sets].concat();
         let mut sample = command(NAME);
-        sample.envs(self.shaders.iter().map(|folder| ("SHADERS", folder)));
+        sample.env("SHADERS", self.shaders.path());
         render_by(&mut sample, self.size, &arguments(self.arithmetic, &sets)).picture
     }
 
@@ -135,7 +139,7 @@ impl<'a> Setting<'a> {
     fn shadow(&self, rule: &str) -> Tally {
         let tmin = if rule == "tmin" { 1e-4 } else { 0.0 };
         let sun = Sun { azimuth: 278.0, elevation: 22.0, ..Sun::default() };
-        let light = Light::directional(&sun, 0.0).place.to_array();
+        let light = sun.light().direction.to_array();
         let shadows = self.show(rule, &["show=shadow origin"]);
         let arriving = rays(&self.camera, &self.directions).zip(&self.hits.pixels);
         let mut tally = Tally::default();
@@ -248,9 +252,10 @@ fn a_smaller_step_ends_in_self_hits() {
     let (mut table, mut all) = (Map::new(), 0);
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01"] {
         let smaller = STEP.replace("step", &format!("{factor} * step"));
-        let shaders = shaders_with("26_leaving_a_surface/origin.glsl", STEP, &smaller);
         for (number, setting) in settings.iter_mut().enumerate() {
-            setting.shaders = Some(shaders.path().into());
+            setting.shaders = flat_shaders();
+            let folder = setting.shaders.path();
+            replace_line(folder, "26_leaving_a_surface/origin.glsl", STEP, &smaller);
             let tally = setting.reflected("bound", 1);
             println!("{factor}, {}: {tally}", SETTINGS[number].0.join(", "));
             assert!(factor != "1.0" || tally.self_hits == 0, "{:?}", tally.first);
