@@ -4,6 +4,8 @@ mod looks;
 mod mirrors;
 mod shadows;
 
+use std::path::Path;
+
 use common::app::Picture;
 use common::scene::{Camera, Scene};
 use glam::{DVec3, Vec3};
@@ -13,7 +15,7 @@ use reference::{Ray, Surface};
 use serde_json::{Map, json};
 
 use run::primary_hits::{rays, reference};
-use run::{bits, figures, golden, render, same_colors};
+use run::{bits, command, figures, golden, render, render_by, same_colors, shaders_with};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -62,6 +64,14 @@ impl Octahedron {
 
     fn picture(&self, sets: &[&str]) -> Picture {
         shown(SIZE, sets, &["--scene", &self.path()])
+    }
+
+    /// What a sample shows of it by other shaders.
+    fn picture_by(&self, shaders: &Path, sample: &str, sets: &[&str]) -> Picture {
+        let sets = sets.iter().flat_map(|&set| ["--set", set]);
+        let path = self.path();
+        let arguments: Vec<&str> = sets.chain(["--scene", &path]).collect();
+        render_by(command(sample).env("SHADERS", shaders), SIZE, &arguments).picture
     }
 }
 
@@ -266,8 +276,6 @@ fn testing_before_and_after_give_the_same_bits() {
         "camera eye=5996.6,4801.6,6407.2",
         "camera target=6000.6,4800.62,6400",
         "light=both",
-        "light size=0.1",
-        "light samples=4",
     ];
     for (model, sets) in [
         (&near, &["preset=four spheres"][..]),
@@ -283,14 +291,14 @@ fn testing_before_and_after_give_the_same_bits() {
 #[test]
 fn without_the_plane_the_picture_is_that_of_06() {
     let model = Octahedron::new(Vec3::new(0.2, 1.1, 0.0));
-    let path = model.path();
-    // The sun is the preset's own, the lamp is that of 06.
-    let sets = ["light=point", "camera eye=2,3,4", "camera target=0,1,0"];
-    let arguments: Vec<&str> =
-        sets.iter().flat_map(|set| ["--set", set]).chain(["--scene", &path]).collect();
-    let before = render("06_reflection", SIZE, &arguments).picture;
-    let after = render(NAME, SIZE, &[&arguments[..], &["--set", "plane=off"]].concat()).picture;
-    let with = render(NAME, SIZE, &arguments).picture;
+    // The preset's sun has a strength of its own: here it gets that of 06.
+    let strength = "return light.strength;";
+    let shaders = shaders_with("common/light.glsl", strength, "return vec3(4.4, 3.5, 2.4);");
+    let sets = ["sun azimuth=340", "sun elevation=20", "camera eye=2,3,4", "camera target=0,1,0"];
+    let show =
+        |sample, more: &[&str]| model.picture_by(shaders.path(), sample, &[&sets, more].concat());
+    let before = show("06_reflection", &[]);
+    let [after, with] = [&["plane=off"][..], &[]].map(|more| show(NAME, more));
     same_colors("12 and 06", NAME, &before, &after);
     let changed = bits(&after).iter().zip(bits(&with)).filter(|(a, b)| **a != *b).count();
     assert!(changed > 2000, "{changed}");

@@ -13,9 +13,7 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{
-    Near, Run, command, figures, flat_shaders, golden, render, render_by, same_hits,
-};
+use run::{Near, Run, command, figures, flat_shaders, golden, render, render_by, same_hits};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]

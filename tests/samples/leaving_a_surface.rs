@@ -2,7 +2,6 @@
 
 mod plots;
 
-
 use common::app::Picture;
 use common::scene::{Camera, Placement, Scene, Sun};
 use glam::DVec3;

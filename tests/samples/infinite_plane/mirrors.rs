@@ -6,7 +6,8 @@ use glam::{DVec3, Vec3};
 use reference::Ray;
 use reference::ulp::ulp_error;
 
-use super::{Octahedron, PLANE, level, picture, pieces};
+use super::{NAME, Octahedron, PLANE, level, picture, pieces};
+use run::flat_shaders;
 use run::primary_hits::rays;
 
 /// Where the board preset is looked at from, and from where that eye's image in the plane would look.
@@ -101,12 +102,13 @@ fn what_mirrors_mirrors_the_plane() {
         "inside=color",
         "inside color=1,1,1",
         "checker=point",
-        "smooth terminator=off",
         "minimum contribution=0",
         "camera eye=-1,1.4,2.4",
         "camera target=0,1,0",
     ];
-    let show = |more: &[&str]| model.picture(&[&sets[..], more].concat());
+    // A mirrored ray starts where the shadow ray of the same hit does, if nothing is lifted.
+    let flat = flat_shaders();
+    let show = |more: &[&str]| model.picture_by(flat.path(), NAME, &[&sets[..], more].concat());
     let [once, twice] = ["depth=0", "depth=1"].map(|depth| show(&[depth]));
     let [hits, normals, starts, directions] = ["hit", "normal", "shadow origin", "ray direction"]
         .map(|view| show(&[&format!("show={view}")]));
