@@ -4,6 +4,7 @@
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
 mod calls;
+mod floats;
 mod lens;
 mod lights;
 mod map;
@@ -46,6 +47,7 @@ const DRAWINGS: &[Drawing] = &[
     ("solid_angles", lights::solid_angles),
     ("sobol_boxes", squares::boxes),
     ("solid_intervals", shapes::intervals),
+    ("subtract_first", floats::subtract_first),
     ("table_of_foundation", table::chapter_01),
     ("thin_lens", lens::thin_lens),
     ("two_lights", shadows::two_lights),
