@@ -147,7 +147,11 @@ pub fn chapters(
             files.sort_by_key(|file| !file.ends_with("/main.rs"));
             files
         };
-        diffs.extend(folder(project, &names, &files(old), &files(new))?);
+        let (old, mut new) = (files(old), files(new));
+        // What the newer chapter takes from the older one stands in the older one's folder, and stays.
+        let taken = project.with_borrowed(new.clone()).into_iter().skip(new.len());
+        new.extend(taken.filter(|file| old.contains(file)));
+        diffs.extend(folder(project, &names, &old, &new)?);
     }
     if parts.shaders {
         let [old_own, new_own] = [old, new].map(|chapter| shader::own(project, chapter));

@@ -271,6 +271,27 @@ impl Project {
             .collect()
     }
 
+    /// Files of a chapter and those of other chapters that it takes by `#[path = "…"]`.
+    pub fn with_borrowed(&self, mut files: Vec<String>) -> Vec<String> {
+        let mut next = 0;
+        while let Some(file) = files.get(next).cloned() {
+            let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let text = self.read(&file).unwrap_or_default();
+            let paths = text
+                .lines()
+                .filter_map(|line| line.trim().strip_prefix("#[path = \"../")?.strip_suffix("\"]"));
+            for path in paths {
+                let above = folder.rsplit_once('/').map_or("", |(above, _)| above);
+                let borrowed = format!("{above}/{path}");
+                if !files.contains(&borrowed) {
+                    files.push(borrowed);
+                }
+            }
+            next += 1;
+        }
+        files
+    }
+
     /// Every page: the README and what lies in `docs/`, but not the generated summary.
     pub fn pages(&self) -> Vec<String> {
         let mut pages = self.files("docs");

@@ -32,7 +32,7 @@ impl Sources {
 
 /// The hash of a chapter in which some files hold something else.
 pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String {
-    let mut files = with_borrowed(project, project.files(&format!("samples/{chapter}")));
+    let mut files = project.with_borrowed(project.files(&format!("samples/{chapter}")));
     let says = |word: &str| {
         files.iter().any(|file| project.read(file).is_ok_and(|text| text.contains(word)))
     };
@@ -67,27 +67,6 @@ pub fn of_chapter(project: &Project, chapter: &str, changed: &Changed) -> String
 
 /// The files of `common/src/scene` that carry a scene to the device, and change nothing of it.
 const UPLOAD: [&str; 3] = ["/upload.rs", "/meshes.rs", "/records.rs"];
-
-/// Files of a chapter and those of other chapters that it takes by `#[path = "…"]`.
-fn with_borrowed(project: &Project, mut files: Vec<String>) -> Vec<String> {
-    let mut next = 0;
-    while let Some(file) = files.get(next).cloned() {
-        let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let text = project.read(&file).unwrap_or_default();
-        let paths = text
-            .lines()
-            .filter_map(|line| line.trim().strip_prefix("#[path = \"../")?.strip_suffix("\"]"));
-        for path in paths {
-            let above = folder.rsplit_once('/').map_or("", |(above, _)| above);
-            let borrowed = format!("{above}/{path}");
-            if !files.contains(&borrowed) {
-                files.push(borrowed);
-            }
-        }
-        next += 1;
-    }
-    files
-}
 
 /// A hash of files, wherever they lie.
 pub fn of_files(project: &Project, files: &[String]) -> String {
