@@ -14,8 +14,8 @@ vec2 in_the_box(vec3 o, vec3 d, float tmin, float tmax) {
 // ANCHOR_END: box
 
 // ANCHOR: meet
-// Where a ray meets the ground, by a rung. Rays to lamps end at t = 1, whatever their length is; the
-// older rungs take t for a length.
+// Where a ray meets the ground, by a rung. A direction's length is 1 but for its rounding; the older rungs
+// take t for a length.
 HeightfieldHit meet_ground(uint rung, vec3 o, vec3 d, float tmin, float tmax) {
     vec2 within = in_the_box(o, d, tmin, tmax);
     if (within.x > within.y) {

@@ -289,8 +289,8 @@ fn normals_are_those_of_the_height_function() {
 #[test]
 fn what_is_traced_is_what_is_marched() {
     for rung in ["relaxed", "bisected"] {
-        let sets = ["shadow rays=off", &format!("rung={rung}")];
-        let show = |view| shown("120x75", &[&sets[..], &[view]].concat(), &[]);
+        let rung = format!("rung={rung}");
+        let show = |view| shown("120x75", &[&rung, view], &[]);
         let (hits, marched) = (show("show=hit"), show("show=march"));
         let mut ground = 0;
         for (hit, marched) in hits.pixels.iter().zip(&marched.pixels) {

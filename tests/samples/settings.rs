@@ -30,7 +30,7 @@ fn the_order_of_settings_does_not_matter() {
     held("11_path_tracing", ["scene=furnace", "sky=black", "camera eye=1,2,3"]);
     held("12_infinite_plane", ["preset=pov", "plane distance=0.5", "camera eye=1,2,3"]);
     held("21_heightfield", ["preset=steep", "steepness=3", "sun azimuth=10"]);
-    held("22_solids", ["preset=one solid", "fog distance=7", "light=point"]);
+    held("22_solids", ["preset=one solid", "fog distance=7", "sun elevation=40"]);
     held("25_scene_effects", ["scene=lake", "depth=2", "light size=0.25"]);
     held("27_glass", ["scene=drink", "sky=day", "camera eye=1,2,3"]);
     held("29_emitters", ["scene=ball", "sky=day", "camera eye=1,2,3"]);

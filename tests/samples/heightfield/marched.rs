@@ -30,7 +30,7 @@ impl Alone {
 
     pub fn shown(&self, size: &str, sets: &[&str]) -> Picture {
         let path = self.0.path().join("a.obj").display().to_string();
-        shown(size, &[sets, &["shadow rays=off"]].concat(), &["--scene", &path])
+        shown(size, sets, &["--scene", &path])
     }
 
     /// The rays of the camera, as the GPU wrote them.
