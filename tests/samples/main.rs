@@ -16,7 +16,7 @@ mod infinite_plane;
 mod instancing;
 mod intersection;
 mod jitter_camera;
-// mod leaving_a_surface;
+mod leaving_a_surface;
 mod lights;
 mod long_renders;
 mod multi_closest_hit;
