@@ -40,13 +40,16 @@ pub fn two_lights() -> String {
         s.line(&(0..=40).map(at).collect::<Vec<_>>(), FAINT, 1.4);
     }
     for x in [490.0, 600.0, 760.0] {
-        s.arrow(&[[x, ground], point(lamp)]);
+        let from = DVec2::new(x, ground);
+        let end = lamp + 9.0 * (from - lamp).normalize();
+        s.arrow(&[point(from), point(end)]);
         s.dot([x, ground], 4.0, BROWN);
     }
     s.circle(point(lamp), 9.0, YOURS, BROWN);
-    s.polygon(&[[640.0, 66.0], [700.0, 66.0], [700.0, 80.0], [640.0, 80.0]], BLUE, LINE);
-    s.note([708.0, 78.0], Start, "hides nothing:");
-    s.note([708.0, 95.0], Start, "it is behind the lamp");
+    s.polygon(&[[620.0, 66.0], [664.0, 66.0], [664.0, 80.0], [620.0, 80.0]], BLUE, LINE);
+    s.dashes(&[point(lamp), [641.0, 72.0]], LINE, 1.2);
+    s.note([674.0, 70.0], Start, "hides nothing:");
+    s.note([674.0, 87.0], Start, "it is behind the lamp");
     s.say([548.0, 186.0], Middle, "r");
     s.say([612.0, 214.0], Start, "I / r²");
     s.title([440.0, 292.0], Start, "A lamp: from one place, weaker farther off.");
@@ -103,7 +106,7 @@ pub fn penumbra() -> String {
 /// A round surface, the triangles that stand for it, and the start of a shadow ray by each.
 pub fn lift() -> String {
     let mut s = Sheet::new([840, 350], "Two normals: one to leave by, one to shade by");
-    let (middle, radius) = (DVec2::new(210.0, 500.0), 330.0);
+    let (middle, radius) = (DVec2::new(224.0, 470.0), 290.0);
     let on = |degrees: f64| middle + radius * DVec2::from_angle(degrees.to_radians());
     let corners: Vec<DVec2> = [-122.0, -98.0, -74.0, -50.0].map(on).into();
     let arc: Vec<Point> = (-122..=-50).map(|i| point(on(f64::from(i)))).collect();
@@ -114,9 +117,9 @@ pub fn lift() -> String {
         s.arrow(&[point(*corner), point(*corner + 52.0 * normal)]);
         s.dot(point(*corner), 3.0, BROWN);
     }
-    s.note([58.0, 214.0], Middle, "the normals at the corners");
-    s.note([58.0, 231.0], Middle, "are those of the round surface");
-    s.note([230.0, 318.0], Middle, "flat triangles (brown) stand for a round surface (grey)");
+    s.title([24.0, 66.0], Start, "The normals at the corners");
+    s.note([24.0, 84.0], Start, "are those of the round surface (grey) that");
+    s.note([24.0, 101.0], Start, "flat triangles (brown) stand for.");
 
     // One triangle from close by, with the planes through its corners.
     let (a, b) = (DVec2::new(500.0, 262.0), DVec2::new(790.0, 262.0));
@@ -141,9 +144,10 @@ pub fn lift() -> String {
     s.dot(point(lifted), 5.0, SEA);
     s.arrow(&[point(lifted), point(lifted + DVec2::new(150.0, -42.0))]);
     s.note([p.x, p.y + 22.0], Middle, "the hit, on the triangle");
-    s.note([644.0, 120.0], Middle, "to a light that is low");
+    s.note([712.0, 146.0], Middle, "to a light that is low");
     s.title([500.0, 66.0], Start, "The start is lifted");
     s.note([500.0, 84.0], Start, "to the mean of its places on the corners' planes.");
-    s.note([500.0, 318.0], Start, "From the hit itself, the next triangle would hide the light.");
+    s.note([500.0, 306.0], Start, "From the hit itself, the next triangle");
+    s.note([500.0, 323.0], Start, "would hide the light.");
     s.svg()
 }

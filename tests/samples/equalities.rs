@@ -10,9 +10,8 @@ use run::equality::{flipped, ties};
 use run::{Near, bits, command, figures, flip, render, render_by};
 
 const SIZE: &str = "96x60";
-/// Models that two chapters show alike.
+/// A model that two chapters show alike.
 const CHESS: &str = "--scene=samples/assets/chess.obj";
-const BOX: &str = "--scene=samples/assets/box_on_plane.obj";
 
 /// Two ways to one picture.
 struct Equality {
@@ -25,7 +24,7 @@ struct Equality {
     is_quick: bool,
 }
 
-const EQUALITIES: [Equality; 11] = [
+const EQUALITIES: [Equality; 10] = [
     Equality {
         what: "04 through pixels' centres = 02",
         one: ("04_jitter_camera", &["jitter=off"]),
@@ -80,13 +79,6 @@ const EQUALITIES: [Equality; 11] = [
         other: ("06_reflection", &["method=recursive"]),
         shows_answers: false,
         is_quick: true,
-    },
-    Equality {
-        what: "12 without plane = 06",
-        one: ("12_infinite_plane", &[BOX, "light=point", "camera eye=2,3,4", "plane=off"]),
-        other: ("06_reflection", &[BOX, "light=point", "camera eye=2,3,4"]),
-        shows_answers: false,
-        is_quick: false,
     },
     Equality {
         what: "12 that tests the plane before = after",

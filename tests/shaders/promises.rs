@@ -116,7 +116,7 @@ fn no_angle_is_beyond_pi() {
     let known = [
         "14_animation/flag.comp",
         "common/aperture.glsl",
-        "common/light.glsl",
+        "common/disk.glsl",
         "common/sphere_light.glsl",
         "common/surface.glsl",
     ];
@@ -126,7 +126,7 @@ fn no_angle_is_beyond_pi() {
     for function in ["tan", "asin", "acos", "atan"] {
         assert_eq!(callers(function), [""; 0]);
     }
-    let noting = format!("{NOTING_ANGLES}#include \"common/light.glsl\"\n");
+    let noting = format!("{NOTING_ANGLES}#include \"common/disk.glsl\"\n");
     // All starts that end a turn, and some between; of 64 points, every one.
     let body = "float start = at.y < 32 ? float(16777215 - at.y) / 16777216.0 : float(at.y - 32) / 96.0;\n\
                 vec2 point = disk_point(at.x, 64, vec2(0.5, start));\n\
@@ -204,33 +204,6 @@ fn no_wave_of_the_flag_has_an_angle_beyond_pi() {
         swing.contains("[(1.9 + (gust - 1.9) * open) as f32")
             && text.contains("cloth.swing * sin(wave);")
     );
-}
-
-#[test]
-fn no_shadow_ray_ends_before_it_begins() {
-    // tmin > tmax is no valid ray (VUID-RuntimeSpirv-tMin of OpTraceRayKHR): near a lamp, whose end is
-    // at 1, a tmin that is a length is far beyond.
-    let noting = "const uint SHADOW_RAYS = 0;\n\
-                  const uint SHADOW_FIRST_HIT = 0;\n\
-                  struct Start { vec3 origin; float tmin; };\n\
-                  vec2 asked = vec2(-1.0);\n\
-                  #define traceRayEXT(a, f, m, o, s, i, origin, tmin, d, tmax, p) asked = vec2(tmin, tmax)\n\
-                  #include \"26_leaving_a_surface/shadow.glsl\"\n";
-    let body = "float away = exp2(-2.0 * float(at.x));\n\
-                Start start = Start(vec3(0.0), at.y == 0 ? 0.0 : 1e-4);\n\
-                is_lit(start, away * vec3(0.6, 0.0, 0.8), 1.0);\n\
-                answer = vec4(asked, away, start.tmin);";
-    let picture = run::evaluate(noting, body, "40x2");
-    for [tmin, tmax, away, start] in &picture.pixels {
-        assert!(
-            (0.0..=*tmax).contains(tmin) && *tmax == 1.0,
-            "a lamp at {away}: from {tmin} to {tmax}"
-        );
-        // Where the lamp is farther than tmin, the ray begins at that distance.
-        if away > start {
-            assert!((tmin * away - start).abs() <= 1e-6 * start, "{tmin} {away} {start}");
-        }
-    }
 }
 
 #[test]
