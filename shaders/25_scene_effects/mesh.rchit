@@ -87,7 +87,8 @@ void main() {
     hit.face = placed.face;
 #endif
 #ifdef LIFTS
-    hit.lift = placed.lift;
+    // Not placed.lift: what is known sooner is kept in registers longer. The compiler drops the other.
+    hit.lift = lift_to_smooth(placed.face, instance, triangle, weights, gl_ObjectToWorldEXT);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.
