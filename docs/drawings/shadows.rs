@@ -50,7 +50,7 @@ pub fn two_lights() -> String {
     s.dashes(&[point(lamp), [641.0, 72.0]], LINE, 1.2);
     s.note([674.0, 70.0], Start, "hides nothing:");
     s.note([674.0, 87.0], Start, "it is behind the lamp");
-    s.say([548.0, 186.0], Middle, "r");
+    s.say([534.0, 180.0], Middle, "r");
     s.say([612.0, 214.0], Start, "I / r²");
     s.title([440.0, 292.0], Start, "A lamp: from one place, weaker farther off.");
     s.note([440.0, 311.0], Start, "direction: the whole way; strength: I/r²;");
@@ -71,7 +71,7 @@ pub fn penumbra() -> String {
     };
     let (umbra, lit) = (lands(right), lands(left));
     floor(&mut s, 60.0, ground, 720.0);
-    s.polygon(&[point(edge), [620.0, 180.0], [620.0, 194.0], [edge.x, 194.0]], BLUE, LINE);
+    s.polygon(&[point(edge), [620.0, 180.0], [620.0, 194.0], [edge.x + 40.0, 194.0]], BLUE, LINE);
     s.polygon(&[point(edge), point(umbra), point(lit)], FAINT, "none");
     s.line(&[point(left), point(lit)], SOFT, 1.2);
     s.line(&[point(right), point(umbra)], SOFT, 1.2);
@@ -142,12 +142,12 @@ pub fn lift() -> String {
     s.line(&[point(qa), point(qb)], SEA, 1.2);
     s.dot(point(p), 4.5, RED);
     s.dot(point(lifted), 5.0, SEA);
-    s.arrow(&[point(lifted), point(lifted + DVec2::new(150.0, -42.0))]);
+    s.arrow(&[point(lifted), point(lifted + DVec2::new(160.0, 22.0))]);
     s.note([p.x, p.y + 22.0], Middle, "the hit, on the triangle");
-    s.note([712.0, 146.0], Middle, "to a light that is low");
+    s.note([690.0, 184.0], Start, "to a light that is low");
     s.title([500.0, 66.0], Start, "The start is lifted");
     s.note([500.0, 84.0], Start, "to the mean of its places on the corners' planes.");
-    s.note([500.0, 306.0], Start, "From the hit itself, the next triangle");
-    s.note([500.0, 323.0], Start, "would hide the light.");
+    s.note([500.0, 306.0], Start, "From the hit itself, the light is below");
+    s.note([500.0, 323.0], Start, "the triangle, which hides it.");
     s.svg()
 }

@@ -1,6 +1,6 @@
 //! 13 · Callable shader: functions that a shader calls by a number, found in the shader binding table.
 //!
-//! New since 05_shadow_miss: marble, wood, a checker and two kinds of light as callable shaders, chosen by
+//! New since 34_lights: marble, wood, a checker and both kinds of light as callable shaders, chosen by
 //! data; the same by a `switch` and by hit groups, to the bit; patterns of an integer lattice.
 
 mod finish;
