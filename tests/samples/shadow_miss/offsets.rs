@@ -2,21 +2,26 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::path::Path;
 
 use common::app::Picture;
 use serde_json::{Map, Value, json};
 
 use super::{FIRST_HIT, NAME};
-use run::{command, figures, flat_shaders, replace_line};
+use run::{command, copy_of_shaders, figures, flat_shaders, replace_line};
 
-/// Runs by shaders with a line replaced, where rays leave triangles as they are. Returns a picture of 480×300 and
-/// the milliseconds of a frame.
+/// Runs by shaders with a line replaced, where rays leave triangles as they are.
 fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
     let shaders = flat_shaders();
     replace_line(shaders.path(), file, from, to);
-    let [out, report] = ["out.exr", "report.json"].map(|name| shaders.path().join(name));
+    run_by(shaders.path(), more)
+}
+
+/// Runs by these shaders, and returns a picture of 480×300 and the milliseconds of a frame.
+fn run_by(shaders: &Path, more: &[&str]) -> (Picture, f64) {
+    let [out, report] = ["out.exr", "report.json"].map(|name| shaders.join(name));
     let run = command(NAME)
-        .env("SHADERS", shaders.path())
+        .env("SHADERS", shaders)
         .args(["--headless", "--size", "480x300"])
         .args(more)
         .args([OsStr::new("--out"), out.as_os_str(), "--report".as_ref(), report.as_ref()])
@@ -37,12 +42,7 @@ const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
 fn specks_come_where_the_bound_is_not_kept() {
     let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
     let right = shadow("common/above.glsl", BOUND, BOUND);
-    let is_lit = |pixel: &&[f32; 4]| pixel[0] == 1.0 && pixel[2] == 1.0;
-    let lit = right.pixels.iter().filter(is_lit).count();
-    let dark = |picture: &Picture| {
-        let pairs = right.pixels.iter().zip(&picture.pixels);
-        pairs.filter(|(before, after)| is_lit(before) && after[0] == 0.0).count()
-    };
+    let lit = right.pixels.iter().filter(|pixel| is_lit(pixel)).count();
     let mut scaled = Map::new();
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01", "0.0"] {
         let picture = shadow(
@@ -50,16 +50,37 @@ fn specks_come_where_the_bound_is_not_kept() {
             BOUND,
             &BOUND.replace("ROUNDING", &format!("{factor} * ROUNDING")),
         );
-        scaled.insert(factor.to_owned(), dark(&picture).into());
+        scaled.insert(factor.to_owned(), dark(&right, &picture).into());
     }
     println!("{lit} lit; dark by the offset's factor: {scaled:?}");
+    scaled.insert("lit".to_owned(), lit.into());
+    figures::hold("05_shadow_miss/scaled", scaled.into());
+}
+
+fn is_lit(pixel: &[f32; 4]) -> bool {
+    pixel[0] == 1.0 && pixel[2] == 1.0
+}
+
+/// How many lit pixels are dark in another picture.
+fn dark(right: &Picture, picture: &Picture) -> usize {
+    let pairs = right.pixels.iter().zip(&picture.pixels);
+    pairs.filter(|(before, after)| is_lit(before) && after[0] == 0.0).count()
+}
+
+/// What becomes dark where the ray starts at o + t d.
+#[test]
+fn the_hit_s_own_point_is_no_start() {
+    let shaders = copy_of_shaders();
+    let shadow = || run_by(shaders.path(), &["--set", "show=shadow"]).0;
+    let right = shadow();
     let from_t = format!(
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
          hit.height = 0.0;\n"
     );
-    let acne = dark(&shadow("05_shadow_miss/shade.rchit", PLACED, &from_t));
-    println!("{acne} dark where the ray starts at o + t d");
-    figures::hold("05_shadow_miss/scaled", scaled.into());
+    replace_line(shaders.path(), "05_shadow_miss/shade.rchit", PLACED, &from_t);
+    let lit = right.pixels.iter().filter(|pixel| is_lit(pixel)).count();
+    let acne = dark(&right, &shadow());
+    println!("of {lit} lit, {acne} dark where the ray starts at o + t d");
     figures::hold("05_shadow_miss/acne", json!({ "lit": lit, "dark": acne }));
     assert!(acne > lit / 10, "{acne} of {lit}");
 }
