@@ -7,7 +7,7 @@ use super::{NAME, differing, generated};
 use run::{command, figures, render_by, shaders_with};
 
 /// Where `lit_by` begins, and the point that a pipeline without shadows does not compute.
-const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.position, vec2(0.0)));\n";
+const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.position));\n";
 const LIFTED: &str = "#ifdef DEPARTURES\n    hit.position += hit.height * hit.face;\n#endif\n";
 
 #[test]
