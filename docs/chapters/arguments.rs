@@ -135,6 +135,8 @@ pub enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Count the words of each chapter's page, its tables, and the words of its longest section without a break
+    Words,
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
 }
@@ -156,7 +158,7 @@ pub fn parse() -> Result<Arguments> {
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
         let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, nightly, check",
+            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, nightly, words, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })

@@ -42,11 +42,15 @@ pub enum Kind {
     Mistakes,
     /// A chapter's exercises: `exercises NAME`.
     Exercises,
+    /// Which devices gave the page's figures, and when: `stamp`.
+    Stamp,
+    /// Every chapter's price line: `prices`.
+    Prices,
 }
 
 impl Kind {
     /// Each with the word in its marker, what a reader would call it, and the marker's form.
-    const ALL: [(Self, &str, &str, &str); 8] = [
+    const ALL: [(Self, &str, &str, &str); 10] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
         (Self::Controls, "controls", "table of controls", "NN_name -->"),
@@ -55,6 +59,8 @@ impl Kind {
         (Self::Devices, "devices", "table of devices", "-->"),
         (Self::Mistakes, "mistakes", "gallery of mistakes", "-->"),
         (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),
+        (Self::Stamp, "stamp", "stamp", "-->"),
+        (Self::Prices, "prices", "table of prices", "-->"),
     ];
 
     fn named(word: &str) -> Option<Self> {

@@ -57,6 +57,11 @@ impl Chapter {
         format!("docs/{}.md", self.name)
     }
 
+    /// The page of its further tables, which not every chapter has.
+    pub fn measurements(&self) -> String {
+        format!("docs/{MEASUREMENTS}/{}.md", self.name)
+    }
+
     /// Its page's picture.
     pub fn picture(&self) -> String {
         format!("docs/images/{}.png", self.name)
@@ -295,7 +300,10 @@ impl Project {
     /// Every page: the README and what lies in `docs/`, but not the generated summary.
     pub fn pages(&self) -> Vec<String> {
         let mut pages = self.files("docs");
-        pages.retain(|path| path.matches('/').count() == 1 && path.ends_with(".md"));
+        let folders = ["docs", &format!("docs/{MEASUREMENTS}")];
+        let folder =
+            |path: &String| path.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
+        pages.retain(|path| path.ends_with(".md") && folders.contains(&&*folder(path)));
         pages.retain(|path| path != SUMMARY);
         if self.has(README) {
             pages.insert(0, README.to_owned());
@@ -324,6 +332,8 @@ pub const README: &str = "README.md";
 
 /// mdBook's table of contents.
 pub const SUMMARY: &str = "docs/SUMMARY.md";
+/// The folder below `docs` of the pages that hold chapters' further tables.
+pub const MEASUREMENTS: &str = "measurements";
 
 #[derive(Deserialize)]
 struct Manifest {

@@ -48,7 +48,8 @@ pub fn read(project: &Project) -> Result<Vec<Entry>> {
         if line.is_empty() {
             continue;
         }
-        // A link that is no item of a list stands before or after the parts.
+        // A link that is no item of a list stands before or after the parts. An item may stand below another.
+        let line = line.trim_start();
         if !line.starts_with("- ") {
             part = None;
         }

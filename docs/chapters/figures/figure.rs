@@ -37,6 +37,7 @@ use super::device_note;
 use super::number::Number;
 use super::passage::{self, Comment, Passage, line};
 use super::record::{self, Record};
+use super::stamp;
 
 /// A number on a page and what it should be.
 struct Bound {
@@ -83,6 +84,14 @@ pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
             found.faults.push(fault(number.span.start, what, SYNC));
         }
     }
+    if stamp::is_on(page) {
+        // One place says it for the whole page.
+        for Note { span, .. } in &found.notes {
+            let what = format!("the page's stamp says it: {}", &text[span.clone()]);
+            found.faults.push(fault(span.start, what, "remove it"));
+        }
+        return found.faults;
+    }
     for Note { span, names } in &found.notes {
         let note = &text[span.clone()];
         let Some(day) = day(names, stored) else {
@@ -105,11 +114,21 @@ pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
     for Bound { number, name, .. } in &found.bound {
         if found.open.remove(name) {
             let what = format!("no note says which device gave {}, and when", record::file(name));
-            let remedy = format!("write `{}` below", device_note::told(&stored[name]));
+            let remedy = format!(
+                "write `{}` below, or `<!-- stamp -->` and `<!-- /stamp -->` for the page",
+                device_note::told(&stored[name])
+            );
             found.faults.push(fault(number.span.start, what, &remedy));
         }
     }
     found.faults
+}
+
+/// The measurements whose figures a page has.
+pub fn measurements(page: &Page, stored: &Records) -> BTreeSet<String> {
+    let passages = passage::all(&page.written());
+    let names = passages.iter().flat_map(|passage| names(page, passage, stored));
+    names.map(|(name, _)| name).collect()
 }
 
 /// The page with every bound figure, and the day in every note, as they are stored.
@@ -118,7 +137,8 @@ pub fn filled(page: &Page, stored: &Records) -> Page {
     let found = Found::of(page, &text, stored);
     let figure = |bound: &Bound| (bound.number.span.clone(), bound.number.like(bound.value));
     let mut changes: Vec<(Range<usize>, String)> = found.bound.iter().map(figure).collect();
-    changes.extend(found.notes.iter().filter_map(|Note { span, names }| {
+    let notes = if stamp::is_on(page) { Vec::new() } else { found.notes };
+    changes.extend(notes.iter().filter_map(|Note { span, names }| {
         let day = day(names, stored).filter(|_| !names.is_empty())?;
         Some((span.end - device_note::DAY..span.end, day.to_owned()))
     }));

@@ -146,7 +146,7 @@ impl Measurement {
         let target = after("--test").and_then(|rest| rest.first()).map(String::as_str);
         let chapter = chapters()
             .find(|chapter| is_meant(&chapter.name, chapter.module()))
-            .or_else(|| chapters().find(|chapter| chapter.page() == self.page))
+            .or_else(|| chapters().find(|chapter| chapter.name == self.page_name()))
             .or_else(|| {
                 chapters()
                     .find(|chapter| LABORATORY == (&*chapter.name, target.unwrap_or_default()))

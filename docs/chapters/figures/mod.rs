@@ -10,6 +10,7 @@ pub mod measurement;
 pub mod number;
 pub mod passage;
 pub mod record;
+pub mod stamp;
 pub mod values;
 
 use manuscript::fault::Fault;

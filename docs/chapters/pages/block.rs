@@ -8,8 +8,9 @@ use manuscript::project::Project;
 use manuscript::shader;
 use similar::{DiffOp, group_diff_ops};
 
-use super::{gallery, map};
+use super::{gallery, map, price};
 use crate::exercises::exercise;
+use crate::figures::{record, stamp};
 use crate::mistakes::mistake;
 use crate::programs::program::{BUILD, Programs};
 use crate::survey::card;
@@ -57,6 +58,10 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
         }
         (Kind::Gallery, []) => {
             Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
+        }
+        (Kind::Stamp, []) => Ok((stamp::text(programs.project, page), record::FOLDER.to_owned())),
+        (Kind::Prices, []) => {
+            Ok((price::table(programs.project), "the chapters' pages".to_owned()))
         }
         (Kind::Map, ["ways"]) => Ok((map::ways(programs.project), "Cargo.toml".to_owned())),
         (Kind::Map, ["chapters"]) => Ok((map::chapters(programs.project), "Cargo.toml".to_owned())),

@@ -8,13 +8,15 @@ use manuscript::anchor::anchors;
 use manuscript::fault::Fault;
 use manuscript::link::local;
 use manuscript::page::{Kind, Page};
-use manuscript::project::{README, SUMMARY};
+use manuscript::project::{Chapter, README, SUMMARY};
 
 use super::block::body;
 use super::glossary::Glossary;
 use super::markdown::Markdown;
 use super::reference::Files;
-use super::{chapter_files, exercise_list, gallery, shared_shader, stray_file, text};
+use super::{
+    breath, chapter_files, exercise_list, gallery, price, shared_shader, stray_file, text,
+};
 use crate::exercises::exercise;
 use crate::figures::measurement::{self, Measurement};
 use crate::figures::record::Record;
@@ -67,6 +69,8 @@ impl<'a> Book<'a> {
             faults.extend(text::check(self.programs, &files, page, &written));
             faults.extend(self.title(page, &written));
             faults.extend(glossary.check(page));
+            faults.extend(price::check(project, page));
+            faults.extend(breath::check(project, page));
             linked.extend(written.links.iter().filter_map(|link| local(&page.path, &link.target)));
         }
         let (pictures, wrong) = Picture::all(project, &self.pages);
@@ -214,11 +218,18 @@ impl<'a> Book<'a> {
 
     /// A chapter's page is headed by its number and title.
     fn title(&self, page: &Page, written: &Markdown) -> Option<Fault> {
-        let chapter = self.programs.project.of_page(&page.path)?;
+        let project = self.programs.project;
+        let heading = match project.of_page(&page.path) {
+            Some(chapter) => chapter.heading(),
+            None => {
+                let tables = |chapter: &&Chapter| chapter.measurements() == page.path;
+                gallery::measurements(project.chapters.iter().find(tables)?)
+            }
+        };
         let (line, title) = written.title.clone().unwrap_or((1, String::new()));
         let what = "the heading does not name the chapter";
-        let remedy = format!("write `# {}`", chapter.heading());
-        (title != chapter.heading()).then(|| Fault::new(&*page.path, line, what, remedy))
+        let remedy = format!("write `# {heading}`");
+        (title != heading).then(|| Fault::new(&*page.path, line, what, remedy))
     }
 
     fn without_picture(&self, pictures: &[Picture]) -> Vec<Fault> {

@@ -1,6 +1,6 @@
 //! Every chapter at a glance: the README's gallery, and mdBook's table of contents.
 
-use manuscript::project::{Chapter, Project};
+use manuscript::project::{Chapter, MEASUREMENTS, Project};
 
 /// Pictures side by side.
 const COLUMNS: usize = 3;
@@ -15,6 +15,7 @@ const AFTER: &[(&str, &str)] = &[
     ("scene-format.md", "The format of scene files"),
     ("shadow-start.md", "How high a shadow ray starts"),
     ("reordering.md", "Threads that change places"),
+    ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
     ("compilers.md", "What a GPU's compiler says"),
     ("arithmetic.md", "The worst arithmetic that conforms"),
@@ -68,6 +69,21 @@ fn row(chapters: &[&Chapter], cell: impl Fn(&Chapter) -> String) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
+/// A chapter's lines in the table of contents: its page, and below it that of its further tables.
+fn contents_of(project: &Project, chapter: &Chapter) -> String {
+    let Chapter { name, .. } = chapter;
+    let page = format!("- [{}]({name}.md)\n", chapter.heading());
+    match project.has(&chapter.measurements()) {
+        true => format!("{page}  - [{}]({MEASUREMENTS}/{name}.md)\n", measurements(chapter)),
+        false => page,
+    }
+}
+
+/// The heading of the page that holds a chapter's further tables.
+pub fn measurements(chapter: &Chapter) -> String {
+    format!("{} · Measurements", chapter.number())
+}
+
 /// The whole of `docs/SUMMARY.md`.
 pub fn summary(project: &Project) -> String {
     let other = |(file, title): (&str, &str)| match project.has(&format!("docs/{file}")) {
@@ -83,8 +99,7 @@ pub fn summary(project: &Project) -> String {
     }
     let parts = project.parted().into_iter().map(|(heading, chapters)| {
         let heading = if heading.is_empty() { heading } else { format!("# {heading}\n\n") };
-        let lines = chapters.iter().map(|c| format!("- [{}]({}.md)\n", c.heading(), c.name));
-        heading + &lines.collect::<String>()
+        heading + &chapters.iter().map(|chapter| contents_of(project, chapter)).collect::<String>()
     });
     text.push_str(&parts.collect::<Vec<_>>().join("\n"));
     let after = listed(AFTER);

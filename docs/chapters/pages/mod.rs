@@ -4,6 +4,7 @@
 
 pub mod block;
 pub mod book;
+pub mod breath;
 pub mod chapter_files;
 pub mod exercise_list;
 pub mod gallery;
@@ -12,6 +13,7 @@ pub mod map;
 pub mod markdown;
 pub mod mention;
 pub mod placeholder;
+pub mod price;
 pub mod reference;
 pub mod run_command;
 pub mod shared_shader;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use manuscript::fault::Fault;
-use manuscript::project::{Project, SUMMARY};
+use manuscript::project::{MEASUREMENTS, Project, SUMMARY};
 use manuscript::shader;
 
 use super::gallery::is_other_page;
@@ -39,6 +39,9 @@ fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) 
         "md" if folder == "docs" => {
             let page = project.of_page(file).is_some();
             (page || file == SUMMARY || is_other_page(name), "it is no chapter's page")
+        }
+        "md" if folder == format!("docs/{MEASUREMENTS}") => {
+            (project.named(stem).is_some(), "it holds the tables of no chapter")
         }
         "png" | "svg" if folder == "docs/images" => (linked.contains(file), "no page shows it"),
         "png" if folder == "tests/golden" => {
