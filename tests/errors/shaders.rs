@@ -276,3 +276,59 @@ fn constants_that_differ_name_both_sides() {
     let words = "02_basic: Rust has Show::Hit, but no shader says `const uint SHOW_HIT = 3;`";
     shaders_refused(folder.path(), &[words]);
 }
+
+/// The traps of a framework that cuts a picture into bands, and of payloads: each was silent, and black or striped.
+#[test]
+fn a_launch_is_a_band_and_no_picture() {
+    let raygen = "02_basic/camera.rgen";
+    let size = "gl_LaunchSizeEXT is the size of a band of the picture here; imageSize(picture) is";
+    let index =
+        "gl_LaunchIDEXT counts from the first row of a band of the picture here; pixel_id() of";
+    for (file, from, to, words) in [
+        (raygen, "imageSize(picture)", "gl_LaunchSizeEXT.xy", size),
+        (raygen, "uvec2 id = pixel_id();", "uvec2 id = gl_LaunchIDEXT.xy;", index),
+        (raygen, "void main() {\n", "void main() {\n    payload.x = gl_LaunchIDEXT.x;\n", index),
+        (
+            "02_basic/shade.rchit",
+            "payload = vec4(color, 1.0);",
+            "payload = vec4(color, gl_LaunchIDEXT.y);",
+            index,
+        ),
+    ] {
+        let folder = folder(file, |text| text.replacen(from, to, 1));
+        shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
+    }
+}
+
+#[test]
+fn a_payload_is_of_the_type_that_is_passed() {
+    let file = "02_basic/sky.rmiss";
+    let folder = folder(file, |text| {
+        text.replace("rayPayloadInEXT vec4 payload;", "rayPayloadInEXT vec3 payload;")
+            .replace("payload = vec4(sky(gl_WorldRayDirectionEXT), 1.0)", "payload = vec3(1.0)")
+            .replace("payload = vec4(-1.0)", "payload = vec3(-1.0)")
+            .replace("payload = vec4(gl_WorldRayDirectionEXT, -1.0)", "payload = vec3(0.0)")
+    });
+    let words =
+        "no traceRayEXT of the pipeline passes a payload of the type that this shader takes";
+    shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
+}
+
+#[test]
+fn what_is_seldom_meant_is_a_warning() {
+    let hidden = "02_basic/camera.rgen: a ray has the cull mask 0, which every instance's mask hides from it";
+    let opaque =
+        "03_any_hit/decide.rahit is never asked: every ray has the flag gl_RayFlagsOpaqueEXT";
+    for (program, from, to, line) in [
+        ("02_basic", "        0xff,  ", "        0x00,  ", hidden),
+        ("03_any_hit", "        flags,\n", "        gl_RayFlagsOpaqueEXT,\n", opaque),
+    ] {
+        let folder = folder(&format!("{program}/camera.rgen"), |text| text.replace(from, to));
+        let arguments = ["--headless", "--size", "16x10"];
+        let mut command = std::process::Command::new(run::program(program));
+        let ended = command.args(arguments).env("SHADERS", folder.path()).output().unwrap();
+        let said = String::from_utf8(ended.stderr).unwrap();
+        assert!(ended.status.success(), "{said}");
+        assert_eq!(said.trim_end(), format!("warning: {line}"));
+    }
+}

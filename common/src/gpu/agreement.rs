@@ -1,35 +1,45 @@
-//! Whether shaders and Rust agree on structures, enumerations and bindings.
+//! Whether shaders and Rust agree on structures, enumerations and bindings, and shaders with each other on
+//! payloads and on what a launch is.
 
+use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
+use ash::vk;
 
-use super::blueprint::Blueprint;
+use super::blueprint::{Binding, Blueprint};
 use super::enumeration;
 use super::layout::Known;
-use super::reflection::Reflection;
+use super::reflection::{Payloads, Reflection};
 use super::shader::{Shader, cache_folder};
 use crate::files;
 
-/// Holds the shaders of a pipeline against what Rust has declared, and against what the program binds.
+/// Holds the shaders of a pipeline against what Rust has declared, against what the program binds, and against
+/// each other; what is no error and seldom meant.
 ///
 /// What agrees is noted beside the shaders' words, by a hash of all that was compared and of what compares, and
 /// is not looked at again.
 ///
 /// # Errors
 /// On the first that differs, with where it stands and what would be right.
-pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result<()> {
-    let Blueprint { name, bindings, textures, .. } = blueprint;
+pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result<Vec<String>> {
+    let Blueprint { name, bindings, textures, groups, .. } = blueprint;
     let mut hasher = DefaultHasher::new();
-    let ways = [include_str!("reflection.rs"), include_str!("reflection/memory.rs")];
+    let ways = [
+        include_str!("agreement.rs"),
+        include_str!("reflection.rs"),
+        include_str!("reflection/memory.rs"),
+        include_str!("reflection/rays.rs"),
+    ];
     (ways, include_str!("enumeration.rs"), known).hash(&mut hasher);
     (shaders, bindings, textures.is_some()).hash(&mut hasher);
     let note = Path::new(cache_folder()).join(format!("{:016x}.agreed", hasher.finish()));
-    if note.is_file() {
-        return Ok(());
+    if let Ok(warnings) = fs::read_to_string(&note) {
+        return Ok(warnings.lines().map(str::to_owned).collect());
     }
     let mut constants = Vec::new();
+    let mut reflections = Vec::new();
     for Shader { path, spirv, text, .. } in shaders {
         let reflection = Reflection::of(spirv)?;
         reflection.check_memory(path)?;
@@ -37,11 +47,44 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
         reflection.check_addresses(path, &known.structs)?;
         reflection.check_bindings(path, bindings.len(), textures.is_some())?;
         constants.extend(enumeration::constants(path, text));
+        reflections.push((&**path, reflection));
     }
     for layout in &known.enums {
         layout.check(name, &constants)?;
     }
+    if !groups.is_empty() && bindings.contains(&Binding::StorageImage) {
+        reflections.iter().try_for_each(|(path, shader)| shader.check_launch(path))?;
+    }
+    check_payloads(&reflections)?;
+    let warnings = warnings(shaders, &reflections);
     // A note that cannot be written costs time at the next start, nothing else.
-    let _ = files::write_whole(&note, b"");
+    let _ = files::write_whole(&note, warnings.join("\n").as_bytes());
+    Ok(warnings)
+}
+
+/// Holds that each payload that a shader takes is one that a shader of the pipeline passes.
+fn check_payloads(shaders: &[(&str, Reflection)]) -> Result<()> {
+    let payloads = shaders.iter().map(|(path, shader)| (*path, shader.payloads()));
+    let payloads: Vec<_> = payloads.collect();
+    let traced: Vec<&String> = payloads.iter().flat_map(|(_, passed)| &passed.traced).collect();
+    for (path, Payloads { taken, .. }) in &payloads {
+        ensure!(
+            traced.is_empty() || taken.iter().all(|taken| traced.contains(&taken)),
+            "{path}: no traceRayEXT of the pipeline passes a payload of the type that this shader takes by \
+             rayPayloadInEXT; its last argument is the location of the rayPayloadEXT that it passes"
+        );
+    }
     Ok(())
+}
+
+/// What of the shaders is no error and seldom meant.
+fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)]) -> Vec<String> {
+    let mut found: Vec<String> =
+        reflections.iter().flat_map(|(path, shader)| shader.warnings(path)).collect();
+    let any_hit = shaders.iter().find(|shader| shader.stage == vk::ShaderStageFlags::ANY_HIT_KHR);
+    let never_asked = reflections.iter().all(|(_, shader)| shader.traces_opaque_alone());
+    found.extend(any_hit.filter(|_| never_asked).map(|Shader { path, .. }| {
+        format!("{path} is never asked: every ray has the flag gl_RayFlagsOpaqueEXT")
+    }));
+    found
 }

@@ -21,6 +21,7 @@ use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
 use super::validation::Messages;
+use crate::output;
 
 /// How a [`Gpu`] shall be made.
 #[derive(Clone)]
@@ -201,16 +202,30 @@ impl Gpu {
     /// What has been made since this was called last, for who asks as long as the program runs.
     pub fn take_statistics(&self) -> Statistics {
         let mut all = self.statistics.lock().unwrap_or_else(PoisonError::into_inner);
-        let acceleration_structure_bytes = all.acceleration_structure_bytes;
-        std::mem::replace(
-            &mut all,
-            Statistics { acceleration_structure_bytes, ..Statistics::default() },
-        )
+        let Statistics { acceleration_structure_bytes, warnings, .. } = &*all;
+        let (acceleration_structure_bytes, warnings) =
+            (*acceleration_structure_bytes, warnings.clone());
+        let rest = Statistics { acceleration_structure_bytes, warnings, ..Statistics::default() };
+        std::mem::replace(&mut all, rest)
     }
 
     /// Adds to what has been made.
     pub(super) fn count(&self, add: impl FnOnce(&mut Statistics)) {
         add(&mut self.statistics.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// Tells what is seldom meant about what has just been made, in place of what was told of its namesake; a line
+    /// that stands already is not said again.
+    pub fn warn(&self, name: &str, warnings: Vec<String>) {
+        self.count(|statistics| {
+            let known = |line: &String| statistics.warnings.iter().any(|(_, told)| told == line);
+            warnings
+                .iter()
+                .filter(|line| !known(line))
+                .for_each(|line| output::warn(std::slice::from_ref(line)));
+            statistics.warnings.retain(|(of, _)| of != name);
+            statistics.warnings.extend(warnings.into_iter().map(|line| (name.to_owned(), line)));
+        });
     }
 
     /// Bytes of device memory in use, buffers and images together.

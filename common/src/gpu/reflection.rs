@@ -1,6 +1,7 @@
 //! What a compiled shader says of its structures and descriptors, and whether Rust says the same.
 
 mod memory;
+mod rays;
 
 use std::collections::BTreeSet;
 
@@ -9,6 +10,7 @@ use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 
 use super::layout::StructLayout;
+pub use rays::Payloads;
 
 /// A descriptor as a shader declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -17,6 +17,8 @@ pub struct Statistics {
     pub pipeline_time: Duration,
     /// What every pipeline was made from, in the order in which they were made.
     pub blueprints: Vec<Arc<Blueprint>>,
+    /// What is no error and seldom meant, each with the name of the pipeline or the structure that it is of.
+    pub warnings: Vec<(String, String)>,
     /// What the driver's compiler says of the last pipeline, where it was wished for and does.
     pub executables: Vec<Executable>,
 }

@@ -139,6 +139,11 @@ pub fn build_top(
     gpu: &Gpu,
     instances: &[vk::AccelerationStructureInstanceKHR],
 ) -> Result<AccelerationStructure> {
+    let hidden =
+        instances.iter().filter(|i| i.instance_custom_index_and_mask.high_8() == 0).count();
+    let line =
+        format!("{hidden} of {} instances have the mask 0: no ray sees them", instances.len());
+    gpu.warn("top level", if hidden > 0 { vec![line] } else { Vec::new() });
     let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
     let buffer = Buffer::with_data(gpu, "instances", &bytes, input_usage())?;
     let count = instances.len() as u32;

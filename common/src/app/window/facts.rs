@@ -21,6 +21,8 @@ pub struct Facts {
     pub full: [u32; 2],
     /// How many pictures have been accumulated, if the sample does that.
     pub accumulated: Option<u32>,
+    /// What is no error and seldom meant about what is shown.
+    pub warnings: Vec<String>,
     /// What the driver says of the programs of the pipeline made last, if it does.
     pub programs: Vec<Executable>,
 }

@@ -186,6 +186,10 @@ impl Panel {
                 ui.end_row();
             }
         });
+        for warning in &facts.warnings {
+            let text = RichText::new(warning).small().color(style::ERROR);
+            ui.add(egui::Label::new(text).wrap().selectable(true));
+        }
         ui.add_space(2.0);
         self.history.show(ui);
         compiler::show(ui, &facts.programs);

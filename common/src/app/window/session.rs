@@ -246,6 +246,7 @@ impl Session {
         if !statistics.blueprints.is_empty() {
             self.facts.programs = statistics.executables;
         }
+        self.facts.warnings = statistics.warnings.into_iter().map(|(_, line)| line).collect();
         if let Some(refused) = self.view.refused() {
             self.panel.error = Some(refused);
         }

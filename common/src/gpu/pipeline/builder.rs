@@ -272,7 +272,8 @@ impl<'a> PipelineBuilder<'a> {
              is to be said in requirements(), so that devices are chosen by it",
             blueprint.name
         );
-        agreement::check(&blueprint, &shaders, &known)?;
+        let warnings = agreement::check(&blueprint, &shaders, &known)?;
+        gpu.warn(&blueprint.name, warnings);
         for (stage, shader) in blueprint.stages.iter_mut().zip(shaders) {
             (stage.stage, stage.words) = (shader.stage.as_raw(), shader.spirv);
         }

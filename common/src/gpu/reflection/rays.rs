@@ -1,0 +1,158 @@
+//! What a shader says of rays, where it goes wrong in silence: the launch that it counts in, the payloads that it
+//! passes and takes, and traces that can find nothing.
+
+use anyhow::{Result, ensure};
+use rspirv::dr::{Function, Instruction, Operand};
+use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
+
+use super::Reflection;
+
+/// `gl_RayFlagsOpaqueEXT`: no any-hit shader is asked.
+const OPAQUE: u32 = 1;
+
+/// What a shader traces or takes as payloads, each by its shape.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Payloads {
+    /// Those that its traces pass.
+    pub traced: Vec<String>,
+    /// Those that it takes from who called it.
+    pub taken: Vec<String>,
+}
+
+impl Reflection {
+    /// Holds that a shader of a picture counts in pixels. A picture is traced in bands of rows, so a launch is
+    /// a band: its index counts from the band's first row, which a raygen shader's record holds.
+    ///
+    /// # Errors
+    /// If it reads the size of the launch, or its index in a function that does not add the band's first pixel.
+    pub fn check_launch(&self, path: &str) -> Result<()> {
+        let size = self.built_in(BuiltIn::LaunchSizeKHR);
+        let index = self.built_in(BuiltIn::LaunchIdKHR);
+        let record = self.variables(StorageClass::ShaderRecordBufferKHR);
+        for function in &self.module.functions {
+            let reads = |ids: &[u32]| instructions(function).any(|i| names(i, ids));
+            ensure!(
+                !reads(&size),
+                "{path}: gl_LaunchSizeEXT is the size of a band of the picture here; imageSize(picture) is the \
+                 picture's"
+            );
+            ensure!(
+                !reads(&index) || reads(&record),
+                "{path}: gl_LaunchIDEXT counts from the first row of a band of the picture here; pixel_id() of \
+                 common/band.glsl, called by the raygen shader, is the pixel"
+            );
+        }
+        Ok(())
+    }
+
+    /// The payloads that the shader passes and takes.
+    pub fn payloads(&self) -> Payloads {
+        let shape = |variable: u32| self.shape(self.pointee(variable)?);
+        let traces = self.traces();
+        let traced = traces.filter_map(|trace| match trace.operands.last() {
+            Some(Operand::IdRef(payload)) => shape(*payload),
+            _ => None,
+        });
+        let taken = self.variables(StorageClass::IncomingRayPayloadKHR);
+        let used = |id: &u32| {
+            self.module.functions.iter().flat_map(instructions).any(|i| names(i, &[*id]))
+        };
+        let taken = taken.into_iter().filter(used).filter_map(shape);
+        Payloads { traced: traced.collect(), taken: taken.collect() }
+    }
+
+    /// What is no error and yet seldom meant: a ray that no instance's mask lets through.
+    pub fn warnings(&self, path: &str) -> Vec<String> {
+        let blind = self.traces().filter(|trace| self.constant(trace.operands.get(2)) == Some(0));
+        let line = |_| {
+            format!("{path}: a ray has the cull mask 0, which every instance's mask hides from it")
+        };
+        blind.map(line).take(1).collect()
+    }
+
+    /// Whether no ray of the shader asks an any-hit shader: each one's flags say so, whatever else they are.
+    pub fn traces_opaque_alone(&self) -> bool {
+        self.traces().all(|trace| {
+            self.constant(trace.operands.get(1)).is_some_and(|flags| flags & OPAQUE != 0)
+        })
+    }
+
+    fn traces(&self) -> impl Iterator<Item = &Instruction> {
+        let all = self.module.functions.iter().flat_map(instructions);
+        all.filter(|i| i.class.opcode == Op::TraceRayKHR)
+    }
+
+    /// The variables that are this built-in.
+    fn built_in(&self, wanted: BuiltIn) -> Vec<u32> {
+        let annotations = self.module.annotations.iter();
+        let found = annotations.filter_map(|i| match i.operands.as_slice() {
+            [
+                Operand::IdRef(of),
+                Operand::Decoration(Decoration::BuiltIn),
+                Operand::BuiltIn(built_in),
+            ] if *built_in == wanted => Some(*of),
+            _ => None,
+        });
+        found.collect()
+    }
+
+    /// The variables of a storage class.
+    fn variables(&self, wanted: StorageClass) -> Vec<u32> {
+        let globals = self.module.types_global_values.iter();
+        let variables = globals.filter(|i| {
+            i.class.opcode == Op::Variable
+                && i.operands.first() == Some(&Operand::StorageClass(wanted))
+        });
+        variables.filter_map(|i| i.result_id).collect()
+    }
+
+    fn global(&self, id: u32) -> Option<&Instruction> {
+        self.module.types_global_values.iter().find(|i| i.result_id == Some(id))
+    }
+
+    /// The type of what a variable holds.
+    fn pointee(&self, variable: u32) -> Option<u32> {
+        match self.global(self.global(variable)?.result_type?)?.operands.as_slice() {
+            [_, Operand::IdRef(pointee)] => Some(*pointee),
+            _ => None,
+        }
+    }
+
+    /// A type in words that are the same in every module, whatever its name and its members' are.
+    fn shape(&self, id: u32) -> Option<String> {
+        let global = self.global(id)?;
+        let part = |operand: &Operand| match operand {
+            Operand::IdRef(id) => self.shape(*id),
+            Operand::LiteralBit32(number) => Some(number.to_string()),
+            _ => Some(String::new()),
+        };
+        match global.class.opcode {
+            // What lies behind an address may lead back here.
+            Op::TypePointer | Op::TypeForwardPointer => Some("address".to_owned()),
+            Op::Constant => global.operands.first().and_then(part),
+            opcode => {
+                let parts: Option<Vec<String>> = global.operands.iter().map(part).collect();
+                Some(format!("{opcode:?}({})", parts?.join(" ")))
+            }
+        }
+    }
+
+    /// The number of an operand that is a constant.
+    fn constant(&self, operand: Option<&Operand>) -> Option<u32> {
+        let Some(Operand::IdRef(id)) = operand else { return None };
+        let global = self.global(*id)?;
+        match (global.class.opcode, global.operands.as_slice()) {
+            (Op::Constant, [Operand::LiteralBit32(number)]) => Some(*number),
+            _ => None,
+        }
+    }
+}
+
+fn instructions(function: &Function) -> impl Iterator<Item = &Instruction> {
+    function.blocks.iter().flat_map(|block| &block.instructions)
+}
+
+/// Whether an instruction names one of these.
+fn names(i: &Instruction, ids: &[u32]) -> bool {
+    i.operands.iter().any(|operand| matches!(operand, Operand::IdRef(id) if ids.contains(id)))
+}
