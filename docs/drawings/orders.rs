@@ -39,7 +39,7 @@ fn hilbert([mut x, mut y]: [u32; 2]) -> u32 {
             }
             (x, y) = (y, x);
         }
-        way << 2 | (3 * right ^ up)
+        (way << 2) | ((3 * right) ^ up)
     })
 }
 
