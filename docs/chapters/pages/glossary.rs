@@ -93,7 +93,7 @@ impl Glossary {
     pub fn linked(&self, page: &Page) -> Page {
         let text = page.written();
         let linked = |Use { term, span }: Use| {
-            let link = format!("[{}](glossary.md#{})", &text[span.clone()], slug(&term.name));
+            let link = format!("[{}]{}", &text[span.clone()], link_to(page, term));
             (span, link)
         };
         page.edited(self.unlinked(page, &text).into_iter().map(linked).collect())
@@ -125,7 +125,7 @@ impl Glossary {
             let Some(used) = own.find(|one| !all.iter().any(|other| within(one, other))) else {
                 continue;
             };
-            let link = text.find(&format!("](glossary.md#{})", slug(&term.name)));
+            let link = text.find(&format!("]{}", link_to(page, term)));
             if link.is_none_or(|link| link > used.span.start) {
                 first.push(Use { term, span: used.span.clone() });
             }
@@ -133,6 +133,12 @@ impl Glossary {
         first.sort_by_key(|used| used.span.start);
         first
     }
+}
+
+/// What follows the words of a link from a page to a term's meaning.
+fn link_to(page: &Page, term: &Term) -> String {
+    let up = "../".repeat(page.path.matches('/').count().saturating_sub(1));
+    format!("({up}glossary.md#{})", slug(&term.name))
 }
 
 /// Where a text is written in sentences, in bytes.
@@ -192,6 +198,8 @@ mod tests {
         assert_eq!(linked("docs/01_one.md", text), link);
         assert_eq!(linked("README.md", text), text);
         assert!(linked("docs/02_two.md", text).starts_with("A [group](glossary.md#group)"));
+        let below = linked("docs/measurements/02_two.md", text);
+        assert!(below.starts_with("A [group](../glossary.md#group)"), "{below}");
     }
 
     #[test]
