@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use manuscript::fault::Fault;
-use manuscript::project::{Project, README, SUMMARY};
+use manuscript::project::{MEASUREMENTS, Project, README, SUMMARY};
 
 /// A page of the site.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,6 +21,11 @@ impl Entry {
     fn new(title: &str, file: &str, name: &str, part: Option<&str>) -> Self {
         let part = part.map(str::to_owned);
         Self { title: title.to_owned(), file: file.to_owned(), name: name.to_owned(), part }
+    }
+
+    /// Whether it holds a chapter's further tables: who reads on leaves it out.
+    pub fn is_apart(&self) -> bool {
+        self.file.starts_with(&format!("docs/{MEASUREMENTS}/"))
     }
 
     /// Its address, from the site's root.
@@ -66,7 +71,8 @@ pub fn read(project: &Project) -> Result<Vec<Entry>> {
             let what = format!("'{file}' does not exist");
             return Err(Fault::new(SUMMARY, index + 1, what, "run: cargo chapters sync").error());
         }
-        entries.push(Entry::new(title, &file, name, part.as_deref()));
+        // All pages of the site lie in one folder.
+        entries.push(Entry::new(title, &file, &name.replace('/', "-"), part.as_deref()));
     }
     for (title, file, name) in [
         ("Contributing", "CONTRIBUTING.md", "contributing"),

@@ -175,7 +175,7 @@ fn summary(project: &Project, entries: &[Entry], codes: &BTreeMap<String, String
 
 /// The links behind a page: to its code, to the page before and the page after.
 fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> String {
-    let at = entries.iter().position(|other| other == entry).unwrap_or(0);
+    let [before, after] = neighbours(entries, entry);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
     if code {
         let title = match project.of_page(&entry.file).is_some() {
@@ -185,17 +185,24 @@ fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> St
         let name = link::code_name(entry);
         let _ = writeln!(html, "<a class=\"whole\" href=\"{name}.html\">{title}</a>");
     }
-    html.push_str(&step("previous", at.checked_sub(1).map(|at| &entries[at]), entry));
-    html.push_str(&step("next", entries.get(at + 1), entry));
+    html.push_str(&step("previous", before, entry));
+    html.push_str(&step("next", after, entry));
     html + "</nav>\n"
+}
+
+/// The pages that one reads before and after a page.
+fn neighbours<'a>(entries: &'a [Entry], entry: &Entry) -> [Option<&'a Entry>; 2] {
+    let at = entries.iter().position(|other| other == entry).unwrap_or(0);
+    let is_read = |other: &&Entry| !other.is_apart();
+    [entries[..at].iter().rfind(is_read), entries[at + 1..].iter().find(is_read)]
 }
 
 /// The links behind a page of code: back to its page, and to the next page.
 fn behind(entries: &[Entry], entry: &Entry) -> String {
-    let at = entries.iter().position(|other| other == entry).unwrap_or(0);
+    let [_, after] = neighbours(entries, entry);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
     html.push_str(&step("previous", Some(entry), entry));
-    html.push_str(&step("next", entries.get(at + 1), entry));
+    html.push_str(&step("next", after, entry));
     html + "</nav>\n"
 }
 
