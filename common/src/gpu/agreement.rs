@@ -1,7 +1,6 @@
 //! Whether shaders and Rust agree on structures, enumerations and bindings.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::Path;
 
 use anyhow::Result;
 
@@ -9,8 +8,8 @@ use super::blueprint::Blueprint;
 use super::enumeration;
 use super::layout::Known;
 use super::reflection::Reflection;
-use super::shader::{Shader, cache_folder};
-use crate::files;
+use super::shader::Shader;
+use crate::files::{self, cache};
 
 /// Holds the shaders of a pipeline against what Rust has declared, and against what the program binds.
 ///
@@ -25,8 +24,9 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
     let ways = [include_str!("reflection.rs"), include_str!("reflection/memory.rs")];
     (ways, include_str!("enumeration.rs"), known).hash(&mut hasher);
     (shaders, bindings, textures.is_some()).hash(&mut hasher);
-    let note = Path::new(cache_folder()).join(format!("{:016x}.agreed", hasher.finish()));
-    if note.is_file() {
+    let file = format!("{:016x}.agreed", hasher.finish());
+    let note = cache::folder("spirv").map(|folder| folder.join(file));
+    if note.as_ref().is_some_and(|note| note.is_file()) {
         return Ok(());
     }
     let mut constants = Vec::new();
@@ -42,6 +42,6 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
         layout.check(name, &constants)?;
     }
     // A note that cannot be written costs time at the next start, nothing else.
-    let _ = files::write_whole(&note, b"");
+    let _ = note.map(|note| files::write_whole(&note, b""));
     Ok(())
 }
