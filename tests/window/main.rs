@@ -9,6 +9,7 @@ mod failures;
 mod long;
 mod lost;
 mod signals;
+mod started;
 
 use std::path::Path;
 use std::process::Output;

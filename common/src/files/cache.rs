@@ -15,12 +15,15 @@ pub fn folder(kind: &str) -> Option<PathBuf> {
     ALL.as_ref().map(|all| all.join(kind))
 }
 
-/// The place of all caches. Cargo's checkout of the book has no `target/`, and gets none.
-fn place(home: Option<&Path>, target: &Path, users: Option<PathBuf>) -> Option<PathBuf> {
-    match home {
-        None if target.is_dir() => Some(target.to_owned()),
-        _ => users,
-    }
+/// The place of all caches for a program of the crate in the folder `home`. Cargo's checkout of the book has no
+/// `target/`, and gets none.
+fn place(home: Option<&Path>, book: &Path, users: Option<PathBuf>) -> Option<PathBuf> {
+    let is_of_the_book = home.is_none_or(|home| {
+        let paths = [home, book].map(Path::canonicalize);
+        matches!(paths, [Ok(home), Ok(book)] if home.starts_with(&book))
+    });
+    let target = book.join("target");
+    if is_of_the_book && target.is_dir() { Some(target) } else { users }
 }
 
 /// The user's folder of caches, as the system has it (XDG Base Directory Specification; Known Folders; File
@@ -41,15 +44,16 @@ mod tests {
 
     #[test]
     fn a_program_of_another_crate_leaves_nothing_in_the_book() {
-        let book = tempfile::tempdir().unwrap();
-        let (target, users) =
-            (book.path().join("target"), PathBuf::from("/home/ada/.cache/raybook"));
-        let place = |home: Option<&str>| place(home.map(Path::new), &target, Some(users.clone()));
+        let [book, other] = [0, 1].map(|_| tempfile::tempdir().unwrap());
+        let users = PathBuf::from("/home/ada/.cache/raybook");
+        let place = |home: Option<&Path>| place(home, book.path(), Some(users.clone()));
         // As Cargo checks it out.
-        assert_eq!(place(None), Some(users.clone()));
+        assert_eq!(place(None).as_ref(), Some(&users));
+        let target = book.path().join("target");
         std::fs::create_dir(&target).unwrap();
-        assert_eq!(place(None), Some(target.clone()));
-        assert_eq!(place(Some("/home/ada/my_tracer")), Some(users.clone()));
+        assert_eq!(place(None).as_ref(), Some(&target));
+        assert_eq!(place(Some(&target)).as_ref(), Some(&target));
+        assert_eq!(place(Some(other.path())).as_ref(), Some(&users));
     }
 
     #[cfg(unix)]
