@@ -6,6 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use common::app::Picture;
+
 use crate::fixture::{Outcome, run};
 
 fn start(arguments: &[&str], folder: &Path) -> Outcome {
@@ -75,6 +77,29 @@ fn the_framework_may_come_from_a_git_repository() {
     let dependency = &manifest["dependencies"]["raybook"];
     assert_eq!(dependency["git"].as_str(), Some("https://example.org/a\"b"));
     assert!(dependency.get("path").is_none());
+}
+
+#[test]
+fn the_bowl_of_the_page_is_the_lower_half_of_the_ball() {
+    let shaders = tempfile::tempdir().expect("a temporary folder");
+    let start = ::run::root().join("docs/chapters/start");
+    ::run::copy(&start.join("template/shaders"), shaders.path());
+    let out = shaders.path().join("out.exr");
+    // Whether the pixel is red, in the upper and in the lower half of the ball.
+    let red = || {
+        let outcome = run(::run::command("my_tracer")
+            .env("SHADERS", shaders.path())
+            .args(["--headless", "--validate", "--size", "60x60", "--set", "field of view=30"])
+            .args(["--set", "camera eye=0,1,6", "--set", "camera target=0,1,0", "--out"])
+            .arg(&out));
+        assert_eq!((outcome.code, &*outcome.err), (0, ""));
+        let picture = Picture::open_exr(&out).expect("a picture");
+        [20, 40].map(|y| picture.pixels[y * 60 + 30]).map(|[red, green, ..]| red > 2.0 * green)
+    };
+    assert_eq!(red(), [true, true]);
+    fs::copy(start.join("bowl.rint"), shaders.path().join("my_tracer/sphere.rint"))
+        .expect("a copy");
+    assert_eq!(red(), [false, true]);
 }
 
 #[test]

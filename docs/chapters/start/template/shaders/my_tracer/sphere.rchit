@@ -10,6 +10,7 @@ hitAttributeEXT vec3 outward;
 
 void main() {
     hit.color = vec3(0.8, 0.2, 0.1);
-    hit.normal = outward;
+    // Turned to the eye, which may be inside.
+    hit.normal = faceforward(outward, gl_WorldRayDirectionEXT, outward);
     hit.t = gl_HitTEXT;
 }
