@@ -151,7 +151,7 @@ fn make_a_pipeline_for_radv() {
     let options = GpuOptions { requirements, ..GpuOptions::default() };
     let gpu = Gpu::open(vulkan, chosen, options).unwrap();
     let folder = std::env::var("KEPT_IN").unwrap();
-    let mut cache = PipelineCache::open(&folder, &gpu.device, &gpu.properties);
+    let mut cache = PipelineCache::open(Some(Path::new(&folder)), &gpu.device, &gpu.properties);
     let stages = ["camera.rgen", "sky.rmiss", "shade.rchit"].map(|file| {
         let shader = shader::compile(&format!("26_leaving_a_surface/{file}")).unwrap();
         Stage { path: shader.path, stage: shader.stage.as_raw(), words: shader.spirv }
