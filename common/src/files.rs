@@ -1,5 +1,6 @@
 //! Files that are written whole or not at all.
 
+pub mod cache;
 pub mod folder;
 mod several;
 

@@ -1,17 +1,19 @@
-//! The framework that the samples share. What lives where:
+//! The framework of the book *Ray Tracing in Vulkan*. The book's own programs call it `common`; a program of
+//! one's own begins with [`prelude`], and `cargo chapters start` makes one. What lives where:
 //!
 //! - [`app`]: a program: arguments, controls, window, headless run, picture
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
 //! - [`scene`]: camera, light, mesh, material, OBJ files, chess, upload
 //! - [`files`], [`output`], [`usage`]: files written whole; what a program says; the error that means "wrong
 //!   arguments"
+//! - [`home`]: the crate that a program belongs to
 //!
 //! Arrows point one way: samples → instruments → app → gpu; `scene` uses `gpu` only to upload. The crate
 //! `instruments` watches runs, and nothing here knows it: it meets a run in [`app::Watch`], and a device in
 //! [`gpu::Emulation`]. The crate `reference`, what the GPU is held to, knows none of them.
 //! A helper enters only once a chapter has shown it raw.
 
-// The macro `shader_struct!` names this crate by its outside name, here as in the samples.
+// The code here says `common`, as the samples do.
 extern crate self as common;
 // The tests below run on the software driver.
 #[cfg(test)]
@@ -20,9 +22,12 @@ use device as _;
 pub mod app;
 pub mod files;
 pub mod gpu;
+pub mod home;
 pub mod output;
+pub mod prelude;
 pub mod scene;
 pub mod usage;
 
 pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
-pub use bytemuck;
+// The crates whose types are in the signatures of this one: a program needs no versions of its own.
+pub use {anyhow, ash, bytemuck, glam};

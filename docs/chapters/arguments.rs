@@ -65,6 +65,14 @@ pub enum Command {
         #[arg(long)]
         from: String,
     },
+    /// Make a crate of your own outside the book, such as `start ../my_tracer`: a sphere, a ground, a test
+    Start {
+        /// An empty or new folder, with the crate's name
+        folder: PathBuf,
+        /// Take the framework from this Git repository instead of from this checkout
+        #[arg(long, value_name = "URL")]
+        git: Option<String>,
+    },
     /// Fill in what pages show of the code: snippets, diffs, tables, gallery, contents
     Sync {
         /// Also render the pictures of these names, or all that are out of date
@@ -158,7 +166,7 @@ pub fn parse() -> Result<Arguments> {
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
         let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, sync, measure, merge, survey, mistake, exercise, book, nightly, words, check",
+            "no command; there is list, diff, new, start, sync, measure, merge, survey, mistake, exercise, book, nightly, words, check",
         );
         Usage(format!("{line}; --help lists the commands")).into()
     })

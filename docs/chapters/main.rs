@@ -3,6 +3,7 @@
 //! - `list`: the chapters, what each teaches and builds on
 //! - `diff A B`: what one chapter changes in another: code, shaders and page
 //! - `new 13 NAME --from 05`: makes a chapter that compiles, runs and is tested
+//! - `start ../my_tracer`: makes a crate of a reader's own, outside the workspace
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
@@ -35,6 +36,7 @@ mod patches;
 mod pictures;
 mod programs;
 mod sources;
+mod start;
 mod survey;
 
 use std::path::Path;
@@ -55,6 +57,7 @@ use pages::book::Book;
 use pages::breath;
 use programs::child;
 use programs::program::Programs;
+use start::Start;
 use survey::command::Survey;
 
 fn main() -> ExitCode {
@@ -94,6 +97,11 @@ fn run(arguments: &Arguments) -> Result<()> {
             let files = new.write()?;
             let list: String = files.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", new.next()))
+        }
+        Command::Start { folder, git } => {
+            let start = Start::plan(&project, folder, git.as_deref())?;
+            let list: String = start.write()?.iter().map(|file| format!("{file}\n")).collect();
+            print(&format!("{list}\nNext:\n{}", start.next()))
         }
         Command::Survey { device, out, limit, list } => {
             let programs = Programs::beside_this(&project)?;

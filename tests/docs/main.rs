@@ -11,6 +11,7 @@ mod named;
 mod new;
 mod nightly;
 mod stale;
+mod start;
 mod survey;
 
 use std::fs;

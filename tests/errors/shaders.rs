@@ -63,7 +63,7 @@ fn includes_that_are_wrong() {
     let file = "02_basic/push.glsl";
     let place = format!("{file}:{}: #include ", line_count(file) + 1);
     for (name, words) in [
-        ("gone.glsl", "cannot read the shader '"),
+        ("gone.glsl", "there is no shader 'gone.glsl' in '"),
         ("../common/scene.glsl/../../../secret.glsl", "is not below"),
         ("/etc/passwd", "is not below"),
         ("", "it is not a file"),
@@ -198,9 +198,8 @@ fn a_descriptor_that_nothing_is_bound_to_is_refused() {
 fn shaders_that_are_missing() {
     let folder = folder("02_basic/sky.rmiss", appended(""));
     fs::remove_file(folder.path().join("02_basic/sky.rmiss")).unwrap();
-    shaders_refused(folder.path(), &["cannot read the shader '", "sky.rmiss'"]);
-    let words =
-        ["cannot read the shader 'no such folder/", "SHADERS names; a copy of the project's"];
+    shaders_refused(folder.path(), &["there is no shader '02_basic/sky.rmiss' in '"]);
+    let words = ["in 'no such folder'; SHADERS names it; a copy of the book's shaders is right"];
     shaders_refused(Path::new("no such folder"), &words);
 }
 

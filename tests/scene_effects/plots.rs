@@ -146,7 +146,8 @@ fn fitting(ticks: &[f64], values: &[f64]) -> Vec<f64> {
 #[test]
 #[ignore = "by hand: draws docs/images/25_times.svg from the page's table"]
 fn times() {
-    let page = std::fs::read_to_string(run::root().join("docs/measurements/25_scene_effects.md")).unwrap();
+    let page =
+        std::fs::read_to_string(run::root().join("docs/measurements/25_scene_effects.md")).unwrap();
     let (names, [stages, compiles, milliseconds, ratios]) = columns(&page);
     assert_eq!(names, SCENES.map(|scene| scene.0));
     let points = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();

@@ -47,20 +47,32 @@ pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
 impl Desk {
     /// Opens a sample with arguments and environment, and waits until its window shows a picture.
     pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
-        let desk = Self::begin(name, arguments, environment);
+        Self::begin(name, arguments, environment).with_a_picture()
+    }
+
+    /// Waits until its window shows a picture.
+    pub fn with_a_picture(self) -> Self {
         wait("a picture", || {
-            let shown = desk.shown();
+            let shown = self.shown();
             let (width, height) = shown.dimensions();
             (shown.get_pixel(width - 1, 0) != shown.get_pixel(width - 1, height - 1)).then_some(())
         });
-        desk
+        self
     }
 
     /// The same, and waits until there is a window.
     pub fn begin(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
+        Self::begin_by(run::heeding(name), arguments, environment)
+    }
+
+    /// The same, of a program that may lie anywhere.
+    pub fn begin_by(
+        mut command: Command,
+        arguments: &[&str],
+        environment: &[(&str, &Path)],
+    ) -> Self {
         let (server, display) = server(&[]);
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut command: Command = run::heeding(name);
         command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         command.envs(environment.iter().copied()).stderr(Stdio::piped());

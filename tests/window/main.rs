@@ -9,6 +9,7 @@ mod failures;
 mod long;
 mod lost;
 mod signals;
+mod started;
 
 use std::path::Path;
 use std::process::Output;
@@ -178,7 +179,7 @@ fn frames_are_counted_and_controls_can_be_set() {
 #[ignore = "nightly only: a time on the clock, for a machine with nothing else to do"]
 fn dragging_a_slider_never_freezes_the_panel() {
     let _alone = alone();
-    let log = [("RUST_LOG", Path::new("common=info")), ("NO_COLOR", Path::new("1"))];
+    let log = [("RUST_LOG", Path::new("raybook=info")), ("NO_COLOR", Path::new("1"))];
     let desk = Desk::open("02_basic", &["--size", "1280x720"], &log);
     for _ in 0..2 {
         desk.drag(SLIDER[0], SLIDER[1], 100);

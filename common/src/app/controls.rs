@@ -54,6 +54,16 @@ fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool
 
 /// What [`Sample::controls`](super::Sample::controls) declares its controls on.
 ///
+/// ```
+/// use raybook::prelude::*;
+///
+/// /// In the panel, and for `--set "radius=0.5"`.
+/// fn controls(c: &mut Controls, radius: &mut f32, camera: &mut Camera) {
+///     c.slider("radius", radius, 0.1..=1.0);
+///     c.camera(camera);
+/// }
+/// ```
+///
 /// Each method returns whether the value has just been changed.
 pub struct Controls<'a> {
     visitor: &'a mut dyn Visit,

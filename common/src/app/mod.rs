@@ -26,7 +26,7 @@ pub use frame::Frame;
 pub use lighting::Lighting;
 pub use picture::{Format, Picture};
 pub use playback::Playback;
-pub use program::Program;
+pub use program::{Program, run};
 pub use progress::Progress;
 pub use run::{Run, check_validation};
 pub use sample::Sample;

@@ -1,10 +1,37 @@
 //! A sample as a program: its name, and how it begins and ends.
 
+use std::process::ExitCode;
+
 use anyhow::Result;
 
 use super::{Args, Sample, Setup, Watch, headless, window};
 use crate::gpu::{self, Gpu, Requirements};
-use crate::output;
+use crate::usage::Usage;
+use crate::{home, output};
+
+/// Runs a sample of the crate in the folder `home` as a program: reads the arguments, renders, and turns errors
+/// into one line. [`run!`](crate::run) calls it.
+///
+/// Exit codes: 0 done, 1 failed, 2 wrong arguments.
+pub fn run<S: Sample>(name: &'static str, home: &str) -> ExitCode {
+    home::set(home);
+    let run = || {
+        let (args, ()) = Args::parse_with(name)?;
+        Program::of::<S>(name).start(&args, &mut ())
+    };
+    let Err(error) = run() else { return ExitCode::SUCCESS };
+    output::complain(&output::line_of(&error));
+    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}
+
+/// Runs a [`Sample`](crate::Sample) as the program of a crate outside the book: `raybook::run!(Demo)` is all of
+/// `main`. Its shaders lie beside its manifest in `shaders/`, in a folder with the program's name.
+#[macro_export]
+macro_rules! run {
+    ($sample:ty) => {
+        $crate::app::run::<$sample>(env!("CARGO_BIN_NAME"), env!("CARGO_MANIFEST_DIR"))
+    };
+}
 
 /// A sample that is still to be made.
 pub struct Program {

@@ -3,7 +3,6 @@
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::Path;
 
 use anyhow::{Result, ensure};
 use ash::vk;
@@ -12,8 +11,8 @@ use super::blueprint::{Binding, Blueprint};
 use super::enumeration;
 use super::layout::Known;
 use super::reflection::{Payloads, Reflection};
-use super::shader::{Shader, cache_folder};
-use crate::files;
+use super::shader::Shader;
+use crate::files::{self, cache};
 
 /// Holds the shaders of a pipeline against what Rust has declared, against what the program binds, and against
 /// each other; what is no error and seldom meant.
@@ -34,8 +33,9 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
     ];
     (ways, include_str!("enumeration.rs"), known).hash(&mut hasher);
     (shaders, bindings, textures.is_some()).hash(&mut hasher);
-    let note = Path::new(cache_folder()).join(format!("{:016x}.agreed", hasher.finish()));
-    if let Ok(warnings) = fs::read_to_string(&note) {
+    let file = format!("{:016x}.agreed", hasher.finish());
+    let note = cache::folder("spirv").map(|folder| folder.join(file));
+    if let Some(warnings) = note.as_ref().and_then(|note| fs::read_to_string(note).ok()) {
         return Ok(warnings.lines().map(str::to_owned).collect());
     }
     let mut constants = Vec::new();
@@ -58,7 +58,7 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
     check_payloads(&reflections)?;
     let warnings = warnings(shaders, &reflections);
     // A note that cannot be written costs time at the next start, nothing else.
-    let _ = files::write_whole(&note, warnings.join("\n").as_bytes());
+    let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
     Ok(warnings)
 }
 

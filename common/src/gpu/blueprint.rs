@@ -13,7 +13,18 @@ use super::Gpu;
 /// The stages that a push constant or descriptor is visible in.
 pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL;
 
-/// What a binding of set 0 holds.
+/// What a binding of set 0 holds. Those of a pipeline are numbered in the order of its
+/// [`binding`](super::PipelineBuilder::binding) lines; each frame pushes a [`Descriptor`](super::Descriptor) for
+/// each.
+///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// /// For `.binding(Binding::AccelerationStructure).binding(Binding::StorageImage)`.
+/// fn descriptors<'a>(tlas: &'a AccelerationStructure, frame: &'a Frame) -> [Descriptor<'a>; 2] {
+///     [Descriptor::AccelerationStructure(tlas), Descriptor::StorageImage(frame.image)]
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Binding {
     /// A top level acceleration structure.

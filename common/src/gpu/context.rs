@@ -21,6 +21,7 @@ use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
 use super::validation::Messages;
+use crate::files::cache;
 use crate::output;
 
 /// How a [`Gpu`] shall be made.
@@ -164,7 +165,11 @@ impl Gpu {
             push_descriptor: khr::push_descriptor::Device::new(instance, &device),
             executable_properties: tells_executables
                 .then(|| khr::pipeline_executable_properties::Device::new(instance, &device)),
-            pipeline_cache: PipelineCache::open(PipelineCache::FOLDER, &device, &chosen.properties),
+            pipeline_cache: PipelineCache::open(
+                cache::folder("pipelines").as_deref(),
+                &device,
+                &chosen.properties,
+            ),
             names: ext::debug_utils::Device::new(instance, &device),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),

@@ -26,11 +26,11 @@ pub trait ShaderEnum: Copy + PartialEq + Into<u32> + Send + 'static {
 /// and name in capitals. Without a prefix, shaders know nothing of it.
 ///
 /// ```
-/// common::shader_enum! {
+/// raybook::shader_enum! {
 ///     /// What a pixel shows: `SHOW_PICTURE`, `SHOW_HIT_KIND` and `SHOW_DIRECTION`.
 ///     pub enum Show: SHOW { Picture, HitKind, Direction = "ray direction" }
 /// }
-/// use common::gpu::ShaderEnum;
+/// use raybook::gpu::ShaderEnum;
 /// assert_eq!(Show::LAYOUT.words, ["picture", "hit kind", "ray direction"]);
 /// assert_eq!(u32::from(Show::Direction), 2);
 /// ```

@@ -146,9 +146,9 @@ pub struct EnumLayout {
 /// Declares a `#[repr(C)]`, `Pod` structure that a shader has too, under the same names.
 ///
 /// ```
-/// common::shader_struct! {
+/// raybook::shader_struct! {
 ///     /// What every ray of a frame needs.
-///     pub struct Push { pub origin: glam::Vec3, pub samples: u32 }
+///     pub struct Push { pub origin: raybook::glam::Vec3, pub samples: u32 }
 /// }
 /// ```
 #[macro_export]
@@ -158,9 +158,22 @@ macro_rules! shader_struct {
     }) => {
         $(#[$attribute])*
         #[repr(C)]
-        #[derive(Clone, Copy, Debug, $crate::bytemuck::Pod, $crate::bytemuck::Zeroable)]
-        #[bytemuck(crate = "::common::bytemuck")]
+        #[derive(Clone, Copy, Debug)]
         $access struct $name { $($(#[$field_attribute])* $field_access $field: $type),+ }
+
+        // What the derive macros of bytemuck would say. Those must be told this crate's name as text, and it has
+        // two names: its own, and `common` in the book.
+        const _: () = {
+            const fn are_plain<T: $crate::bytemuck::Pod>() -> usize {
+                ::std::mem::size_of::<T>()
+            }
+            let fields = 0 $(+ are_plain::<$type>())+;
+            assert!(fields == ::std::mem::size_of::<$name>(), "a gap lies between two fields");
+        };
+        // SAFETY: each field is plain data, for which all bytes 0 are a value; as checked above.
+        unsafe impl $crate::bytemuck::Zeroable for $name {}
+        // SAFETY: its layout is C's, each field is plain data, and no gap lies between them; as checked above.
+        unsafe impl $crate::bytemuck::Pod for $name {}
 
         impl $crate::gpu::ShaderStruct for $name {
             const LAYOUT: $crate::gpu::StructLayout = $crate::gpu::StructLayout {

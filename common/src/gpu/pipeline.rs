@@ -56,6 +56,23 @@ pub struct RayTracingPipeline {
 
 impl RayTracingPipeline {
     /// An empty pipeline, to be filled line by line; its shaders lie in `shaders/{name}/`.
+    ///
+    /// ```no_run
+    /// use raybook::prelude::*;
+    ///
+    /// raybook::shader_struct! { struct Push { camera: CameraBasis } }
+    ///
+    /// fn pipeline(gpu: &Gpu) -> Result<RayTracingPipeline> {
+    ///     RayTracingPipeline::builder("my_tracer")
+    ///         .raygen("camera.rgen")
+    ///         .miss("sky.rmiss")
+    ///         .hit(HitGroup::procedural("sphere.rint").closest_hit("sphere.rchit"))
+    ///         .binding(Binding::AccelerationStructure)
+    ///         .binding(Binding::StorageImage)
+    ///         .push_constants::<Push>()
+    ///         .build(gpu)
+    /// }
+    /// ```
     pub fn builder(name: &str) -> PipelineBuilder<'_> {
         PipelineBuilder::new(name)
     }

@@ -1,6 +1,6 @@
 //! The pipeline cache: what the driver has compiled, kept from one run to the next.
 //!
-//! There is a file for each device and driver below `target/pipelines`, written whole when the device is
+//! There is a file for each device and driver in the cache `pipelines`, written whole when the device is
 //! closed. A driver must refuse data that is not its own, but may trust what looks like it (Vulkan
 //! specification, "Pipeline Cache Header"): so a file that is damaged, or another device's, is not shown to
 //! it. Without a cache a pipeline takes longer, nothing else.
@@ -20,22 +20,24 @@ const MOST: usize = 64 << 20;
 pub struct PipelineCache {
     /// The Vulkan handle; null if the driver has no memory for it, which Vulkan allows to use.
     pub handle: vk::PipelineCache,
-    file: PathBuf,
+    /// None where the system has no place for caches.
+    file: Option<PathBuf>,
     most: usize,
     /// What the file held.
     known: Vec<u8>,
 }
 
 impl PipelineCache {
-    /// Where they are kept.
-    pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/pipelines");
-
     /// The cache of a device, with what earlier runs have left in a folder.
-    pub fn open(folder: &str, device: &Device, properties: &vk::PhysicalDeviceProperties) -> Self {
+    pub fn open(
+        folder: Option<&Path>,
+        device: &Device,
+        properties: &vk::PhysicalDeviceProperties,
+    ) -> Self {
         let start = header(properties);
         let name: String = start[8..].iter().map(|byte| format!("{byte:02x}")).collect();
-        let file = Path::new(folder).join(name).with_extension("cache");
-        let known = read_sealed(&file).filter(|known| known.starts_with(&start));
+        let file = folder.map(|folder| folder.join(name).with_extension("cache"));
+        let known = file.as_deref().and_then(read_sealed).filter(|known| known.starts_with(&start));
         let known = known.unwrap_or_default();
         let info = vk::PipelineCacheCreateInfo::default().initial_data(&known);
         // SAFETY: the device is alive; the data is what this device has given, by its header and seal.
@@ -50,10 +52,12 @@ impl PipelineCache {
         }
         // SAFETY: the cache is the device's, and nothing uses it any more.
         let data = unsafe { device.get_pipeline_cache_data(self.handle) }.unwrap_or_default();
-        if data.len() > self.most {
-            let _ = fs::remove_file(&self.file);
-        } else if data != self.known {
-            write_sealed(&self.file, &data);
+        if let Some(file) = &self.file {
+            if data.len() > self.most {
+                let _ = fs::remove_file(file);
+            } else if data != self.known {
+                write_sealed(file, &data);
+            }
         }
         // SAFETY: as above.
         unsafe { device.destroy_pipeline_cache(self.handle, None) };

@@ -99,6 +99,19 @@ pub struct ShaderBindingTable {
 impl ShaderBindingTable {
     /// A table with one record for each group of the pipeline, in order, without data.
     ///
+    /// ```no_run
+    /// use raybook::prelude::*;
+    ///
+    /// fn table(gpu: &Gpu, pipeline: &RayTracingPipeline) -> Result<ShaderBindingTable> {
+    ///     ShaderBindingTable::new(gpu, pipeline)
+    /// }
+    ///
+    /// /// Traces the part of the picture that a frame asks for, of a pipeline that is bound.
+    /// fn trace(table: &ShaderBindingTable, frame: &Frame) {
+    ///     table.trace(frame.cmd, frame.area);
+    /// }
+    /// ```
+    ///
     /// # Errors
     /// If memory is short.
     pub fn new(gpu: &Gpu, pipeline: &RayTracingPipeline) -> Result<Self> {

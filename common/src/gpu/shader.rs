@@ -1,7 +1,7 @@
 //! GLSL to SPIR-V: includes spliced in, compiled by glslang, cached by content.
 //!
 //! Shaders are compiled when a sample starts, from the folder `shaders/`, so that an edit shows at
-//! once and an error names its file and line. The result is kept under `target/spirv`, keyed by a
+//! once and an error names its file and line. The result is kept in the cache `spirv`, keyed by a
 //! hash of the whole text, includes and all.
 
 mod source;
@@ -20,7 +20,8 @@ use glslang::{
 
 use super::blueprint::Blueprint;
 use super::contraction;
-use crate::files;
+use crate::files::{self, cache};
+use crate::home;
 
 /// A compiled shader.
 #[derive(Hash)]
@@ -35,17 +36,19 @@ pub struct Shader {
     pub text: String,
 }
 
-/// Whether shaders are another's than the project's.
+/// Whether shaders are another's than the book's.
 pub fn are_others() -> bool {
-    std::env::var_os("SHADERS").is_some()
+    std::env::var_os("SHADERS").is_some() || home::folder().is_some()
 }
 
-/// The folder that holds every shader: `SHADERS` in the environment, else the project's own.
-pub fn folder() -> PathBuf {
-    match std::env::var_os("SHADERS") {
-        Some(folder) => folder.into(),
-        None => concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders").into(),
-    }
+/// The folders in which shaders are looked for, in this order: the program's own, in whose place `SHADERS` in the
+/// environment names another, and the book's, if the program is of another crate.
+pub fn folders() -> Vec<PathBuf> {
+    let book = || home::book().join("shaders");
+    let own = home::folder().map(|home| home.join("shaders"));
+    let others = own.is_some().then(book);
+    let named = std::env::var_os("SHADERS").map(PathBuf::from);
+    [named.or(own).unwrap_or_else(book)].into_iter().chain(others).collect()
 }
 
 /// The whole text of a stage, includes and all, and how it is to be compiled.
@@ -72,11 +75,12 @@ impl StageText<'_> {
         let Self { path, text, defines, as_written, .. } = self;
         let cached = cache_file(path, text, defines);
         // Sealed, for a driver may crash on damaged words.
-        let words = match files::read_sealed(&cached) {
+        let words = match cached.as_deref().and_then(files::read_sealed) {
             Some(bytes) => bytemuck::pod_collect_to_vec(&bytes),
             None => {
                 let words = COMPILER.get().unwrap_or(&(to_spirv as Compiler))(path, text, defines)?;
-                files::write_sealed(&cached, bytemuck::cast_slice(&words));
+                let write = |file: &Path| files::write_sealed(file, bytemuck::cast_slice(&words));
+                cached.as_deref().map(write);
                 words
             }
         };
@@ -94,7 +98,7 @@ pub fn compile_by(compiler: Compiler) {
     let _ = COMPILER.set(compiler);
 }
 
-/// Compiles `path` (below [`folder`]) as it stands.
+/// Compiles `path` (below one of [`folders`]) as it stands.
 ///
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
@@ -219,15 +223,12 @@ fn has_place(message: &str) -> bool {
     parts.next().is_some_and(|line| line.parse::<u32>().is_ok()) && parts.next().is_some()
 }
 
-fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> PathBuf {
+/// Where words are kept. Programs of other crates may share the user's folder, and be made with another state of
+/// this file.
+fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> Option<PathBuf> {
     let mut hasher = DefaultHasher::new();
-    (env!("CARGO_PKG_VERSION"), path, text, defines).hash(&mut hasher);
-    Path::new(cache_folder()).join(format!("{:016x}.words", hasher.finish()))
-}
-
-/// Where words are kept, and what is known of them.
-pub(super) fn cache_folder() -> &'static str {
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/spirv")
+    (env!("CARGO_PKG_VERSION"), include_str!("shader.rs"), path, text, defines).hash(&mut hasher);
+    Some(cache::folder("spirv")?.join(format!("{:016x}.words", hasher.finish())))
 }
 
 #[cfg(test)]

@@ -5,6 +5,15 @@ use std::ops::RangeInclusive;
 use glam::{DVec3, Vec3};
 
 /// A camera in world space, in f64: the basis that shaders get is rounded once, at the end.
+///
+/// ```
+/// use raybook::prelude::*;
+///
+/// let camera = Camera::new(DVec3::new(0.0, 0.0, 2.0), DVec3::ZERO, 90.0);
+/// // For the push constants of a picture that is twice as wide as it is high.
+/// let basis: CameraBasis = camera.basis(2.0);
+/// assert_eq!(basis.forward, Vec3::NEG_Z);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Where rays begin.

@@ -23,6 +23,19 @@ pub const REACH: f32 = 1e9;
 pub const LEAST: f32 = 1e-18;
 
 /// Triangles of one material.
+///
+/// ```
+/// use raybook::prelude::*;
+///
+/// let corner = |x, z| Vertex { position: Vec3::new(x, 0.0, z), normal: Vec3::Y, uv: Vec2::ZERO };
+/// let mesh = Mesh {
+///     name: "triangle".to_owned(),
+///     vertices: vec![corner(0.0, 0.0), corner(0.0, 1.0), corner(1.0, 0.0)],
+///     triangles: vec![[0, 1, 2]],
+///     material: 0,
+/// };
+/// assert_eq!(mesh.bounds(), (Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0)));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// The object's name in the model file.

@@ -14,6 +14,19 @@ use super::text::{note_opened, shown};
 use super::texture::Texture;
 
 /// All that an OBJ file holds and names.
+///
+/// ```
+/// use raybook::prelude::*;
+///
+/// /// A scene of one mesh, made without a file.
+/// fn scene(mesh: Mesh) -> Scene {
+///     let (transform, textures, warnings) = (Affine3A::IDENTITY, vec![], vec![]);
+///     let placed = Instance { mesh: 0, transform, material: mesh.material, record_offset: 0 };
+///     let materials = vec![Material::default()];
+///     let model = Model { meshes: vec![mesh], materials, textures, warnings };
+///     Scene { model, instances: vec![placed], camera: Camera::default() }
+/// }
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// The meshes in the file's order; at least one, none without triangles.

@@ -13,6 +13,15 @@ use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
 use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Texels, TextureTable, order};
 
 /// A scene in device memory, ready to be traced.
+///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// fn load(gpu: &Gpu, setup: &Setup) -> Result<(SceneOnGpu, Camera)> {
+///     let scene = setup.scene_or(|| Scene::open("model.obj".as_ref()))?;
+///     Ok((SceneOnGpu::new(gpu, &scene, setup.options)?, scene.camera))
+/// }
+/// ```
 pub struct SceneOnGpu {
     /// The top level, all instances.
     pub tlas: AccelerationStructure,
@@ -133,6 +142,24 @@ impl SceneOnGpu {
 
 /// Builds a top level from instances that are in the order of the build.
 ///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// /// The meshes of a scene, and a shape of one's own whose hit group is the second.
+/// fn everything(
+///     gpu: &Gpu,
+///     scene: &Scene,
+///     meshes: &SceneOnGpu,
+///     shape: &AccelerationStructure,
+/// ) -> Result<AccelerationStructure> {
+///     let placed = scene.instances.iter().enumerate();
+///     let placed = placed
+///         .map(|(i, at)| instance_on_gpu(&at.transform, i, 0, &meshes.blas[at.mesh]));
+///     let own = instance_on_gpu(&Affine3A::IDENTITY, scene.instances.len(), 1, shape);
+///     build_top(gpu, &placed.chain([own]).collect::<Vec<_>>())
+/// }
+/// ```
+///
 /// # Errors
 /// If memory is short.
 pub fn build_top(
@@ -157,6 +184,15 @@ pub fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 6
 }
 
 /// A bottom level in its place, seen by every ray: its custom index, and its first hit record.
+///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// /// `gl_InstanceCustomIndexEXT` is 7, and hit record 0 is used.
+/// fn lifted(blas: &AccelerationStructure) -> vk::AccelerationStructureInstanceKHR {
+///     instance_on_gpu(&Affine3A::from_translation(Vec3::Y), 7, 0, blas)
+/// }
+/// ```
 pub fn instance_on_gpu(
     placement: &glam::Affine3A,
     custom_index: usize,
@@ -185,6 +221,17 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
 /// A device may enlarge a box as it likes, and so call the shader for rays that pass far from it: "AABB
 /// primitive bounds consist of all points within an implementation-defined bound which includes the
 /// specified box" (Vulkan specification, Ray Intersection Candidate Determination).
+///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// /// A bottom level of one box, which only its build reads.
+/// fn shape(gpu: &Gpu) -> Result<AccelerationStructure> {
+///     let boxes = boxes_on_gpu(gpu, "shape", &[[Vec3::NEG_ONE, Vec3::ONE]])?;
+///     let boxes = [Geometry::Aabbs { boxes: boxes.address, count: 1, opaque: true }];
+///     AccelerationStructure::bottom(gpu, "shape", &boxes, BuildOptions::default())
+/// }
+/// ```
 ///
 /// # Errors
 /// If memory is short.

@@ -69,7 +69,7 @@ mod tests {
             ("cargo test --test a b::c -- --ignored d", Some((some("a"), some("b::c")))),
             ("UPDATE=1 cargo test --release --test a", Some((some("a"), None))),
             ("./setup && cargo test", Some((None, None))),
-            ("cargo test -p common x", None),
+            ("cargo test -p raybook x", None),
             ("cargo run --bin a", None),
         ];
         for (command, expected) in cases {

@@ -8,8 +8,21 @@ pub fn of(path: &str, text: &str) -> String {
         "rs" => rust(text),
         "obj" | "mtl" => lines(text, |line| line.split('#').next().unwrap_or_default()),
         "json" => text.to_owned(),
+        "toml" => shader(&without_packages(text)),
         _ => shader(text),
     }
+}
+
+/// A manifest without what its dependencies are called elsewhere: the code of this package does not know it.
+fn without_packages(text: &str) -> String {
+    let own = |line: &str| match line.split_once("{ package = \"") {
+        Some((name, rest)) => match rest.split_once("\", ") {
+            Some((_, rest)) => format!("{name}{{ {rest}\n"),
+            None => format!("{line}\n"),
+        },
+        None => format!("{line}\n"),
+    };
+    text.lines().map(own).collect()
 }
 
 /// GLSL without comments and `#line`, each line's blanks made one.
@@ -120,6 +133,14 @@ fn attribute(words: &TokenStream) -> Attribute {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_dependency_is_called_elsewhere_has_no_effect() {
+        let of = |dependency: &str| of("Cargo.toml", &format!("[dependencies]\n{dependency}\n"));
+        let plain = of("common = { path = \"../common\" }");
+        assert_eq!(of("common = { package = \"raybook\", path = \"../common\" }"), plain);
+        assert_ne!(of("common = { package = \"raybook\", path = \"../other\" }"), plain);
+    }
 
     #[test]
     fn comments_blanks_and_tests_have_no_effect_in_rust() {

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
-use crate::files::{read_cached, write_whole};
+use crate::files::{cache, read_cached, write_whole};
 use crate::scene::Camera;
 
-/// Cameras by digit, kept in `target/bookmarks` from one run to the next.
+/// Cameras by digit, kept in the cache `bookmarks` from one run to the next.
 pub struct Bookmarks {
-    file: PathBuf,
+    /// None where the system has no place for caches.
+    file: Option<PathBuf>,
     /// Eye, target, up, field of view.
     places: BTreeMap<usize, [f64; 10]>,
 }
@@ -18,13 +19,13 @@ pub struct Bookmarks {
 impl Bookmarks {
     /// The bookmarks of a chapter; none if there is no file, or one that cannot be read.
     pub fn open(name: &str) -> Self {
-        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../target/bookmarks"));
-        Self::open_in(folder, name)
+        Self::open_in(cache::folder("bookmarks").as_deref(), name)
     }
 
-    fn open_in(folder: &Path, name: &str) -> Self {
-        let file = folder.join(name).with_extension("json");
-        let places = read_cached(&file).and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    fn open_in(folder: Option<&Path>, name: &str) -> Self {
+        let file = folder.map(|folder| folder.join(name).with_extension("json"));
+        let read = file.as_deref().and_then(read_cached);
+        let places = read.and_then(|bytes| serde_json::from_slice(&bytes).ok());
         Self { file, places: places.unwrap_or_default() }
     }
 
@@ -43,8 +44,9 @@ impl Bookmarks {
         }
         self.places.insert(digit, place);
         // Bookmarks that cannot be kept still serve this run.
-        let _ = self.file.parent().map(std::fs::create_dir_all);
-        let _ = serde_json::to_vec(&self.places).map(|bytes| write_whole(&self.file, &bytes));
+        let Some(file) = &self.file else { return };
+        let _ = file.parent().map(std::fs::create_dir_all);
+        let _ = serde_json::to_vec(&self.places).map(|bytes| write_whole(file, &bytes));
     }
 }
 
@@ -56,11 +58,11 @@ mod tests {
     fn a_place_is_there_again_in_the_next_run() {
         let folder = tempfile::tempdir().unwrap();
         let camera = Camera::new(DVec3::new(0.1, 2.0, 1e9), DVec3::splat(1.0 / 3.0), 30.0);
-        let mut bookmarks = Bookmarks::open_in(folder.path(), "02_basic");
+        let mut bookmarks = Bookmarks::open_in(Some(folder.path()), "02_basic");
         assert_eq!(bookmarks.get(3), None);
         bookmarks.set(3, camera);
-        assert_eq!(Bookmarks::open_in(folder.path(), "02_basic").get(3), Some(camera));
-        assert_eq!(Bookmarks::open_in(folder.path(), "03_any_hit").get(3), None);
+        assert_eq!(Bookmarks::open_in(Some(folder.path()), "02_basic").get(3), Some(camera));
+        assert_eq!(Bookmarks::open_in(Some(folder.path()), "03_any_hit").get(3), None);
     }
 
     #[cfg(unix)]
@@ -68,6 +70,6 @@ mod tests {
     fn what_could_deliver_without_end_holds_no_bookmarks() {
         let folder = tempfile::tempdir().unwrap();
         std::os::unix::fs::symlink("/dev/zero", folder.path().join("02_basic.json")).unwrap();
-        assert_eq!(Bookmarks::open_in(folder.path(), "02_basic").get(3), None);
+        assert_eq!(Bookmarks::open_in(Some(folder.path()), "02_basic").get(3), None);
     }
 }

@@ -81,7 +81,7 @@ fn no_display() -> Error {
     anyhow!("{why} DISPLAY or WAYLAND_DISPLAY, or add --headless to render without a window")
 }
 
-/// `RUST_LOG=common=debug` tells of every frame, `info` of the longest wait; without it all is silent.
+/// `RUST_LOG=raybook=debug` tells of every frame, `info` of the longest wait; without it all is silent.
 fn log_if_asked() {
     use tracing_subscriber::{filter::Targets, fmt, prelude::*};
     // An empty text would ask for the errors of all, and winit tells one in seven lines.

@@ -1,7 +1,7 @@
 //! Shaders edited while the window is open: noticed, compiled beside it, compared.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::Path;
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
@@ -30,7 +30,7 @@ pub struct Reload {
 }
 
 impl Reload {
-    /// Watches the folder of all shaders. Where the system cannot watch it, F5 still reloads.
+    /// Watches the folders of shaders. Where the system cannot watch it, F5 still reloads.
     pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
         Self {
             stages: BTreeSet::new(),
@@ -140,21 +140,22 @@ impl Reload {
 }
 
 fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
-    let folder = shader::folder();
-    let folder: PathBuf = folder.canonicalize().unwrap_or(folder);
-    let top = folder.clone();
+    let folders = shader::folders().into_iter();
+    let folders: Vec<_> = folders.map(|folder| folder.canonicalize().unwrap_or(folder)).collect();
+    let tops = folders.clone();
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
         let Ok(event) = event else { return };
         // Compiling reads the files: what is only read has not changed.
         if event.kind.is_access() {
             return;
         }
-        for path in event.paths.iter().filter_map(|path| path.strip_prefix(&top).ok()) {
+        let below = |path| tops.iter().find_map(|top| Path::strip_prefix(path, top).ok());
+        for path in event.paths.iter().filter_map(|path| below(path)) {
             let path = path.to_string_lossy().replace('\\', "/");
             let _ = proxy.send_event(Wake::Saved(path));
         }
     })?;
-    watcher.watch(&folder, RecursiveMode::Recursive)?;
+    folders.iter().try_for_each(|folder| watcher.watch(folder, RecursiveMode::Recursive))?;
     Ok(watcher)
 }
 

@@ -1,11 +1,11 @@
 //! A shader's text, with its includes spliced in.
 
 use std::fs;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::{are_others, folder};
+use super::folders;
 
 /// What lets a shader include files, and `#line` name them.
 const INCLUDE_EXTENSION: &str = "GL_GOOGLE_include_directive";
@@ -36,16 +36,9 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
     }
     ensure!(includers.len() <= MAX_INCLUDE_DEPTH, "shader '{path}': includes nest too deep");
     let inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
-    ensure!(inside, "shader '{path}' is not below '{}'", folder().display());
-    let file = folder().join(path);
-    let failed = || {
-        let hint = if are_others() {
-            " in the folder that SHADERS names; a copy of the project's shaders is right"
-        } else {
-            ""
-        };
-        format!("cannot read the shader '{}'{hint}", file.display())
-    };
+    ensure!(inside, "shader '{path}' is not below '{}'", listed(&folders()));
+    let file = find(path)?;
+    let failed = || format!("cannot read the shader '{}'", file.display());
     // A pipe by that name would keep the reader waiting.
     let metadata = fs::metadata(&file).with_context(failed)?;
     ensure!(metadata.is_file(), "{}: it is not a file", failed());
@@ -82,6 +75,25 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
     Ok(())
 }
 
+/// Where the shader at `path` lies: in the first of the folders that has it.
+fn find(path: &str) -> Result<PathBuf> {
+    let folders = folders();
+    let mut files = folders.iter().map(|folder| folder.join(path));
+    let right = match (std::env::var_os("SHADERS"), &folders[..]) {
+        (None, _) => "SHADERS in the environment names another folder for the first of them",
+        (Some(_), [_]) => "SHADERS names it; a copy of the book's shaders is right",
+        (Some(_), _) => "SHADERS names the first; a copy of the program's own shaders is right",
+    };
+    files
+        .find(|file| file.try_exists().unwrap_or(true))
+        .with_context(|| format!("there is no shader '{path}' in '{}'; {right}", listed(&folders)))
+}
+
+fn listed(folders: &[PathBuf]) -> String {
+    let names: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
+    names.join("' nor in '")
+}
+
 /// A macro's name for a path.
 fn guard(path: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
@@ -91,6 +103,6 @@ fn guard(path: &str) -> String {
 /// An include's path below `shaders/`: beside the file that includes it, else from the top.
 fn resolve(includer: &str, name: &str) -> String {
     let beside = includer.rsplit_once('/').map(|(folder, _)| format!("{folder}/{name}"));
-    let exists = beside.filter(|path| folder().join(path).is_file());
-    exists.unwrap_or_else(|| name.to_owned())
+    let exists = |path: &String| folders().iter().any(|folder| folder.join(path).is_file());
+    beside.filter(exists).unwrap_or_else(|| name.to_owned())
 }

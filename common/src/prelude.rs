@@ -1,0 +1,14 @@
+//! What a program needs: `use raybook::prelude::*;`.
+
+pub use crate::app::{Controls, Frame, Sample, Setup, Variant, Variants};
+pub use crate::gpu::{
+    AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
+    HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable,
+};
+pub use crate::scene::{
+    Camera, CameraBasis, DirectionalLight, Instance, Material, Mesh, Model, Scene, SceneAddresses,
+    SceneOnGpu, SceneOptions, Sun, Vertex, boxes_on_gpu, build_top, input_usage, instance_on_gpu,
+};
+pub use anyhow::Result;
+pub use ash::vk;
+pub use glam::{Affine3A, DVec3, Vec2, Vec3};

@@ -1,0 +1,13 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+
+layout(location = 0) rayPayloadInEXT Hit hit;
+
+void main() {
+    hit.color = sky(gl_WorldRayDirectionEXT);
+    hit.t = -1.0;
+}

@@ -1,0 +1,77 @@
+//! A crate that `cargo chapters start` has made: its own shaders, and behind them the book's.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use image::Rgb;
+
+use super::desk::{Desk, wait};
+use super::{alone, ended_well, tells_error};
+
+/// Makes the sky of the shaders in `folder` wrong, and then green, and the window follows.
+fn follows_an_edit(desk: Desk, folder: &Path) {
+    let sky = folder.join("sky.rmiss");
+    let good = std::fs::read_to_string(&sky).expect("the sky");
+    let edit = |color: &str| {
+        let text = good.replace("sky(gl_WorldRayDirectionEXT)", color);
+        assert_ne!(text, good);
+        std::fs::write(&sky, text).expect("an edit");
+    };
+    edit("nonsense");
+    wait("the error", || tells_error(&desk).then_some(()));
+    edit("vec3(0.0, 1.0, 0.0)");
+    wait("a green sky", || {
+        let shown = desk.shown();
+        (shown.get_pixel(shown.width() - 1, 0) == &Rgb([0, 255, 0])).then_some(())
+    });
+    desk.close();
+    ended_well(desk.end());
+}
+
+/// The copy is all that `SHADERS` names: what it includes of `common/` comes from the book.
+#[test]
+fn a_program_outside_the_book_follows_edits_of_its_own_shaders() {
+    let _alone = alone();
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    run::copy(&run::root().join("docs/chapters/start/template/shaders"), copy.path());
+    let environment = [("SHADERS", copy.path())];
+    let desk = Desk::open("my_tracer", &["--validate", "--size", "640x420"], &environment);
+    follows_an_edit(desk, &copy.path().join("my_tracer"));
+}
+
+#[test]
+#[ignore = "nightly: it compiles the framework anew; quick: started::a_program_outside_the_book_follows_edits_of_its_own_shaders"]
+fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
+    let above = tempfile::tempdir().expect("a temporary folder");
+    let (folder, home) = (above.path().join("glow"), above.path().join("home"));
+    let started = Command::new(run::program("chapters")).arg("start").arg(&folder).output();
+    assert!(started.expect("it starts").status.success());
+    let target = folder.join("target");
+    let cargo = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO"))
+            .args(arguments)
+            .arg("--offline")
+            .current_dir(&folder)
+            .env("CARGO_TARGET_DIR", &target)
+            .env("XDG_CACHE_HOME", &home)
+            .output()
+            .expect("cargo starts");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments:?}: {errors}");
+        assert!(!errors.contains("warning"), "{arguments:?}: {errors}");
+    };
+    let start = Instant::now();
+    cargo(&["build"]);
+    println!("built in {} s", start.elapsed().as_secs());
+    cargo(&["test", "--locked"]);
+    // Nothing of it lies in the book.
+    assert!(home.join("raybook/spirv").is_dir() && home.join("raybook/pipelines").is_dir());
+
+    let _alone = alone();
+    let mut program = Command::new("env");
+    program.arg("--default-signal=INT,TERM,HUP").arg(target.join("debug/glow"));
+    let environment = [("XDG_CACHE_HOME", &*home)];
+    let desk = Desk::begin_by(program, &["--validate", "--size", "640x420"], &environment);
+    follows_an_edit(desk.with_a_picture(), &folder.join("shaders/glow"));
+}
