@@ -20,7 +20,7 @@ use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
-use super::validation::Messages;
+use super::validation::{Heard, Messages};
 
 /// How a [`Gpu`] shall be made.
 #[derive(Clone)]
@@ -31,6 +31,8 @@ pub struct GpuOptions<'a> {
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
+    /// Hear what shaders print by `debugPrintfEXT`, where the validation layer is installed; without `validate`.
+    pub prints: bool,
     /// The window to draw to, if any: the device must have a queue that can.
     pub window: Option<WindowHandles>,
     /// The driver to be emulated, [`Plain`] for the one that there is.
@@ -44,6 +46,7 @@ impl Default for GpuOptions<'_> {
             requirements,
             device: None,
             validate: false,
+            prints: false,
             window: None,
             emulation: Arc::new(Plain),
         }
@@ -110,7 +113,12 @@ impl Gpu {
     pub fn new(options: &GpuOptions) -> Result<Self> {
         let mut options = options.clone();
         options.requirements = options.emulation.requirements(options.requirements);
-        let vulkan = Vulkan::new(options.validate, options.window.as_ref())?;
+        let heard = match (options.validate, options.prints) {
+            (true, _) => Some(Heard::Mistakes),
+            (false, true) => Some(Heard::Prints),
+            (false, false) => None,
+        };
+        let vulkan = Vulkan::new(heard, options.window.as_ref())?;
         let mut found = device::candidates(&vulkan.instance, &options.requirements)?;
         if let Some(window) = &options.window {
             device::require_presentation(&vulkan, window, &mut found)?;

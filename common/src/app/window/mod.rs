@@ -191,7 +191,7 @@ impl ApplicationHandler<Wake> for Shows<'_> {
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match (&mut self.shown, event) {
             (Shown::Session(_), WindowEvent::CloseRequested) => events.exit(),
-            (Shown::Session(session), WindowEvent::RedrawRequested) => match session.draw() {
+            (Shown::Session(session), WindowEvent::RedrawRequested) => match session.draw(self.of.watch) {
                 Ok(true) => {}
                 Ok(false) => events.exit(),
                 Err(error) => self.stop(events, error),
