@@ -1,6 +1,6 @@
 // What a shader of a pixel that is traced alone writes down. One invocation follows the other, so the entries
-// stand in the order of time.
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayLog { uint length; uint at[]; };
+// stand in the order of time. The first word counts those after it.
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayLog { uint at[]; };
 
 RayLog ray_log() {
     return RayLog(uvec2(RAY_LOG_LOW, RAY_LOG_HIGH));
@@ -9,7 +9,7 @@ RayLog ray_log() {
 uint log_end;
 
 void log_word(uint word) {
-    if (log_end < RAY_LOG_WORDS) {
+    if (log_end <= RAY_LOG_WORDS) {
         ray_log().at[log_end] = word;
     }
     log_end++;
@@ -23,7 +23,7 @@ void log_words(vec3 numbers) {
 
 // Begins an entry of so many words: its kind, and which shader writes it.
 void log_entry(uint kind, uint words) {
-    log_end = atomicAdd(ray_log().length, words + 1);
+    log_end = 1 + atomicAdd(ray_log().at[0], words + 1);
     log_word(kind | STAGE << 8);
 }
 
