@@ -60,7 +60,10 @@ impl Watch for Instruments {
     fn needs_no_window(&self) -> bool {
         let Options { compare, sums, compile_for, pixel, .. } = &self.options;
         let named = matches!(pixel.pixel, Some(Which::At(_)));
-        named || compare.compare.is_some() || sums.samples.is_some() || compile_for.compile_for.is_some()
+        named
+            || compare.compare.is_some()
+            || sums.samples.is_some()
+            || compile_for.compile_for.is_some()
     }
 
     fn files(&self) -> Files<'_> {

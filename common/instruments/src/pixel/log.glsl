@@ -48,6 +48,10 @@ void log_ray(uint flags, uint mask, uint offset, uint stride, uint miss, vec3 or
     log_tmin = tmin;
     log_direction = direction;
     log_tmax = tmax;
+    if (gl_LaunchSizeEXT != uvec3(1)) {
+        log_entry(LOG_MANY, 0);
+        return;
+    }
     log_entry(LOG_RAY, 14);
     log_word(payload);
     log_word(flags);

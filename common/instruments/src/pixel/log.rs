@@ -16,6 +16,8 @@ pub const HIT: u32 = 3;
 pub const ANY_HIT: u32 = 4;
 pub const MISS: u32 = 5;
 pub const PRINT: u32 = 6;
+/// A ray begins, of one pixel among several.
+pub const MANY: u32 = 7;
 
 /// `gl_RayFlagsSkipClosestHitShaderEXT`.
 const SKIPS_CLOSEST_HIT: u32 = 8;
@@ -62,6 +64,11 @@ impl<'a> Log<'a> {
             ));
         }
         (log.text, log.rays)
+    }
+
+    /// Whether several pixels were traced.
+    pub fn is_of_many(words: &'a [u32]) -> bool {
+        words.iter().take(1).any(|head| head & 0xff == MANY)
     }
 
     /// Each entry: its kind, its shader, the words after them.
@@ -131,9 +138,12 @@ impl<'a> Log<'a> {
                 let silent = self.open.last().filter(|open| !open.ended).map(|open| open.flags);
                 match silent {
                     Some(flags) if flags & SKIPS_CLOSEST_HIT != 0 => {
-                        self.line(format_args!("hit        no closest hit shader is called: the flags skip it"));
+                        self.line(format_args!(
+                            "hit        no closest hit shader is called: the flags skip it"
+                        ));
                     }
-                    Some(_) => self.line(format_args!("           no closest hit or miss shader was called")),
+                    Some(_) => self
+                        .line(format_args!("           no closest hit or miss shader was called")),
                     None => {}
                 }
                 self.open.pop();

@@ -157,13 +157,20 @@ impl Probe {
         layer.take_printed();
         log.write(0, &[0u32])?;
         let Clicked { pixel: [x, y], size: [width, height] } = trace()?;
-        let (words, printed, known) = (log.read::<u32>()?, layer.take_printed(), self.stages.known());
+        let (words, printed, known) =
+            (log.read::<u32>()?, layer.take_printed(), self.stages.known());
         let written = words[0] as usize;
         let room = written.min(WORDS as usize);
+        if Log::is_of_many(&words[1..1 + room]) {
+            bail!(
+                "this program traces whole rows at once: --pixel cannot tell one pixel's rays from the others'"
+            );
+        }
         let (text, rays) = Log::text(&words[1..1 + room], &known, &printed);
         let mut told = format!("pixel {x},{y} of {width}x{height}\n{text}");
         if written > room {
-            let _ = writeln!(told, "the log is full: {written} words, and there is room for {WORDS}");
+            let _ =
+                writeln!(told, "the log is full: {written} words, and there is room for {WORDS}");
         }
         let printing = known.iter().find(|known| known.prints);
         if let (Some(shader), true) = (printing, gpu.vulkan.messenger.is_none()) {

@@ -8,7 +8,7 @@ use ash::vk::ShaderStageFlags as Kind;
 use common::gpu::shader::{self, StageText, to_spirv};
 use common::gpu::{Emulation, contraction};
 
-use super::log::{ANY_HIT, BACK, HIT, MISS, PRINT, RAY, WORDS};
+use super::log::{ANY_HIT, BACK, HIT, MANY, MISS, PRINT, RAY, WORDS};
 
 /// What the shaders call.
 const LOG: &str = include_str!("log.glsl");
@@ -100,7 +100,13 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
         ("RAY_LOG_WORDS", WORDS),
     ];
     new.extend(numbers.map(|(name, value)| format!("#define {name} {value:#x}u")));
-    let kinds = [("LOG_RAY", RAY), ("LOG_BACK", BACK), ("LOG_PRINT", PRINT), ("LOG_MISS", MISS)];
+    let kinds = [
+        ("LOG_RAY", RAY),
+        ("LOG_MANY", MANY),
+        ("LOG_BACK", BACK),
+        ("LOG_PRINT", PRINT),
+        ("LOG_MISS", MISS),
+    ];
     new.extend(kinds.map(|(name, value)| format!("#define {name} {value}u")));
     let met = match kind {
         Kind::CLOSEST_HIT_KHR => Some(format!("#define LOG_SURFACES {HIT}u")),
@@ -115,9 +121,9 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     new.extend(met.is_some().then(|| "#define main of_the_chapter".to_owned()));
     new.push(format!("#line {line} {file}"));
     new.extend(lines[head + 1..].iter().map(|line| (*line).to_owned()));
-    new.extend(
-        met.map(|_| "#undef main\nvoid main() {\n    log_met();\n    of_the_chapter();\n}".to_owned()),
-    );
+    new.extend(met.map(|_| {
+        "#undef main\nvoid main() {\n    log_met();\n    of_the_chapter();\n}".to_owned()
+    }));
     new.join("\n") + "\n"
 }
 
