@@ -24,7 +24,7 @@ void log_words(vec3 numbers) {
 // Begins an entry of so many words: its kind, and which shader writes it.
 void log_entry(uint kind, uint words) {
     log_end = 1 + atomicAdd(ray_log().at[0], words + 1);
-    log_word(kind | STAGE << 8);
+    log_word(kind | RAY_LOG_STAGE << 8);
 }
 
 void log_print() {

@@ -80,9 +80,15 @@ impl Emulation for Stages {
 fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let is = |line: &&str, word: &str| line.trim_start().starts_with(word);
-    let extension = lines.iter().rposition(|line| is(line, "#extension"));
-    let version = lines.iter().position(|line| is(line, "#version")).unwrap_or_default();
-    let head = extension.unwrap_or(version).max(version);
+    // An include may ask for more, where a condition may leave it out: that stays where it is.
+    let begins = |line: &&&str| {
+        line.is_empty()
+            || ["#version", "#extension", "#line", "//"].iter().any(|word| is(line, word))
+    };
+    let begun = &lines[..lines.iter().take_while(begins).count()];
+    let version = begun.iter().position(|line| is(line, "#version")).unwrap_or_default();
+    let extension = begun.iter().rposition(|line| is(line, "#extension"));
+    let head = extension.unwrap_or(version);
     // The place of the line that follows, which `#line` may have set before.
     let place = lines[..=head].iter().rposition(|line| is(line, "#line")).map(|at| {
         let mut words = lines[at].splitn(3, ' ').skip(1);
@@ -94,7 +100,7 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     new.extend(EXTENSIONS.map(|name| format!("#extension {name} : require")));
     new.extend(lines[version + 1..=head].iter().map(|line| (*line).to_owned()));
     let numbers = [
-        ("STAGE", number as u64),
+        ("RAY_LOG_STAGE", number as u64),
         ("RAY_LOG_LOW", address & 0xffff_ffff),
         ("RAY_LOG_HIGH", address >> 32),
         ("RAY_LOG_WORDS", WORDS),
