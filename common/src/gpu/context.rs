@@ -165,7 +165,7 @@ impl Gpu {
             .inspect_err(|_| unsafe { device.destroy_device(None) })?;
         let features = &chosen.features;
         let tells_executables = features.executable.pipeline_executable_info == vk::TRUE;
-        Ok(Self(Arc::new(GpuContext {
+        let gpu = Self(Arc::new(GpuContext {
             acceleration_structure: khr::acceleration_structure::Device::new(instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(instance, &device),
@@ -182,7 +182,11 @@ impl Gpu {
             chosen,
             queue,
             vulkan,
-        })))
+        }));
+        gpu.name_object(gpu.queue, "queue");
+        gpu.name_object(gpu.command_pool, "commands");
+        gpu.name_object(gpu.pipeline_cache.handle, "pipeline cache");
+        Ok(gpu)
     }
 
     /// Gives an object a name that validation messages and debuggers show.
