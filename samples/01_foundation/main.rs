@@ -56,7 +56,6 @@ fn run() -> Result<()> {
             options.compile_for.compile_for.is_some(),
             "makes its pipeline by itself: --compile-for is for 02 and on",
         ),
-        (options.pixel.pixel.is_some(), "makes its pipeline by itself: --pixel is for 02 and on"),
         (args.scene.is_some(), "brings its own triangle and takes no --scene"),
         (args.unordered, "has one triangle: there is nothing to order"),
     ];

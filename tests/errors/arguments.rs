@@ -34,10 +34,7 @@ fn options() {
             &["--pixel", "-1,4"],
             "invalid value '-1,4' for '--pixel <X,Y|click>': a pixel is a column",
         ),
-        (
-            &["--pixel", "8,0"],
-            "pixel 8,0 lies outside the picture of 8x8: the last is 7,7",
-        ),
+        (&["--pixel", "8,0"], "pixel 8,0 lies outside the picture of 8x8: the last is 7,7"),
         (&["--pixel", "click"], "--pixel click is for a window; without one, name a pixel"),
         (
             &["--pixel", "1,1", "--out", "a.png"],

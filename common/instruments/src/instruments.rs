@@ -6,6 +6,7 @@ use anyhow::Result;
 use common::app::{self, Args, Clicked, Files, Picture, Run, Watch};
 use common::gpu::{Gpu, GpuOptions};
 use common::output;
+use common::usage::Usage;
 
 use crate::compare::{self, Comparison};
 use crate::pixel::{Probe, Which};
@@ -50,8 +51,12 @@ impl Instruments {
 /// Refuses before the work what would be refused after it; for a program that renders by itself.
 ///
 /// # Errors
-/// If a file cannot be written, or is named twice.
+/// If a file cannot be written, or is named twice; if a pixel's rays are asked for.
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
+    if options.pixel.pixel.is_some() {
+        let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
+        return Err(Usage(why.to_owned()).into());
+    }
     app::files::check(args, &Instruments::new(options.clone()))?;
     Ok(options.report.check()?)
 }

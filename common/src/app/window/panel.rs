@@ -3,7 +3,8 @@
 use std::time::{Duration, Instant};
 
 use egui::{
-    Align, Align2, Area, Context, Id, InputState, Layout, Response, RichText, ScrollArea, Sense, Ui,
+    Align, Align2, Area, Context, Event, Id, InputState, Layout, PointerButton, Response, RichText,
+    ScrollArea, Sense, Ui,
 };
 
 use super::compiler;
@@ -244,8 +245,15 @@ impl Panel {
 
 /// Where the picture is clicked with Ctrl held, in parts of its width and height.
 fn clicked(picture: &Response, input: &InputState) -> Option<[f32; 2]> {
-    let asked = input.pointer.primary_clicked() && input.modifiers.command;
-    let at = input.pointer.interact_pos().filter(|_| asked && picture.contains_pointer())?;
+    // The key may be up again by the end of the frame.
+    let released = |event: &Event| match event {
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed: false, modifiers } => {
+            Some(*pos).filter(|_| modifiers.command)
+        }
+        _ => None,
+    };
+    let at = input.events.iter().find_map(released);
+    let at = at.filter(|at| input.pointer.primary_clicked() && picture.rect.contains(*at))?;
     let part = (at - picture.rect.min) / picture.rect.size();
     Some([part.x, part.y])
 }
