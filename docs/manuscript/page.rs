@@ -40,6 +40,8 @@ pub enum Kind {
     Devices,
     /// Every classic mistake, shown: `mistakes`.
     Mistakes,
+    /// The same by what is seen: `symptoms`.
+    Symptoms,
     /// A chapter's exercises: `exercises NAME`.
     Exercises,
     /// Which devices gave the page's figures, and when: `stamp`.
@@ -50,7 +52,7 @@ pub enum Kind {
 
 impl Kind {
     /// Each with the word in its marker, what a reader would call it, and the marker's form.
-    const ALL: [(Self, &str, &str, &str); 10] = [
+    const ALL: [(Self, &str, &str, &str); 11] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
         (Self::Controls, "controls", "table of controls", "NN_name -->"),
@@ -58,6 +60,7 @@ impl Kind {
         (Self::Map, "map", "part of the map", "ways -->, or chapters"),
         (Self::Devices, "devices", "table of devices", "-->"),
         (Self::Mistakes, "mistakes", "gallery of mistakes", "-->"),
+        (Self::Symptoms, "symptoms", "table of symptoms", "-->"),
         (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),
         (Self::Stamp, "stamp", "stamp", "-->"),
         (Self::Prices, "prices", "table of prices", "-->"),

@@ -199,7 +199,7 @@ fn a_wrong_name_gets_one_line_with_what_there_is() {
 }
 
 /// A mistake of a small project.
-const PALE: &str = "Pale\n\nChapter: 02_basic\nOutcome: differs by 0.05\nValidation: nothing\n\
+const PALE: &str = "Pale\n\nSymptom: Colours: white\nChapter: 02_basic\nOutcome: differs by 0.05\nValidation: nothing\n\
                     Cause: c\nFind: f\nCure: c\n\n\
                     --- shaders/02_basic/camera.rgen\n+++ shaders/02_basic/camera.rgen\n@@ -1 +1 @@\n\
                     -    imageStore(picture, ivec2(id), payload);\n\
@@ -249,11 +249,11 @@ fn a_patch_that_does_not_fit_is_named_with_its_line() {
     fixture.run(&["sync", "--pictures"]);
     fixture.replace("docs/mistakes/pale.diff", "ivec2(id), payload", "ivec2(it), payload");
     let found = fixture.check();
-    let line = "docs/mistakes/pale.diff:12: this hunk does not fit shaders/02_basic/camera.rgen; make \
+    let line = "docs/mistakes/pale.diff:13: this hunk does not fit shaders/02_basic/camera.rgen; make \
                 the patch again";
     assert!(found.lines().any(|found| found == line), "{found}");
     fixture.replace("docs/mistakes/pale.diff", "Outcome: differs by", "Outcome: is");
-    assert!(fixture.check().contains("docs/mistakes/pale.diff:4: 'is 0.05' is no outcome; write "));
+    assert!(fixture.check().contains("docs/mistakes/pale.diff:5: 'is 0.05' is no outcome; write "));
 }
 
 #[test]

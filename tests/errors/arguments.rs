@@ -26,6 +26,24 @@ fn options() {
         (&["--samples", "-1..4"], "invalid value '-1..4' for '--samples <A..B>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE>'"),
+        (
+            &["--pixel", "5"],
+            "invalid value '5' for '--pixel <X,Y|click>': a pixel is a column and a row, such as 480,300",
+        ),
+        (
+            &["--pixel", "-1,4"],
+            "invalid value '-1,4' for '--pixel <X,Y|click>': a pixel is a column",
+        ),
+        (&["--pixel", "8,0"], "pixel 8,0 lies outside the picture of 8x8: the last is 7,7"),
+        (&["--pixel", "click"], "--pixel click is for a window; without one, name a pixel"),
+        (
+            &["--pixel", "1,1", "--out", "a.png"],
+            "'--pixel <X,Y|click>' cannot be used with '--out <FILE>'",
+        ),
+        (
+            &["--pixel", "1,1", "--validate"],
+            "'--pixel <X,Y|click>' cannot be used with '--validate'",
+        ),
         (&["--compile-for"], "[possible values: navi21, navi31, gfx1201, all]"),
         (
             &["--compile-for", "nonsense"],

@@ -21,6 +21,7 @@ mod lights;
 mod long_renders;
 mod multi_closest_hit;
 mod path_tracing;
+mod pixel;
 mod position_fetch;
 mod primitive_order;
 mod ray_query;

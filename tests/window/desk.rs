@@ -75,7 +75,7 @@ impl Desk {
         let folder = tempfile::tempdir().expect("a temporary folder");
         command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        command.envs(environment.iter().copied()).stderr(Stdio::piped());
+        command.envs(environment.iter().copied()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let sample = command.spawn().expect("the sample starts");
         let (x, screen) = RustConnection::connect(Some(&display)).expect("the server answers");
         let root = x.setup().roots[screen].root;
@@ -164,14 +164,29 @@ impl Desk {
 
     /// Presses and releases a key, by its symbol.
     pub fn key(&self, symbol: u32) {
+        let code = self.code(symbol);
+        self.fake(xproto::KEY_PRESS_EVENT, code, 0, 0);
+        self.fake(xproto::KEY_RELEASE_EVENT, code, 0, 0);
+    }
+
+    /// Clicks a place with Ctrl held.
+    pub fn click_with_control(&self, (x, y): (i16, i16)) {
+        let code = self.code(KEY_CONTROL);
+        self.point(x, y);
+        self.fake(xproto::KEY_PRESS_EVENT, code, 0, 0);
+        self.button(true);
+        self.button(false);
+        self.fake(xproto::KEY_RELEASE_EVENT, code, 0, 0);
+    }
+
+    /// The code of the key with this symbol.
+    fn code(&self, symbol: u32) -> u8 {
         let setup = self.x.setup();
         let (first, last) = (setup.min_keycode, setup.max_keycode);
         let map = self.x.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
         let symbols = map.keysyms.chunks(map.keysyms_per_keycode.into());
         let index = symbols.into_iter().position(|row| row.first() == Some(&symbol));
-        let code = first + index.expect("the keyboard has the key") as u8;
-        self.fake(xproto::KEY_PRESS_EVENT, code, 0, 0);
-        self.fake(xproto::KEY_RELEASE_EVENT, code, 0, 0);
+        first + index.expect("the keyboard has the key") as u8
     }
 
     /// Moves the pointer to a place of the window.
@@ -360,6 +375,8 @@ pub const KEY_RETURN: u32 = 0xff0d;
 pub const KEY_ESCAPE: u32 = 0xff1b;
 /// Tab.
 pub const KEY_TAB: u32 = 0xff09;
+/// The key Ctrl.
+const KEY_CONTROL: u32 = 0xffe3;
 /// Home.
 pub const KEY_HOME: u32 = 0xff50;
 /// The space bar.

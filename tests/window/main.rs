@@ -89,6 +89,21 @@ fn a_window_shows_the_picture_and_answers_mouse_and_keys() {
 }
 
 #[test]
+fn a_pixel_that_is_clicked_has_its_rays_printed() {
+    let _alone = alone();
+    let desk = Desk::open("02_basic", &["--pixel", "click", "--size", "640x420"], &[]);
+    desk.picture();
+    desk.click_with_control((500, 300));
+    // What was asked after the click is answered after it.
+    desk.picture();
+    desk.key(KEY_ESCAPE);
+    let output = desk.end();
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(printed.starts_with("pixel 500,300 of 640x420\nray 1 · camera.rgen · "), "{printed}");
+    ended_well(output);
+}
+
+#[test]
 fn an_animation_is_stepped_played_and_paused_by_keys() {
     let _alone = alone();
     let paused = ["--validate", "--size", "640x420", "--set", "play=off", "--set", "frame=100"];

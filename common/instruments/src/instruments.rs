@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use anyhow::Result;
-use common::app::{self, Args, Files, Picture, Run, Watch};
-use common::gpu::GpuOptions;
+use common::app::{self, Args, Clicked, Files, Picture, Run, Watch};
+use common::gpu::{Gpu, GpuOptions};
 use common::output;
+use common::usage::Usage;
 
 use crate::compare::{self, Comparison};
+use crate::pixel::{Probe, Which};
 use crate::report::Report;
 use crate::sums::{Gather, Sums, resumed};
 use crate::{Options, compile_for};
@@ -22,13 +24,16 @@ pub struct Instruments {
     gather: Option<Gather>,
     comparison: Option<Comparison>,
     compiled_for: Vec<compile_for::CompiledFor>,
+    probe: Option<Probe>,
 }
 
 impl Instruments {
     /// Instruments that have seen nothing yet.
     pub fn new(options: Options) -> Self {
+        let probe = options.pixel.pixel.map(|_| Probe::new());
         Self {
             options,
+            probe,
             compared: None,
             resumed: None,
             gather: None,
@@ -46,16 +51,24 @@ impl Instruments {
 /// Refuses before the work what would be refused after it; for a program that renders by itself.
 ///
 /// # Errors
-/// If a file cannot be written, or is named twice.
+/// If a file cannot be written, or is named twice; if a pixel's rays are asked for.
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
+    if options.pixel.pixel.is_some() {
+        let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
+        return Err(Usage(why.to_owned()).into());
+    }
     app::files::check(args, &Instruments::new(options.clone()))?;
     Ok(options.report.check()?)
 }
 
 impl Watch for Instruments {
     fn needs_no_window(&self) -> bool {
-        let Options { compare, sums, compile_for, .. } = &self.options;
-        compare.compare.is_some() || sums.samples.is_some() || compile_for.compile_for.is_some()
+        let Options { compare, sums, compile_for, pixel, .. } = &self.options;
+        let named = matches!(pixel.pixel, Some(Which::At(_)));
+        named
+            || compare.compare.is_some()
+            || sums.samples.is_some()
+            || compile_for.compile_for.is_some()
     }
 
     fn files(&self) -> Files<'_> {
@@ -75,6 +88,17 @@ impl Watch for Instruments {
                 std::mem::take(&mut options.requirements).compiler_figures_where_offered();
         }
         options.emulation = Arc::new(self.options.arithmetic.or_seeded());
+        if let Some(probe) = &self.probe {
+            probe.device(options);
+        }
+    }
+
+    fn opened(&self, gpu: &Gpu) -> Result<()> {
+        self.probe.as_ref().map_or(Ok(()), |probe| probe.open(gpu))
+    }
+
+    fn clicked(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
+        self.probe.as_ref().map(|probe| probe.clicked(trace)).transpose()
     }
 
     fn check(&mut self, _: &Args) -> Result<()> {
@@ -86,6 +110,10 @@ impl Watch for Instruments {
     }
 
     fn begin(&mut self, run: &mut Run) -> Result<()> {
+        if let (Some(probe), Some(Which::At(pixel))) = (&self.probe, self.options.pixel.pixel) {
+            probe.frames(run, pixel)?;
+            run.frames.clear();
+        }
         if let Some((control, values)) = &self.compared {
             self.comparison = Some(compare::of_run(run, control, values)?);
             run.frames = std::iter::once(0..1).collect();
@@ -122,6 +150,7 @@ impl Watch for Instruments {
     }
 
     fn end(&mut self, run: &Run) -> Result<()> {
+        self.probe.iter().for_each(Probe::close);
         let Some(path) = &self.options.report.report else { return Ok(()) };
         let comparison = self.comparison.take();
         let compiled_for = std::mem::take(&mut self.compiled_for);

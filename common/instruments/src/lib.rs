@@ -5,11 +5,12 @@
 //! - [`sums`]: `--samples`, long renders that can be cut, stopped and merged
 //! - [`compile_for`]: `--compile-for`, what a GPU's compiler makes of a sample's pipelines
 //! - [`arithmetic`]: `--arithmetic worst`, as inexact as Vulkan lets any driver be
+//! - [`pixel`]: `--pixel`, the rays of one pixel as text
 //! - [`guard`]: how a program ends
 //!
 //! They meet the framework in two places. [`Instruments`] is a [`Watch`](common::app::Watch): it sees each frame
 //! and the end. [`Arithmetic`](arithmetic::Arithmetic) is an [`Emulation`](common::gpu::Emulation): it changes
-//! shaders' words and what builds are given.
+//! shaders' words and what builds are given; [`pixel`] has another.
 
 // The tests below run on the software driver.
 #[cfg(test)]
@@ -21,6 +22,7 @@ pub mod compile_for;
 pub mod guard;
 mod instruments;
 mod options;
+pub mod pixel;
 pub mod report;
 pub mod sums;
 

@@ -4,7 +4,7 @@ use common::app::Args;
 use common::usage::Usage;
 
 use crate::arithmetic::Arithmetic;
-use crate::{compare, compile_for, report, sums};
+use crate::{compare, compile_for, pixel, report, sums};
 
 /// What instruments are asked to do.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -27,6 +27,10 @@ pub struct Options {
     #[command(flatten)]
     pub compile_for: compile_for::Options,
 
+    /// `--pixel`.
+    #[command(flatten)]
+    pub pixel: pixel::Options,
+
     /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
     #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
     pub arithmetic: Arithmetic,
@@ -35,16 +39,18 @@ pub struct Options {
 impl Options {
     /// Whether nothing is asked of any instrument.
     pub fn are_none(&self) -> bool {
-        let Self { report, compare, sums, compile_for, arithmetic } = self;
+        let Self { report, compare, sums, compile_for, pixel, arithmetic } = self;
         let told = report.report.is_some() || report.compiler_figures;
         let rendered = compare.compare.is_some() || sums.samples.is_some();
         let compiled = compile_for.compile_for.is_some();
-        !(told || rendered || compiled) && arithmetic.or_seeded() == Arithmetic::Driver
+        let printed = pixel.pixel.is_some();
+        !(told || rendered || compiled || printed) && arithmetic.or_seeded() == Arithmetic::Driver
     }
 
     /// Refuses options that do not go together.
     fn check(&self, args: &Args) -> Result<(), Usage> {
         let asked = args.list_controls || self.compile_for.compile_for.is_some();
+        self.pixel.check(args)?;
         self.sums.check(asked || args.out.is_some() || self.report.report.is_some())
     }
 }

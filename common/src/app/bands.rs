@@ -99,9 +99,19 @@ impl Bands {
         (image, index, accumulated): (&Image, u32, u32),
     ) -> Result<Option<f64>> {
         let Some(area) = self.next() else { return Ok(None) };
+        let first_band = area.offset.y == 0;
         gpu.submit(|cmd| {
             timer.start(cmd);
-            sample.render(&Frame { gpu, cmd, image, area, index, accumulated, background })?;
+            sample.render(&Frame {
+                gpu,
+                cmd,
+                image,
+                area,
+                index,
+                accumulated,
+                first_band,
+                background,
+            })?;
             timer.stop(cmd);
             barrier::trace_to_trace(gpu, cmd);
             Ok(())
@@ -111,6 +121,35 @@ impl Bands {
         self.took(area, milliseconds);
         Ok(Some(milliseconds))
     }
+}
+
+/// Traces one pixel of a frame alone, as the whole frame would.
+///
+/// # Errors
+/// If the sample or the device fails.
+pub fn trace_pixel(
+    sample: &mut dyn Sample,
+    gpu: &Gpu,
+    (image, index, accumulated): (&Image, u32, u32),
+    [x, y]: [u32; 2],
+) -> Result<()> {
+    let offset = vk::Offset2D { x: x as i32, y: y as i32 };
+    let area = vk::Rect2D { offset, extent: vk::Extent2D { width: 1, height: 1 } };
+    gpu.submit(|cmd| {
+        let (first_band, background) = (true, None);
+        sample.render(&Frame {
+            gpu,
+            cmd,
+            image,
+            area,
+            index,
+            accumulated,
+            first_band,
+            background,
+        })?;
+        barrier::trace_to_trace(gpu, cmd);
+        Ok(())
+    })
 }
 
 #[cfg(test)]

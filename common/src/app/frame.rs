@@ -23,6 +23,8 @@ pub struct Frame<'a> {
     /// How many of the frames before belong to the same picture: all of them, or with `--samples` none, as
     /// each sample is a picture alone.
     pub accumulated: u32,
+    /// Whether no band of this frame was traced yet.
+    pub(super) first_band: bool,
     /// Where pipelines are made while the old picture stays: in a window.
     pub(super) background: Option<&'a Arc<Background>>,
 }
@@ -40,6 +42,6 @@ impl Frame<'_> {
 
     /// Whether no band of this frame was traced yet.
     pub fn is_first_band(&self) -> bool {
-        self.area.offset.y == 0
+        self.first_band
     }
 }

@@ -32,4 +32,4 @@ pub use run::{Run, check_validation};
 pub use sample::Sample;
 pub use setup::Setup;
 pub use variants::{Variant, Variants};
-pub use watch::{Files, Watch};
+pub use watch::{Clicked, Files, Watch};

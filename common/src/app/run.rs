@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
-use super::bands::Bands;
+use super::bands::{self, Bands};
 use super::{Args, Picture, Program, Sample, Setup, Watch, controls, files};
 use crate::gpu::{Gpu, Image, Messages, Timer};
 use crate::output;
@@ -49,6 +49,7 @@ impl<'a> Run<'a> {
         let mut options = args.device((program.requirements)());
         watch.device(&mut options);
         let gpu = Gpu::new(&options)?;
+        watch.opened(&gpu)?;
         files::check_size(&gpu, args.size)?;
         let setup = Setup::new(args);
         let mut sample = (program.make)(&gpu, &setup)?;
@@ -115,6 +116,15 @@ impl<'a> Run<'a> {
         let device = (&self.gpu, &self.timer, None);
         while bands.trace(&mut *self.sample, device, (&self.image, 0, 0))?.is_some() {}
         Ok(bands.times.iter().sum())
+    }
+
+    /// Traces one pixel of the frame with this number alone, as the whole frame would.
+    ///
+    /// # Errors
+    /// If the sample or the device fails.
+    pub fn trace_pixel(&mut self, pixel: [u32; 2], index: u32) -> Result<()> {
+        let frame = (&self.image, index, if self.apart { 0 } else { index });
+        bands::trace_pixel(&mut *self.sample, &self.gpu, frame, pixel)
     }
 
     /// The last frame.

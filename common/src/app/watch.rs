@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 
 use super::{Args, Picture, Run};
-use crate::gpu::GpuOptions;
+use crate::gpu::{Gpu, GpuOptions};
 
 /// What sees each frame of a run, and its end. `()` watches nothing.
 ///
@@ -23,6 +23,23 @@ pub trait Watch {
 
     /// Changes what a device is opened with: features that are asked for, the driver that is emulated.
     fn device(&self, _: &mut GpuOptions) {}
+
+    /// A device is opened, and nothing is made on it yet.
+    ///
+    /// # Errors
+    /// Whatever went wrong.
+    fn opened(&self, _: &Gpu) -> Result<()> {
+        Ok(())
+    }
+
+    /// In a window, a pixel was clicked with Ctrl held: what may have `trace` trace it alone, and then says what
+    /// became of it.
+    ///
+    /// # Errors
+    /// Whatever went wrong, here and in `trace`.
+    fn clicked(&self, _trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
+        Ok(None)
+    }
 
     /// Refuses what is known to be wrong before a device is opened.
     ///
@@ -74,6 +91,14 @@ pub trait Watch {
 }
 
 impl Watch for () {}
+
+/// A pixel that was traced alone in a window.
+pub struct Clicked {
+    /// Its column and row.
+    pub pixel: [u32; 2],
+    /// Columns and rows of the picture.
+    pub size: [u32; 2],
+}
 
 /// Files, each with the option that names it.
 #[derive(Default)]

@@ -20,7 +20,7 @@ use super::pipeline_cache::PipelineCache;
 use super::requirements::Requirements;
 use super::statistics::Statistics;
 use super::threads;
-use super::validation::Messages;
+use super::validation::{Heard, Messages};
 use crate::files::cache;
 use crate::output;
 
@@ -33,6 +33,8 @@ pub struct GpuOptions<'a> {
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
+    /// Hear what shaders print by `debugPrintfEXT`, where the validation layer is installed; without `validate`.
+    pub prints: bool,
     /// The window to draw to, if any: the device must have a queue that can.
     pub window: Option<WindowHandles>,
     /// The driver to be emulated, [`Plain`] for the one that there is.
@@ -46,6 +48,7 @@ impl Default for GpuOptions<'_> {
             requirements,
             device: None,
             validate: false,
+            prints: false,
             window: None,
             emulation: Arc::new(Plain),
         }
@@ -112,7 +115,12 @@ impl Gpu {
     pub fn new(options: &GpuOptions) -> Result<Self> {
         let mut options = options.clone();
         options.requirements = options.emulation.requirements(options.requirements);
-        let vulkan = Vulkan::new(options.validate, options.window.as_ref())?;
+        let heard = match (options.validate, options.prints) {
+            (true, _) => Some(Heard::Mistakes),
+            (false, true) => Some(Heard::Prints),
+            (false, false) => None,
+        };
+        let vulkan = Vulkan::new(heard, options.window.as_ref())?;
         let mut found = device::candidates(&vulkan.instance, &options.requirements)?;
         if let Some(window) = &options.window {
             device::require_presentation(&vulkan, window, &mut found)?;
@@ -159,7 +167,7 @@ impl Gpu {
             .inspect_err(|_| unsafe { device.destroy_device(None) })?;
         let features = &chosen.features;
         let tells_executables = features.executable.pipeline_executable_info == vk::TRUE;
-        Ok(Self(Arc::new(GpuContext {
+        let gpu = Self(Arc::new(GpuContext {
             acceleration_structure: khr::acceleration_structure::Device::new(instance, &device),
             ray_tracing_pipeline: khr::ray_tracing_pipeline::Device::new(instance, &device),
             push_descriptor: khr::push_descriptor::Device::new(instance, &device),
@@ -180,7 +188,11 @@ impl Gpu {
             chosen,
             queue,
             vulkan,
-        })))
+        }));
+        gpu.name_object(gpu.queue, "queue");
+        gpu.name_object(gpu.command_pool, "commands");
+        gpu.name_object(gpu.pipeline_cache.handle, "pipeline cache");
+        Ok(gpu)
     }
 
     /// Gives an object a name that validation messages and debuggers show.

@@ -246,7 +246,7 @@ pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Can
 /// # Errors
 /// If there is no Vulkan.
 pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
-    let found = candidates(&Vulkan::new(false, None)?.instance, wanted)?;
+    let found = candidates(&Vulkan::new(None, None)?.instance, wanted)?;
     ensure_some(&found)?;
     Ok(found.iter().map(Candidate::line).collect())
 }

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, anyhow};
 use ash::{Entry, Instance, ext, vk};
 use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
-use super::validation::{self, Messages, Messenger, Way};
+use super::validation::{self, Heard, Messages, Messenger, Way};
 
 /// The Vulkan loader and an instance, destroyed on drop: drop what was made from it before.
 pub struct Vulkan {
@@ -17,13 +17,18 @@ pub struct Vulkan {
 }
 
 impl Vulkan {
-    /// An instance, with validation if that is asked for, and with what a window needs if there is one.
+    /// An instance, with the validation layer if it is to be heard, and with what a window needs if there is
+    /// one.
     ///
     /// # Errors
     /// If there is no loader, no driver or no validation layer, or none that can draw to the window.
-    pub fn new(validate: bool, window: Option<&WindowHandles>) -> Result<Self> {
+    pub fn new(heard: Option<Heard>, window: Option<&WindowHandles>) -> Result<Self> {
         let entry = load()?;
-        let messages = if validate { Some(Messages::new(&entry)?) } else { None };
+        let messages = match heard.map(|heard| Messages::new(&entry, heard)) {
+            // Shaders that print nothing need no layer.
+            Some(Err(_)) if heard == Some(Heard::Prints) => None,
+            messages => messages.transpose()?,
+        };
         let instance = create(&entry, messages.as_deref(), window)?;
         let messenger = messages.map(|m| Messenger::new(&entry, &instance, m)).transpose()?;
         Ok(Self { entry, instance, messenger })
@@ -60,7 +65,7 @@ fn load() -> Result<Entry> {
     })
 }
 
-/// Creates an instance that gives objects names: with validation if there are `messages`, and with what a
+/// Creates an instance that gives objects names: with the validation layer if there are `messages`, and with what a
 /// window needs if there is one.
 fn create(
     entry: &Entry,
@@ -86,17 +91,18 @@ fn create(
         .application_info(&application)
         .enabled_layer_names(&layers)
         .enabled_extension_names(&extensions);
-    let (setting, mut settings, mut features, mut messenger);
+    let (setting, mut settings, feature, mut features, mut messenger);
     if let Some(messages) = messages {
         info = match messages.way() {
             Way::Settings => {
-                setting = validation::settings();
+                setting = validation::settings(messages.heard());
                 settings = vk::LayerSettingsCreateInfoEXT::default().settings(&setting);
                 info.push_next(&mut settings)
             }
             Way::Features => {
-                features = vk::ValidationFeaturesEXT::default()
-                    .enabled_validation_features(&validation::FEATURES);
+                feature = validation::features(messages.heard());
+                features =
+                    vk::ValidationFeaturesEXT::default().enabled_validation_features(&feature);
                 info.push_next(&mut features)
             }
         };

@@ -17,6 +17,7 @@ impl Queries {
         let info = vk::QueryPoolCreateInfo::default().query_type(kind).query_count(count);
         // SAFETY: the device is alive; the pool is destroyed on drop.
         let handle = unsafe { gpu.device.create_query_pool(&info, None)? };
+        gpu.name_object(handle, &format!("queries: {kind:?}"));
         Ok(Self { handle, count, gpu: gpu.clone() })
     }
 

@@ -36,6 +36,9 @@ pub struct Shader {
     pub text: String,
 }
 
+/// What a shader's `PRINT` is unless somebody listens: nothing.
+const SILENT_PRINT: &str = "PRINT(format, value)";
+
 /// Whether shaders are another's than the book's.
 pub fn are_others() -> bool {
     std::env::var_os("SHADERS").is_some() || home::folder().is_some()
@@ -183,8 +186,8 @@ pub fn to_spirv(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Ve
         version_profile: None,
         messages: ShaderMessage::DEFAULT,
     };
-    let defines: Vec<_> =
-        defines.iter().map(|(name, value)| (*name, Some(value.as_str()))).collect();
+    let defines = defines.iter().map(|(name, value)| (*name, Some(value.as_str())));
+    let defines: Vec<_> = defines.chain([(SILENT_PRINT, None)]).collect();
     let input = ShaderInput::new(&source, stage, &options, Some(&defines), None);
     let compiled = input.and_then(|input| {
         let shader = compiler.create_shader(input)?;

@@ -70,6 +70,7 @@ impl Swapchain {
         };
         // SAFETY: the device is alive; the semaphore is destroyed on drop.
         swapchain.acquired = unsafe { gpu.device.create_semaphore(&Default::default(), None)? };
+        gpu.name_object(swapchain.acquired, "image acquired");
         swapchain.make_surface()?;
         let (srgb, unorm) = swapchain.format()?.1;
         (swapchain.srgb, swapchain.unorm) = (srgb, unorm);
@@ -257,8 +258,10 @@ impl Swapchain {
             };
             self.handle = handle;
             self.images = self.swapchains.get_swapchain_images(handle)?;
-            for _ in &self.images {
+            for &image in &self.images {
+                self.gpu.name_object(image, "image of the window");
                 let semaphore = self.gpu.device.create_semaphore(&Default::default(), None)?;
+                self.gpu.name_object(semaphore, "image drawn");
                 self.drawn.push(semaphore);
             }
         }

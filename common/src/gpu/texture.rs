@@ -71,7 +71,11 @@ impl TextureTable {
             .image_info(&infos);
         // SAFETY: the set is not in use; the images live beside it.
         unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
-        gpu.name_object(table.set, "texture table");
+        let name = "texture table";
+        gpu.name_object(table.set, name);
+        gpu.name_object(table.layout, name);
+        gpu.name_object(table.pool, name);
+        gpu.name_object(table.sampler, name);
         Ok(table)
     }
 

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ffi::{CStr, c_void};
 use std::io::Write;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail};
 use ash::{Entry, Instance, ext, vk};
@@ -42,12 +42,24 @@ fn is_known_false(layer_version: u32, id_name: &str, text: &str) -> bool {
     layer_version == DEBIAN_12 && KNOWN_FALSE.iter().any(says)
 }
 
+/// What the layer is heard for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Heard {
+    /// Mistakes in the use of Vulkan.
+    #[default]
+    Mistakes,
+    /// What shaders say by `debugPrintfEXT`, and nothing else: each has the layer change shaders in its own way.
+    Prints,
+}
+
 /// Messages collected while a device lived.
 #[derive(Default)]
 pub struct Messages {
     layer_version: u32,
     /// How the layer is told what to check.
     way: Way,
+    heard: Heard,
+    printed: Mutex<Vec<String>>,
     kept: Mutex<Vec<String>>,
     seen: Mutex<HashSet<i32>>,
 }
@@ -58,11 +70,16 @@ impl Messages {
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
     }
 
+    /// What shaders have printed since this was called last, a line each.
+    pub fn take_printed(&self) -> Vec<String> {
+        std::mem::take(&mut self.printed.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// An empty collection for the installed layer.
     ///
     /// # Errors
     /// If the layer is not installed, with what to install.
-    pub fn new(entry: &Entry) -> Result<Arc<Self>> {
+    pub fn new(entry: &Entry, heard: Heard) -> Result<Arc<Self>> {
         // SAFETY: the entry was loaded from a Vulkan loader and is alive.
         let layers = unsafe { entry.enumerate_instance_layer_properties()? };
         let Some(layer) = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(LAYER))
@@ -79,7 +96,12 @@ impl Messages {
             .iter()
             .any(|offer| offer.extension_name_as_c_str() == Ok(ext::layer_settings::NAME));
         let way = if settings { Way::Settings } else { Way::Features };
-        Ok(Arc::new(Self { layer_version: layer.spec_version, way, ..Self::default() }))
+        Ok(Arc::new(Self { layer_version: layer.spec_version, way, heard, ..Self::default() }))
+    }
+
+    /// What the layer is heard for.
+    pub fn heard(&self) -> Heard {
+        self.heard
     }
 
     /// How the layer is told what to check.
@@ -95,14 +117,26 @@ impl Messages {
             DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type,
         };
         let address: *const Self = self;
+        let printed = match self.heard {
+            Heard::Mistakes => Severity::empty(),
+            Heard::Prints => Severity::INFO,
+        };
         vk::DebugUtilsMessengerCreateInfoEXT::default()
-            .message_severity(Severity::WARNING | Severity::ERROR)
+            .message_severity(Severity::WARNING | Severity::ERROR | printed)
             .message_type(Type::GENERAL | Type::VALIDATION | Type::PERFORMANCE)
             .pfn_user_callback(Some(on_message))
             .user_data(address.cast_mut().cast())
     }
 
     fn record(&self, id_name: &str, id: i32, severity: &str, text: &str) {
+        if self.heard == Heard::Prints {
+            // What the layer says of itself stands under the same name, such as that its buffer is full.
+            if id_name.to_ascii_uppercase().contains("DEBUG-PRINTF") {
+                let mut printed = self.printed.lock().unwrap_or_else(PoisonError::into_inner);
+                printed.push(said(text).to_owned());
+            }
+            return;
+        }
         // The loader and drivers talk about the machine, not about this program's use of Vulkan.
         let about_the_machine = id_name == "Loader Message" || id_name.starts_with("MESA");
         if about_the_machine || is_known_false(self.layer_version, id_name, text) {
@@ -120,6 +154,12 @@ impl Messages {
         }
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(message);
     }
+}
+
+/// What a shader printed, without what the layer says before it.
+fn said(text: &str) -> &str {
+    let rest = text.split_once("| MessageID = ").map(|(_, rest)| rest);
+    rest.and_then(|rest| rest.split_once("| ")).map_or(text, |(_, rest)| rest).trim()
 }
 
 /// What reports to [`Messages`] while an instance lives; dropped before it.
@@ -151,7 +191,7 @@ impl Drop for Messenger {
     }
 }
 
-/// How the layer is told to check synchronization, too, on top of its defaults.
+/// How the layer is told what to do on top of its defaults.
 #[derive(Clone, Copy, Default)]
 pub enum Way {
     /// `VK_EXT_layer_settings`: a setting of the layer's own.
@@ -171,12 +211,15 @@ impl Way {
     }
 }
 
-/// What [`Way::Settings`] takes: the layer's setting for synchronization validation, on.
-pub fn settings() -> [vk::LayerSettingEXT<'static>; 1] {
+/// What [`Way::Settings`] takes: the layer's setting for synchronization validation or for prints, on.
+pub fn settings(heard: Heard) -> [vk::LayerSettingEXT<'static>; 1] {
     const ON: vk::Bool32 = vk::TRUE;
     let mut setting = vk::LayerSettingEXT::default()
         .layer_name(LAYER)
-        .setting_name(c"validate_sync")
+        .setting_name(match heard {
+            Heard::Mistakes => c"validate_sync",
+            Heard::Prints => c"printf_enable",
+        })
         .ty(vk::LayerSettingTypeEXT::BOOL32);
     // One value: ash would count its bytes.
     (setting.value_count, setting.p_values) = (1, std::ptr::from_ref(&ON).cast());
@@ -184,8 +227,12 @@ pub fn settings() -> [vk::LayerSettingEXT<'static>; 1] {
 }
 
 /// What [`Way::Features`] takes.
-pub const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
-    [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+pub fn features(heard: Heard) -> [vk::ValidationFeatureEnableEXT; 1] {
+    [match heard {
+        Heard::Mistakes => vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION,
+        Heard::Prints => vk::ValidationFeatureEnableEXT::DEBUG_PRINTF,
+    }]
+}
 
 unsafe extern "system" fn on_message(
     severity: vk::DebugUtilsMessageSeverityFlagsEXT,
@@ -215,6 +262,14 @@ unsafe extern "system" fn on_message(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_print_is_told_without_its_layers_words() {
+        let old = "Validation Information: [ UNASSIGNED-DEBUG-PRINTF ] Object 0: handle = 0x5, type = \
+                   VK_OBJECT_TYPE_DEVICE; | MessageID = 0x92394c89 | a | b = 1";
+        assert_eq!(said(old), "a | b = 1");
+        assert_eq!(said("t = 2\n"), "t = 2");
+    }
 
     #[test]
     fn what_an_old_layer_does_not_know_is_believed_of_a_newer_one() {

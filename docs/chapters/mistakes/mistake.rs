@@ -12,6 +12,7 @@ use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
 
+use crate::pages::reference::slug;
 use crate::patches::copy::file_on_the_way;
 use crate::patches::patch::{self, Field, Patch};
 use crate::pictures::stamp;
@@ -21,8 +22,7 @@ use crate::sources::hash;
 pub const FOLDER: &str = "docs/mistakes";
 
 /// What a file of a mistake looks like.
-const FORM: &str =
-    "write a title, a blank line, `Chapter: NN_name` and the other fields, a blank line, a diff";
+const FORM: &str = "write a title, a blank line, `Symptom: WORDS`, `Chapter: NN_name` and the other fields, a blank line, a diff";
 
 /// What a mistake does.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +60,8 @@ pub struct Mistake {
     pub name: String,
     /// Its title.
     pub title: String,
+    /// What is seen: a word that it is sorted by, a colon, and a few more.
+    pub symptom: String,
     /// The chapter that makes it.
     pub chapter: String,
     /// The program's arguments, as in a shell.
@@ -114,6 +116,7 @@ impl Mistake {
             return Err(wrong(1, "a mistake is a file NAME.diff".to_owned(), "rename it"));
         };
         let mut patch = Patch::parse(file, text, FORM)?;
+        let symptom = patch.field("Symptom")?.value;
         let Field { line, value: chapter, .. } = patch.field("Chapter")?;
         if project.named(&chapter).is_none() {
             let what = format!("there is no chapter '{chapter}'");
@@ -141,6 +144,7 @@ impl Mistake {
         Ok(Self {
             name: name.to_owned(),
             title: patch.title.clone(),
+            symptom,
             chapter,
             arguments,
             outcome,
@@ -253,6 +257,22 @@ impl Mistake {
 pub fn gallery(project: &Project) -> String {
     let sections: Vec<String> = Mistake::all(project).0.iter().map(Mistake::section).collect();
     sections.join("\n")
+}
+
+/// A table of every mistake by what is seen: like symptoms stand together.
+pub fn symptoms(project: &Project) -> String {
+    let mut mistakes = Mistake::all(project).0;
+    mistakes.sort_by_key(|mistake| mistake.symptom.to_lowercase());
+    let row = |mistake: &Mistake| {
+        let Mistake { title, symptom, .. } = mistake;
+        let picture = mistake.picture();
+        let (picture, anchor) = (picture.trim_start_matches("docs/"), slug(title));
+        format!("| [![{title}]({picture})](#{anchor}) | {symptom} | [{title}](#{anchor}) |\n")
+    };
+    let rows: String = mistakes.iter().map(row).collect();
+    format!(
+        "| as it should be, and as it is | what you see | what it may be |\n|---|---|---|\n{rows}"
+    )
 }
 
 #[cfg(test)]

@@ -56,6 +56,9 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
         (Kind::Mistakes, []) => {
             Ok((mistake::gallery(programs.project), mistake::FOLDER.to_owned()))
         }
+        (Kind::Symptoms, []) => {
+            Ok((mistake::symptoms(programs.project), mistake::FOLDER.to_owned()))
+        }
         (Kind::Gallery, []) => {
             Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
         }

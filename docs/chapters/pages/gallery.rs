@@ -24,6 +24,7 @@ const AFTER: &[(&str, &str)] = &[
     ("long-renders.md", "Long renders"),
     ("limits.md", "Limits"),
     ("wrong-pictures.md", "When the picture is wrong"),
+    ("debugging.md", "Debugging a ray"),
     ("devices.md", "What was tested"),
     ("glossary.md", "Glossary"),
 ];

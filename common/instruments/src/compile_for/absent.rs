@@ -35,7 +35,7 @@ pub fn compile(
     blueprints: &[Blueprint],
 ) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
-    let vulkan = Vulkan::new(false, None)?;
+    let vulkan = Vulkan::new(None, None)?;
     // Such as "AMD Radeon RX 7900 XTX (RADV NAVI31)", or "Null hardware (RADV NAVI31)".
     let name = format!("(RADV {})", family.to_uppercase());
     let mut found = device::candidates(&vulkan.instance, &requirements)?.into_iter();

@@ -43,12 +43,13 @@ const CAMERA: [(&str, &str); 9] = [
     ("1 … 9", "bookmark · Ctrl stores"),
 ];
 
-const WINDOW: [(&str, &str); 7] = [
+const WINDOW: [(&str, &str); 8] = [
     ("Space", "play, pause"),
     (",  .", "a frame back, forward"),
     ("F1  H  ?", "this help"),
     ("F2  P", "write the picture (PNG)"),
     ("F5", "reload shaders · also on save"),
+    ("Ctrl click", "print a pixel's rays · --pixel click"),
     ("Tab", "panel"),
     ("Esc", "quit"),
 ];

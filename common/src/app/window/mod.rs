@@ -191,11 +191,13 @@ impl ApplicationHandler<Wake> for Shows<'_> {
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match (&mut self.shown, event) {
             (Shown::Session(_), WindowEvent::CloseRequested) => events.exit(),
-            (Shown::Session(session), WindowEvent::RedrawRequested) => match session.draw() {
-                Ok(true) => {}
-                Ok(false) => events.exit(),
-                Err(error) => self.stop(events, error),
-            },
+            (Shown::Session(session), WindowEvent::RedrawRequested) => {
+                match session.draw(self.of.watch) {
+                    Ok(true) => {}
+                    Ok(false) => events.exit(),
+                    Err(error) => self.stop(events, error),
+                }
+            }
             (Shown::Session(session), event) => session.take(&event),
             (Shown::Lost(_), WindowEvent::CloseRequested) => self.choose(events, Choice::Leave),
             (Shown::Lost(lost), WindowEvent::RedrawRequested) => match lost.draw() {

@@ -48,6 +48,7 @@ impl Painter {
             .queue_family_index(gpu.queue_family);
         // SAFETY: the device is alive; the pool is destroyed on drop.
         let pool = unsafe { gpu.device.create_command_pool(&info, None)? };
+        gpu.name_object(pool, "commands of the panel");
         // SAFETY: the physical device belongs to the live instance.
         let picture = unsafe {
             let format = vk::Format::R32G32B32A32_SFLOAT;

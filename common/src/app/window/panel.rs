@@ -2,7 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Align, Align2, Area, Context, Id, Layout, RichText, ScrollArea, Sense, Ui};
+use egui::{
+    Align, Align2, Area, Context, Event, Id, InputState, Layout, PointerButton, Response, RichText,
+    ScrollArea, Sense, Ui,
+};
 
 use super::compiler;
 use super::facts::{Facts, rays};
@@ -28,6 +31,8 @@ pub struct Outcome {
     pub changed: bool,
     /// Keys that ask something of the window, in order.
     pub asked: Vec<Ask>,
+    /// Where the picture was clicked with Ctrl held, in parts of its width and height.
+    pub clicked: Option<[f32; 2]>,
 }
 
 impl Outcome {
@@ -35,6 +40,7 @@ impl Outcome {
     pub fn merge(&mut self, other: Self) {
         self.changed |= other.changed;
         self.asked.extend(other.asked);
+        self.clicked = other.clicked.or(self.clicked);
     }
 }
 
@@ -92,6 +98,7 @@ impl Panel {
         place.min.x += self.strip(place.width());
         let picture = ui.interact(place, Id::new("picture"), Sense::drag());
         context.input(|input| self.navigation.drag(&picture, input));
+        outcome.clicked = context.input(|input| clicked(&picture, input));
         // While a number is being typed, keys are its digits.
         if !context.text_edit_focused() {
             context.input(|input| self.navigation.keys(input));
@@ -238,6 +245,21 @@ impl Panel {
         };
         ui.label(RichText::new(text).small().color(style::DIM));
     }
+}
+
+/// Where the picture is clicked with Ctrl held, in parts of its width and height.
+fn clicked(picture: &Response, input: &InputState) -> Option<[f32; 2]> {
+    // The key may be up again by the end of the frame.
+    let released = |event: &Event| match event {
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed: false, modifiers } => {
+            Some(*pos).filter(|_| modifiers.command)
+        }
+        _ => None,
+    };
+    let at = input.events.iter().find_map(released);
+    let at = at.filter(|at| input.pointer.primary_clicked() && picture.rect.contains(*at))?;
+    let part = (at - picture.rect.min) / picture.rect.size();
+    Some([part.x, part.y])
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use super::lost;
 use super::pace::{Pace, Step};
 use crate::app::playback::Clock;
 use crate::app::variants::Background;
-use crate::app::{Bands, Picture, Sample};
+use crate::app::{Bands, Clicked, Picture, Sample, bands};
 use crate::gpu::{Gpu, Image, Timer};
 
 /// For how long bands are traced before the window looks for input again.
@@ -252,6 +252,22 @@ impl View {
         let took = self.bands.trace(&mut *self.sample, device, frame)?;
         self.spent += took.unwrap_or_default();
         Ok(self.bands.next().is_none())
+    }
+
+    /// Traces the pixel of the last picture at a place, in parts of its width and height, alone. The next picture
+    /// begins anew: a mean would have that pixel twice.
+    ///
+    /// # Errors
+    /// If the sample or the device fails.
+    pub fn trace_pixel(&mut self, part: [f32; 2]) -> Result<Clicked> {
+        let vk::Extent2D { width, height } = self.image.extent;
+        let size = [width, height];
+        let at = |i: usize| ((part[i] * size[i] as f32) as u32).min(size[i] - 1);
+        let pixel = [at(0), at(1)];
+        bands::trace_pixel(&mut *self.sample, &self.gpu, (&self.image, 0, 0), pixel)?;
+        self.bands.stop();
+        self.change();
+        Ok(Clicked { pixel, size })
     }
 
     /// Puts the picture that is whole in the place of the last.

@@ -39,6 +39,7 @@ impl WindowOnGpu {
         options.window = Some(handles);
         watch.device(&mut options);
         let gpu = Gpu::new(&options)?;
+        watch.opened(&gpu)?;
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);

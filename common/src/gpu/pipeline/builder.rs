@@ -296,6 +296,7 @@ impl<'a> PipelineBuilder<'a> {
         pipeline.handle = made.with_context(cannot)?;
         gpu.name_object(pipeline.handle, &blueprint.name);
         gpu.name_object(layout, &blueprint.name);
+        gpu.name_object(set_layout, &blueprint.name);
         pipeline.build_time = start.elapsed();
         if let Some(device) = &gpu.executable_properties {
             let executables = Executable::all(device, pipeline.handle)?;

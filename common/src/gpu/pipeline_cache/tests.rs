@@ -146,7 +146,7 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
 #[ignore = "run by a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done"]
 fn make_a_pipeline_for_radv() {
     let requirements = Requirements::ray_tracing().textures();
-    let vulkan = Vulkan::new(false, None).unwrap();
+    let vulkan = Vulkan::new(None, None).unwrap();
     let chosen = device::candidates(&vulkan.instance, &requirements).unwrap().remove(0);
     let options = GpuOptions { requirements, ..GpuOptions::default() };
     let gpu = Gpu::open(vulkan, chosen, options).unwrap();

@@ -7,6 +7,7 @@ use ash::vk;
 use egui::{FullOutput, ViewportId};
 
 use super::Session;
+use crate::app::Watch;
 use crate::app::window::keys::Ask;
 use crate::app::window::panel::Outcome;
 use crate::app::window::view::Stepped;
@@ -19,7 +20,7 @@ impl Session {
     ///
     /// # Errors
     /// If the sample, the device or the window system fails.
-    pub fn draw(&mut self) -> Result<bool> {
+    pub fn draw(&mut self, watch: &dyn Watch) -> Result<bool> {
         let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.
@@ -31,6 +32,10 @@ impl Session {
         }
         if outcome.asked.contains(&Ask::Leave) {
             return Ok(false);
+        }
+        if let Some(part) = outcome.clicked {
+            let told = watch.clicked(&mut || self.view.trace_pixel(part))?;
+            told.into_iter().for_each(|told| self.panel.tell(told));
         }
         let area = self.area(extent, drawing.pixels_per_point);
         let stepped = self.view.step(area)?;

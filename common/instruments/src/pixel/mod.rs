@@ -1,0 +1,200 @@
+//! `--pixel`: the rays of one pixel as text, with the numbers that shaders saw, and what shaders print there.
+//!
+//! The pixel is traced alone, so no shader has to ask which pixel is meant. Each shader is compiled with lines of
+//! [`stages`] around it, which write down what it does; files of shaders stay as they are.
+
+mod float;
+mod log;
+mod stages;
+
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use anyhow::{Result, bail};
+use ash::vk::BufferUsageFlags as Usage;
+use common::app::{Args, Clicked, Run};
+use common::gpu::{Buffer, Gpu, GpuOptions};
+use common::output;
+use common::usage::Usage as Wrong;
+
+use self::log::{Log, WORDS};
+use self::stages::Stages;
+
+/// What is asked of a pixel.
+#[derive(Clone, Debug, Default, clap::Args)]
+#[group(skip)]
+pub struct Options {
+    /// Print the rays of this pixel, and what shaders PRINT there, instead of a picture; `click`: of each pixel
+    /// that is clicked in the window with Ctrl held
+    #[arg(
+        long,
+        value_name = "X,Y|click",
+        value_parser = which,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["validate", "out", "report", "compare", "samples", "compile_for", "arithmetic"]
+    )]
+    pub pixel: Option<Which>,
+}
+
+/// Which pixels are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The one in this column and row.
+    At([u32; 2]),
+    /// Those that are clicked.
+    Clicked,
+}
+
+fn which(text: &str) -> Result<Which, String> {
+    let numbers = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+    match numbers {
+        _ if text == "click" => Ok(Which::Clicked),
+        Some((Ok(x), Ok(y))) => Ok(Which::At([x, y])),
+        _ => Err("a pixel is a column and a row, such as 480,300, from the top left corner 0,0; or click"
+            .to_owned()),
+    }
+}
+
+impl Options {
+    /// Refuses a pixel that there is not.
+    ///
+    /// # Errors
+    /// With what is wrong.
+    pub fn check(&self, args: &Args) -> Result<(), Wrong> {
+        let (width, height) = (args.size.width, args.size.height);
+        match self.pixel {
+            Some(Which::Clicked) if args.headless => Err(Wrong(
+                "--pixel click is for a window; without one, name a pixel, such as --pixel 480,300"
+                    .to_owned(),
+            )),
+            Some(Which::At([x, y])) if x >= width || y >= height => Err(Wrong(format!(
+                "pixel {x},{y} lies outside the picture of {width}x{height}: the last is {},{}",
+                width - 1,
+                height - 1
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What watches a pixel.
+pub struct Probe {
+    stages: Arc<Stages>,
+    opened: Mutex<Option<(Gpu, Buffer)>>,
+}
+
+impl Probe {
+    /// A probe, and what it asks of a device.
+    pub fn new() -> Self {
+        Self { stages: Arc::default(), opened: Mutex::default() }
+    }
+
+    /// Changes what a device is opened with.
+    pub fn device(&self, options: &mut GpuOptions) {
+        options.prints = true;
+        options.emulation = self.stages.clone();
+    }
+
+    /// Makes the log on a device.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn open(&self, gpu: &Gpu) -> Result<()> {
+        let usage = Usage::SHADER_DEVICE_ADDRESS
+            | Usage::STORAGE_BUFFER
+            | Usage::TRANSFER_SRC
+            | Usage::TRANSFER_DST;
+        let log = Buffer::new(gpu, "ray log", 4 * (WORDS + 1), usage)?;
+        self.stages.place(log.address);
+        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = Some((gpu.clone(), log));
+        Ok(())
+    }
+
+    /// Frees the log.
+    pub fn close(&self) {
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).take();
+    }
+
+    /// Prints the rays of a pixel, frame after frame.
+    ///
+    /// # Errors
+    /// If nothing was traced or printed, or the sample or the device fails.
+    pub fn frames(&self, run: &mut Run, pixel: [u32; 2]) -> Result<()> {
+        let size = [run.image.extent.width, run.image.extent.height];
+        run.sample.changed(&run.gpu)?;
+        for index in 0..run.args.frames {
+            if let (true, Some(playback)) = (index > 0, run.sample.playback()) {
+                playback.advance(1);
+            }
+            let told = self.told(&mut || {
+                run.trace_pixel(pixel, index)?;
+                Ok(Clicked { pixel, size })
+            })?;
+            output::print(&format!("{} · frame {index} · {told}", run.name))?;
+        }
+        Ok(())
+    }
+
+    /// Prints the rays of a pixel that was clicked, and says so.
+    ///
+    /// # Errors
+    /// If the sample or the device fails.
+    pub fn clicked(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<String> {
+        Ok(match self.told(trace) {
+            Ok(told) => {
+                output::print(&told)?;
+                "the pixel's rays are printed".to_owned()
+            }
+            Err(error) => format!("{error:#}"),
+        })
+    }
+
+    /// What shaders write down while `trace` traces a pixel.
+    fn told(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<String> {
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some((gpu, log)) = &*opened else { bail!("no device was opened") };
+        let layer = gpu.validation();
+        layer.take_printed();
+        log.write(0, &[0u32])?;
+        let Clicked { pixel: [x, y], size: [width, height] } = trace()?;
+        let (words, printed, known) =
+            (log.read::<u32>()?, layer.take_printed(), self.stages.known());
+        let written = words[0] as usize;
+        let room = written.min(WORDS as usize);
+        if Log::is_of_many(&words[1..1 + room]) {
+            bail!(
+                "this program traces whole rows at once: --pixel cannot tell one pixel's rays from the others'"
+            );
+        }
+        let (text, rays) = Log::text(&words[1..1 + room], &known, &printed);
+        let mut told = format!("pixel {x},{y} of {width}x{height}\n{text}");
+        if written > room {
+            let _ =
+                writeln!(told, "the log is full: {written} words, and there is room for {WORDS}");
+        }
+        let printing = known.iter().find(|known| known.prints);
+        if let (Some(shader), true) = (printing, gpu.vulkan.messenger.is_none()) {
+            bail!(
+                "PRINT in '{}' takes VK_LAYER_KHRONOS_validation, which is not installed: run ./setup, or \
+                 install your system's Vulkan validation layers",
+                shader.path
+            );
+        }
+        match (rays, printed.is_empty(), printing) {
+            (0, true, _) => bail!(
+                "no shader traced a ray or printed anything for pixel {x},{y}: write PRINT(\"t = %f\", t); where \
+                 it comes by"
+            ),
+            (_, true, Some(shader)) => {
+                let _ = writeln!(
+                    told,
+                    "no shader printed anything for pixel {x},{y}: PRINT(...) in '{}' was not reached, or its stage \
+                     is one from which the validation layer tells nothing",
+                    shader.path
+                );
+            }
+            _ => {}
+        }
+        Ok(told)
+    }
+}
