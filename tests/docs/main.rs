@@ -12,6 +12,7 @@ mod new;
 mod nightly;
 mod stale;
 mod survey;
+mod variants;
 
 use std::fs;
 use std::path::Path;

@@ -162,7 +162,8 @@ fn parts(clause: &str) -> Vec<Part> {
 fn words(text: &str) -> Vec<String> {
     let text = text.to_lowercase().replace('−', "-").replace('’', "'");
     let split = text.split_whitespace().flat_map(|word| {
-        let compound = word.contains('-') && !word.contains(|c: char| c.is_ascii_digit() || c == '=');
+        let compound =
+            word.contains('-') && !word.contains(|c: char| c.is_ascii_digit() || c == '=');
         word.split(if compound && !word.starts_with('-') { '-' } else { ' ' })
     });
     let plain = split.map(|word| {
@@ -201,7 +202,8 @@ mod tests {
     fn what_matters_is_found_in_any_order_and_form() {
         let right = ["up", "Up.", "+y", "White  King", "the king is white", "it looks up, I think"];
         assert_eq!(accepted("up | +y | the white king", "down", &right), [true; 6]);
-        let touch = ["at the edge where the squares touch", "where they touch", "the touching edges"];
+        let touch =
+            ["at the edge where the squares touch", "where they touch", "the touching edges"];
         assert_eq!(accepted("edge | touch", "middle", &touch), [true; 3]);
         let wrong = ["", "king", "y", "the", "down"];
         assert_eq!(accepted("up | +y | the white king", "down", &wrong), [false; 5]);
@@ -228,7 +230,8 @@ mod tests {
 
     #[test]
     fn numbers_are_compared_as_numbers() {
-        let right = ["40", "44.0", "42.5", "about 42 frames", "about 42: 16 are too few", "1,600", "1600"];
+        let right =
+            ["40", "44.0", "42.5", "about 42 frames", "about 42: 16 are too few", "1,600", "1600"];
         assert_eq!(accepted("40 to 44 | 1,600", "", &right), [true; 7]);
         let wrong = ["39", "45", "42 or 45", "40 to 50", "no"];
         assert_eq!(accepted("40 to 44", "", &wrong), [false; 5]);

@@ -89,7 +89,11 @@ impl ExerciseArguments {
         match &exercises[..] {
             [exercise] if one && !self.list => self.about(project, exercise),
             _ => {
-                let asked = self.check || self.hint || self.solution || self.target || self.answer.is_some();
+                let asked = self.check
+                    || self.hint
+                    || self.solution
+                    || self.target
+                    || self.answer.is_some();
                 if asked || self.folder.is_some() {
                     let what = "a chapter has several exercises: name one, such as";
                     let first = exercises.first().map_or("05.2".to_owned(), Exercise::to_string);
@@ -243,7 +247,9 @@ fn target(exercise: &Exercise, bench: &Workbench, progress: &Progress) -> Result
     };
     if !progress.shows_target(exercise) {
         let failed = progress.failures(exercise);
-        bail!("the target of {exercise} is shown once two attempts have failed, not after {failed}");
+        bail!(
+            "the target of {exercise} is shown once two attempts have failed, not after {failed}"
+        );
     }
     print(&format!("{}: the target with {}\n", bench.target(arguments)?, quoted(arguments)))
 }

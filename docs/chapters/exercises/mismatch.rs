@@ -11,9 +11,7 @@ use serde_json::Value;
 use super::expectation::Expectation;
 use super::interval::Interval;
 use crate::patches::edition::Tested;
-use crate::pictures::difference::{
-    darker_and_brighter, mean_difference, pixels_apart, same_bits,
-};
+use crate::pictures::difference::{darker_and_brighter, mean_difference, pixels_apart, same_bits};
 use crate::programs::command_line::quoted;
 use crate::programs::run_result::RunResult;
 

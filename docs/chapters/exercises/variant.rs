@@ -112,11 +112,8 @@ fn variants(exercise: &Exercise) -> Result<Vec<Variant>, Fault> {
                     continue;
                 };
                 let (before, after) = (&text[..at + from], &text[at + from + number.len()..]);
-                let patch = Patch::parse(
-                    &exercise.patch.file,
-                    &format!("{before}{other}{after}"),
-                    FORM,
-                )?;
+                let patch =
+                    Patch::parse(&exercise.patch.file, &format!("{before}{other}{after}"), FORM)?;
                 tried.push(other);
                 let what = Exempt { number: number.to_owned(), change };
                 found.push(Variant { what, line: code[1..].trim().to_owned(), patch });
@@ -138,8 +135,7 @@ fn numbers(code: &str) -> Vec<(usize, &str)> {
         }
         let from = at;
         while at < bytes.len()
-            && (is_name(bytes[at])
-                || b"+-".contains(&bytes[at]) && b"eE".contains(&bytes[at - 1]))
+            && (is_name(bytes[at]) || b"+-".contains(&bytes[at]) && b"eE".contains(&bytes[at - 1]))
         {
             at += 1;
         }

@@ -220,9 +220,7 @@ impl<'a> Workbench<'a> {
     /// The solution; of Rust code the pictures that were kept, for it fits no edited code.
     fn solution(&self) -> Solution<'a> {
         match self.exercise.takes {
-            Takes::File | Takes::Rust => {
-                Solution::kept(self.programs, self.exercise, &self.kept())
-            }
+            Takes::File | Takes::Rust => Solution::kept(self.programs, self.exercise, &self.kept()),
             _ => Solution::new(self.programs, self.exercise),
         }
     }
@@ -264,8 +262,9 @@ impl<'a> Workbench<'a> {
             watcher.wait()?;
             // A program that runs cannot be built anew everywhere.
             let again = self.exercise.takes != Takes::Shader && window.take().is_some();
-            let missed =
-                self.missed_with(&originals, &solution).unwrap_or_else(|error| Some(format!("{error:#}")));
+            let missed = self
+                .missed_with(&originals, &solution)
+                .unwrap_or_else(|error| Some(format!("{error:#}")));
             interrupt::asked()?;
             if again {
                 window = self.window().ok();

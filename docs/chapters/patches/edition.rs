@@ -93,7 +93,9 @@ impl Edition {
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", programs);
                 let what = match self {
-                    Self::Copy(_) => format!("building {chapter} in a copy, minutes the first time"),
+                    Self::Copy(_) => {
+                        format!("building {chapter} in a copy, minutes the first time")
+                    }
                     _ => format!("building {chapter}"),
                 };
                 cargo.args(["--quiet", "--bin", chapter]);

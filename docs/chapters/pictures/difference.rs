@@ -29,7 +29,8 @@ pub fn darker_and_brighter(own: &Picture, other: &Picture) -> (usize, usize) {
 
 /// Where two pictures of one size differ, in red; the first is faint behind it.
 pub fn marked(own: &Picture, other: &Picture) -> Picture {
-    let pairs = own.srgb().chunks(3).zip(other.srgb().chunks(3)).map(|(a, b)| a != b).collect::<Vec<_>>();
+    let pairs =
+        own.srgb().chunks(3).zip(other.srgb().chunks(3)).map(|(a, b)| a != b).collect::<Vec<_>>();
     let paint = |(pixel, apart): (&[f32; 4], bool)| match apart {
         true => [1.0, 0.0, 0.0, 1.0],
         false => {
