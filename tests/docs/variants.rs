@@ -28,8 +28,7 @@ fn a_variant_that_is_the_same_is_told_by_its_exercise() {
     let fixture = Fixture::new();
     let file = "docs/exercises/02.1.diff";
     let whole = fixture.read(file);
-    let of_white =
-        "Same: 1.0 doubled because white is white\nSame: 1.0 a tenth more because of that\n";
+    let of_white = "Same: 1.0 doubled, a tenth more because white is white\n";
     let of_grey = "Same: 1.0 halved because grey is white\n";
     for (same, code, end) in [
         (

@@ -151,7 +151,9 @@ impl Exercise {
         let answer = patch.field_if_any("Answer")?;
         let wrong_answer = patch.field_if_any("Wrong")?;
         let same = patch.fields_of(&["Same"]);
-        let same = same.iter().map(|field| Exempt::parse(file, field)).collect::<Result<_, _>>()?;
+        let same: Vec<Vec<Exempt>> =
+            same.iter().map(|field| Exempt::parse(file, field)).collect::<Result<_, _>>()?;
+        let same = same.concat();
         let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
         patch.no_other_field("an exercise")?;
         let what = match (takes, &answer, patch.is_empty()) {

@@ -51,7 +51,7 @@ impl fmt::Display for Change {
     }
 }
 
-/// A variant that gives the same picture, as the exercise's file says: `Same: 2.0 doubled because …`.
+/// Variants that give the same picture, as the exercise's file says: `Same: 2.0 halved, doubled because …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exempt {
     number: String,
@@ -59,16 +59,19 @@ pub struct Exempt {
 }
 
 impl Exempt {
-    /// Reads it.
+    /// Reads them, one for each change.
     ///
     /// # Errors
-    /// If it is none.
-    pub fn parse(file: &str, field: &Field) -> Result<Self, Fault> {
+    /// If there is none.
+    pub fn parse(file: &str, field: &Field) -> Result<Vec<Self>, Fault> {
         let claim = field.value.split_once(" because ").map(|(claim, _)| claim);
-        let read = || {
-            let (number, how) = claim?.split_once(' ')?;
-            let (change, _) = Change::WORDS.into_iter().find(|(_, word)| *word == how)?;
-            Some(Self { number: number.to_owned(), change })
+        let read = || -> Option<Vec<Self>> {
+            let (number, changes) = claim?.split_once(' ')?;
+            let exempt = |how: &str| {
+                let (change, _) = Change::WORDS.into_iter().find(|(_, word)| *word == how)?;
+                Some(Self { number: number.to_owned(), change })
+            };
+            changes.split(", ").map(exempt).collect()
         };
         read().ok_or_else(|| {
             let what = format!("'{}' does not say which variant is the same", field.value);
