@@ -107,6 +107,13 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
             "3: what takes only looking asks a question; add `Answer: …`",
         ),
         ("Why:", "Answer: white\nWhy:", "3: what is solved by a diff has no answer; remove it"),
+        ("Minutes: 1", "", "1: there is no field 'Minutes'; write a title"),
+        ("Minutes: 1", "Minutes: few", "11: 'few' is no number of minutes; write a whole number"),
+        (
+            "Minutes:",
+            "Same: 1.0 gone because x\nMinutes:",
+            "11: '1.0 gone because x' does not say which variant is the same; write `Same: 2.0",
+        ),
         ("Hint:", "Help:", "1: there is no field 'Hint'; write a title"),
         ("Hint:", "Text: x\nHint:", "6: the field 'Text' stands here a second time; remove one"),
         ("Why:", "Who:", "10: 'Who' is no field of an exercise; write a title"),
@@ -117,9 +124,9 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
             "7: '\"--size 50x30' is no run; write the program's arguments",
         ),
         ("50x30", "50x30 --out a.png", "7: --out is added to every run; remove it"),
-        ("differs by 0.05", "is white", "8: 'is white' is no expectation; write differs by 0.01"),
+        ("as the solution", "is white", "8: 'is white' is no expectation; write as the solution"),
         (
-            "differs by 0.05",
+            "as the solution",
             "passes",
             "8: 'passes' does not belong to this run; of tests it is `passes`",
         ),
@@ -144,12 +151,28 @@ fn an_exercise_that_is_none_is_named_with_its_line() {
     let text = fixture.read(look);
     fixture.write(
         look,
-        &text.replace("Answer: up", "Answer: 45 to 55").replace("50x30", "50x30 --frames 50"),
+        &text
+            .replace("Answer: up", "Answer: 45 to 55")
+            .replace("It looks up.", "About 50.")
+            .replace("50x30", "50x30 --frames 50"),
     );
     let told = fixture.run(&["exercise", "--list"]).err;
     let line =
         "3: the first run, which a reader is shown, holds the answer: 50; begin with another run";
     assert_eq!(told, format!("error: {look}:{line}\n"));
+    for (from, to, what) in [
+        ("Wrong: down\n", "", "nothing tells a wrong answer; add `Wrong: …`"),
+        (
+            "Wrong: down",
+            "Wrong: north | up",
+            "the wrong answer 'up' is accepted; mend `Answer`, `Wrong`",
+        ),
+        ("looks up", "looks around", "its own `Check` is not accepted as an answer; mend `Answer`"),
+    ] {
+        fixture.write(look, &text.replace(from, to));
+        let told = fixture.run(&["exercise", "--list"]).err;
+        assert!(told.starts_with(&format!("error: {look}:3: {what}")), "{told}");
+    }
     fixture.write(look, &text);
     for (file, what) in [
         ("docs/exercises/07.1.diff", "1: there is no chapter 07; rename it"),
@@ -181,14 +204,14 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
     let file = "docs/exercises/02.1.diff";
     let prove = |name| fixture.run(&["exercise", name, "--prove"]);
     let outcome = prove("02.1");
-    let solved =
-        "02.1: differs by 0.0000, not at least 0.05 with --size 50x30; solved by its solution\n";
+    let solved = "02.1: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with --size 50x30; \
+         solved by its solution\n";
     assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
     assert_eq!(prove("02.2").out, "02.2: its answer holds\n");
     let whole = fixture.read(file);
     for (from, to, end) in [
         (
-            "Expect: differs by 0.05\nExpect: pixels 255 255 255: 1500\n",
+            "Expect: as the solution\nExpect: pixels 255 255 255: 1500\n",
             "Expect: same\n",
             "solved before its solution",
         ),
@@ -200,7 +223,7 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
         (
             "vec4(1.0));",
             "white);",
-            "not solved by its solution: shader does not compile: 02_basic/camera.rgen:",
+            "the solution has no picture: shader does not compile: 02_basic/camera.rgen:",
         ),
     ] {
         fixture.write(file, &whole.replace(from, to));
@@ -215,17 +238,29 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
         "show=normal --size 50x30\nE",
         "show=picture --size 50x30\nE",
     );
-    assert!(prove("02.2").out.contains("its answer does not hold: differs by 0.0000"));
+    assert!(prove("02.2").out.contains("its answer does not hold: no pixel differs"));
 }
 
 #[test]
 fn a_readers_copy_is_checked_and_never_overwritten() {
     let fixture = Fixture::new();
     let ask = |words: &[&str]| fixture.run(&[&["exercise", "02.1"], words].concat());
-    let unsolved = "error: 02.1 is not solved yet: differs by 0.0000, not at least 0.05 with --size 50x30: \
-                    yours target/exercises/02.1.png, the book's target/exercises/02.1.other.png\n";
-    let outcome = ask(&["--check"]);
-    assert_eq!((outcome.code, &*outcome.err), (1, unsolved));
+    let unsolved = "error: 02.1 is not solved yet: 1500 of 1500 pixels differ from the target, 1500 of them \
+                    darker and 0 brighter with --size 50x30: yours target/exercises/02.1.png, where they differ \
+                    target/exercises/02.1.other.png";
+    // The target would give the solution away: first one tries.
+    let target = ask(&["--target"]);
+    let early = "error: the target of 02.1 is shown once two attempts have failed, not after 0\n";
+    assert_eq!((target.code, &*target.err), (1, early));
+    for offer in ["\n", "; --target shows the target of 02.1\n"] {
+        let outcome = ask(&["--check"]);
+        assert_eq!((outcome.code, &*outcome.err), (1, &*format!("{unsolved}{offer}")));
+        assert!(!fixture.path("target/exercises/02.1.target.png").exists());
+    }
+    let target = ask(&["--target"]);
+    let shown = "target/exercises/02.1.target.png: the target with --size 50x30\n";
+    assert_eq!((target.code, &*target.out), (0, shown), "{}", target.err);
+    assert!(fixture.path("target/exercises/02.1.target.png").is_file());
     for picture in ["02.1.png", "02.1.other.png"] {
         let picture = fixture.path("target/exercises").join(picture);
         assert!(picture.is_file(), "{} is not kept", picture.display());
@@ -250,6 +285,52 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     assert!(fixture.read(camera).contains("// mine"));
     // The book's own shaders are as they were.
     assert!(fixture.read("shaders/02_basic/camera.rgen").contains("payload);"));
+}
+
+/// What readers of the book have answered.
+#[test]
+fn answers_are_judged_by_what_matters_in_them() {
+    for (name, answer, right) in [
+        ("29.5", "at the edge where the squares touch", true),
+        ("17.1", "nearly all of them go", true),
+        ("05.1", "for those that face away", true),
+        ("12.5", "it is red", true),
+        ("12.5", "not red", false),
+        ("38.1", "along x or Morton", false),
+        ("02.6", "no idea", false),
+    ] {
+        // In a project of its own: the reader's progress is the reader's.
+        let fixture = Fixture::new();
+        let file = "docs/exercises/02.2.diff";
+        let text = fs::read_to_string(::run::root().join(format!("docs/exercises/{name}.diff")));
+        let text = text.expect("an exercise");
+        let field = |key: &str| text.lines().find(|line| line.starts_with(key)).expect("a field");
+        let told: String = ["Takes", "Minutes", "Check", "Hint", "Answer", "Wrong"]
+            .map(|k| field(k).to_owned() + "\n")
+            .concat();
+        fixture.write(file, &format!("T\n\nText: x\n{told}"));
+        let outcome = fixture.run(&["exercise", "02.2", "--answer", answer]);
+        assert_eq!(outcome.code, i32::from(!right), "{name}: {answer}: {}", outcome.err);
+    }
+}
+
+/// A script takes the place of Cargo.
+#[test]
+#[cfg(unix)]
+fn who_waits_is_told_for_what() {
+    use std::os::unix::fs::PermissionsExt;
+    let fixture = Fixture::new();
+    let cargo = fixture.path("cargo");
+    fs::write(&cargo, "#!/bin/sh\nsleep 2\necho error: no >&2\nexit 1\n").expect("a script");
+    fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("it may be run");
+    for (name, what) in [
+        ("02.3", "waiting: building 02_basic"),
+        ("01.1", "waiting: building the tests of samples, minutes the first time"),
+    ] {
+        let outcome = run(fixture.command(&["exercise", name, "--check"]).env("CARGO", &cargo));
+        assert_eq!(outcome.code, 1, "{}", outcome.err);
+        assert!(outcome.waits.iter().any(|wait| wait == what), "{:?}", outcome.waits);
+    }
 }
 
 /// A program that ends with its test, even where that fails.
@@ -281,7 +362,7 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
             break;
         }
     }
-    assert_eq!(told[0], "02.1 · Make it white (shader)");
+    assert_eq!(told[0], "02.1 · Make it white (shader, 1 minute)");
     let edit =
         "Edit in target/exercises/02.1, a copy of the shaders: 02_basic/camera.rgen (void main)";
     assert!(told.iter().any(|line| line == edit), "{told:#?}");
@@ -291,21 +372,25 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
     // The check's text comes with the verdict, once the exercise is solved.
     assert!(!told.iter().any(|line| line.contains("Check:")), "{told:#?}");
     let last = told.last().expect("a line");
-    let first = "not yet: differs by 0.0000, not at least 0.05 with --size 50x30: yours ";
+    let first = "not yet: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with";
     assert!(last.starts_with(first), "{last}");
     fixture.replace(camera, "payload);", "payload) // half");
     let line = next();
     assert!(line.starts_with("not yet: shader does not compile: 02_basic/camera.rgen:"), "{line}");
     fixture.replace(camera, "payload) // half", "vec4(0.9));");
-    // Nothing is compared here, and no picture of the save before is left.
-    let pixels = "not yet: 0 pixels are [255, 255, 255], not 1500 with --size 50x30: target/exercises/02.1.png";
+    let pixels = "not yet: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with \
+                  --size 50x30: yours target/exercises/02.1.png, where they differ \
+                  target/exercises/02.1.other.png; --target shows the target of 02.1";
     assert_eq!(next(), pixels);
-    assert!(!fixture.path("target/exercises/02.1.other.png").exists());
+    assert!(fixture.path("target/exercises/02.1.other.png").is_file());
     fixture.replace(camera, "vec4(0.9)", "vec4(1.0)");
     assert_eq!(next(), "02.1 is solved.");
     assert!(child.0.wait().expect("an end").success());
     let list = fixture.run(&["exercise", "02"]).out;
-    assert!(list.starts_with("02.1  shader        solved  Make it white\n02.2  look "), "{list}");
+    assert!(
+        list.starts_with("02.1  shader         1 min  solved  Make it white\n02.2  look "),
+        "{list}"
+    );
 }
 
 #[test]

@@ -22,8 +22,10 @@ pub struct Outcome {
     pub code: i32,
     /// Standard output.
     pub out: String,
-    /// Standard error.
+    /// Standard error, but for what it waits for: that depends on the machine.
     pub err: String,
+    /// What it waited for.
+    pub waits: Vec<String>,
 }
 
 /// The tool and the two programs, in a folder of their own.
@@ -134,7 +136,11 @@ pub fn run(command: &mut Command) -> Outcome {
     let output = command.output().expect("the tool starts");
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     let code = output.status.code().expect("an exit code");
-    Outcome { code, out: text(output.stdout), err: text(output.stderr) }
+    let said = text(output.stderr);
+    let (waits, err): (Vec<&str>, Vec<&str>) =
+        said.split_inclusive('\n').partition(|line| line.starts_with("waiting: "));
+    let waits = waits.iter().map(|line| line.trim_end().to_owned()).collect();
+    Outcome { code, out: text(output.stdout), err: err.concat(), waits }
 }
 
 fn entries(folder: &Path) -> Vec<PathBuf> {
@@ -269,6 +275,7 @@ Takes: shader, test
 Text: Change `one.rgen`.
 Check: `cargo test --test samples basic::first` fails.
 Hint: The test reads it.
+Minutes: 5
 Run: (test) basic::first
 Expect: fails
 
@@ -285,9 +292,11 @@ Expect: fails
 
 Takes: look
 Text: Write `two.rgen` after exercise 1. Is there a file `two.rgen` now?
-Check: `two.rgen` is there.
+Check: yes: `two.rgen` is there.
 Hint: You have written it.
 Answer: yes
+Wrong: no
+Minutes: 2
 "#,
     ),
     (
@@ -299,9 +308,10 @@ Text: Let `camera.rgen` write white.
 Check: The picture is white, all 1,500 pixels of it.
 Hint: White is `vec4(1.0)`.
 Run: --size 50x30
-Expect: differs by 0.05
+Expect: as the solution
 Expect: pixels 255 255 255: 1500
 Why: The picture is what is stored.
+Minutes: 1
 
 --- shaders/02_basic/camera.rgen
 +++ shaders/02_basic/camera.rgen
@@ -321,6 +331,8 @@ Hint: Green is y.
 Run: --set show=normal --size 50x30
 Expect: differs by 0.05 from --size 50x30
 Answer: up | +y | to the sky | 40 to 44
+Wrong: down
+Minutes: 2
 "#,
     ),
     (
@@ -333,6 +345,7 @@ Check: The same picture to the bit.
 Hint: There is a macro.
 Run: --size 50x30
 Expect: same
+Minutes: 10
 
 --- samples/01_one/main.rs
 +++ samples/01_one/main.rs

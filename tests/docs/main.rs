@@ -13,6 +13,7 @@ mod nightly;
 mod stale;
 mod start;
 mod survey;
+mod variants;
 
 use std::fs;
 use std::path::Path;

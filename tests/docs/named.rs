@@ -209,7 +209,7 @@ fn exercises_without_a_list_or_a_definition_are_named_with_file_and_line() {
         (
             "a solution that does not fit",
             |f| f.replace("docs/exercises/01.1.diff", "-    // first", "-    // the first"),
-            "docs/exercises/01.1.diff:12: this hunk does not fit shaders/01_one/one.rgen",
+            "docs/exercises/01.1.diff:13: this hunk does not fit shaders/01_one/one.rgen",
             "; make the patch again",
         ),
     ];

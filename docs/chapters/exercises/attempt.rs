@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use anyhow::{Context, Error, Result, bail};
+use anyhow::{Context, Result, bail};
 use common::app::Picture;
 use flip::near::Near;
 use patience::Limit;
@@ -14,13 +14,15 @@ use super::exercise::{Exercise, Takes};
 use super::expectation::{Expectation, Other};
 use super::mismatch::Mismatch;
 use super::proof::{Run, Step, sized};
-use crate::patches::edition::{Edition, Patched};
+use super::solution::Solution;
+use crate::patches::edition::Edition;
+use crate::pictures::difference::marked;
 use crate::programs::program::Programs;
 use crate::programs::run_result::{RunResult, is_software};
 use crate::sources::hash::hash;
 
 /// How long a program may take.
-const LIMIT: Limit = Limit::worked(120);
+pub const LIMIT: Limit = Limit::worked(120);
 
 /// The book's own pictures, each rendered once.
 pub struct Originals<'a> {
@@ -45,7 +47,7 @@ impl<'a> Originals<'a> {
     ///
     /// # Errors
     /// If one cannot be rendered or written.
-    pub fn keep(&self, exercise: &Exercise, folder: &Path) -> Result<()> {
+    pub fn keep(&self, exercise: &Exercise, solution: &Solution, folder: &Path) -> Result<()> {
         let above = folder.parent().context("a folder lies in a folder")?;
         fs::create_dir_all(above).with_context(|| format!("cannot make '{}'", above.display()))?;
         let whole = tempfile::tempdir_in(above).context("cannot make a temporary folder")?;
@@ -56,6 +58,7 @@ impl<'a> Originals<'a> {
                 picture.save(&whole.path().join(name(&chapter, &arguments)))?;
             }
         }
+        solution.keep(whole.path())?;
         fs::rename(whole.keep(), folder)
             .with_context(|| format!("cannot make '{}'", folder.display()))
     }
@@ -83,7 +86,8 @@ impl<'a> Originals<'a> {
             return Ok(picture.clone());
         }
         let command = Edition::Book.command(self.programs, chapter)?;
-        let seen = RunResult::of(command, arguments, LIMIT)?;
+        let what = format!("rendering the book's {chapter}");
+        let seen = RunResult::saying(command, arguments, LIMIT, &what)?;
         let picture =
             seen.picture.with_context(|| format!("{chapter} fails as it is: {}", seen.said))?;
         known().insert(key, picture.clone());
@@ -118,6 +122,19 @@ pub struct Attempt<'a> {
     pub originals: &'a Originals<'a>,
     /// The exercise.
     pub exercise: &'a Exercise,
+    /// What solves it.
+    pub solution: &'a Solution<'a>,
+}
+
+/// Which expectations of an exercise an edition is held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Held {
+    /// Those that tell whether a reader has solved it.
+    Reader,
+    /// As a reader's, but for tests, which take minutes to build.
+    Pictures,
+    /// All: what the page says of the solution's picture, too.
+    All,
 }
 
 impl Attempt<'_> {
@@ -126,13 +143,26 @@ impl Attempt<'_> {
     /// # Errors
     /// If it cannot be told: a program is not built, the book's own run fails.
     pub fn verdict(&self, edition: &Edition) -> Result<Verdict> {
+        self.verdict_of(edition, Held::Reader)
+    }
+
+    /// Whether an edition solves the exercise as far as runs of the program tell.
+    ///
+    /// # Errors
+    /// As [`Attempt::verdict`].
+    pub fn looks_solved(&self, edition: &Edition) -> Result<bool> {
+        Ok(self.verdict_of(edition, Held::Pictures)?.missed.is_none())
+    }
+
+    fn verdict_of(&self, edition: &Edition, held: Held) -> Result<Verdict> {
         let mut first = None;
         for step in &self.exercise.steps {
             let missed = match &step.run {
                 Run::Program(arguments) => {
                     let command = edition.command(self.programs, &self.exercise.chapter)?;
-                    let seen = RunResult::of(command, arguments, LIMIT)?;
-                    let missed = self.missed(edition, step, arguments, &seen)?;
+                    let what = format!("rendering {}", self.exercise);
+                    let seen = RunResult::saying(command, arguments, LIMIT, &what)?;
+                    let missed = self.missed((edition, held), step, arguments, &seen)?;
                     if let Some(missed) = missed {
                         let picture = seen.picture;
                         return Ok(Verdict { missed: Some(missed), picture });
@@ -140,6 +170,7 @@ impl Attempt<'_> {
                     first = first.or(seen.picture);
                     None
                 }
+                Run::Test(..) if held == Held::Pictures => None,
                 Run::Test(program, filter) => {
                     let tested = edition.test(self.programs, (program, filter))?;
                     let mut expectations = step.expectations.iter();
@@ -147,10 +178,11 @@ impl Attempt<'_> {
                         expectations.find_map(|expected| expected.missed_by_tests(&tested));
                     missed
                         .map(|missed| format!("{missed} with cargo test --test {program} {filter}"))
+                        .map(Mismatch::from)
                 }
             };
             if let Some(missed) = missed {
-                return Ok(Verdict { missed: Some(missed.into()), picture: first });
+                return Ok(Verdict { missed: Some(missed), picture: first });
             }
         }
         Ok(Verdict { missed: None, picture: first })
@@ -159,7 +191,7 @@ impl Attempt<'_> {
     /// What is not as it should be about one run of the program.
     fn missed(
         &self,
-        edition: &Edition,
+        (edition, held): (&Edition, Held),
         step: &Step,
         arguments: &[String],
         seen: &RunResult,
@@ -192,15 +224,28 @@ impl Attempt<'_> {
                 self.originals.picture(&chapter, &arguments)
             }
         };
-        for expectation in &step.expectations {
-            let with = expectation.other();
-            let compared = with.map(|with| Ok::<_, Error>((with.clone(), other(with)?)));
-            let compared = compared.transpose()?;
-            let picture = compared.as_ref().map(|(_, picture)| picture);
+        let is_as_solution = |one: &Expectation| matches!(one, Expectation::AsSolution(_));
+        let judged = step.expectations.iter().any(is_as_solution) && held != Held::All;
+        let asked = step.expectations.iter().filter(|one| !(judged && one.describes()));
+        for expectation in asked {
+            let as_solution = is_as_solution(expectation);
+            let with = match expectation.other() {
+                Some(with) => Some((with.to_string(), other(with)?)),
+                None if as_solution => {
+                    Some(("where they differ".to_owned(), self.solution.picture(arguments)?))
+                }
+                None => None,
+            };
+            let picture = with.as_ref().map(|(_, picture)| picture);
             let near = || self.near(seen.device());
             if let Some(what) = expectation.missed(seen, picture, &near)? {
                 let arguments = Some(arguments.to_vec());
-                return Ok(Some(Mismatch { what, arguments, compared }));
+                // The target itself would give the solution away.
+                let beside = with.map(|(what, picture)| match (&seen.picture, as_solution) {
+                    (Some(own), true) => (what, marked(own, &picture)),
+                    _ => (what, picture),
+                });
+                return Ok(Some(Mismatch { what, arguments, beside }));
             }
         }
         Ok(None)
@@ -229,7 +274,7 @@ impl Attempt<'_> {
             bail!("{file}: its answer does not hold: {missed}");
         }
         let before = before.with_context(|| format!("{file}: solved before its solution"))?;
-        let solved = || self.verdict(&Patched::of(self.programs.project, &exercise.patch)?.edition);
+        let solved = || self.verdict_of(self.solution.edition()?, Held::All);
         let after = solved().with_context(|| file.clone())?.missed;
         match after {
             None => Ok(format!("{exercise}: {before}; solved by its solution")),

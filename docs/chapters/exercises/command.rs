@@ -11,8 +11,11 @@ use manuscript::project::Project;
 use super::attempt::{Attempt, Originals};
 use super::exercise::{Exercise, Takes};
 use super::progress::Progress;
+use super::solution::Solution;
+use super::variant;
 use super::window::has_display;
 use super::workbench::{Workbench, solved};
+use crate::programs::command_line::quoted;
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 use crate::programs::workers;
@@ -38,6 +41,9 @@ pub struct ExerciseArguments {
     /// Make the solution's changes where you edit
     #[arg(long, requires = "solution")]
     apply: bool,
+    /// Write the picture of the solution beside yours, once two attempts have failed
+    #[arg(long, group = "what")]
+    target: bool,
     /// Answer the question of an exercise that takes only looking
     #[arg(long, value_name = "WORDS", group = "what", allow_hyphen_values = true)]
     answer: Option<String>,
@@ -50,6 +56,9 @@ pub struct ExerciseArguments {
     /// For authors: hold exercises to what their files claim, unsolved before the solution, solved after it
     #[arg(long, group = "what")]
     prove: bool,
+    /// For authors: hold that each solution with one number halved, doubled, negated or a tenth more is refused
+    #[arg(long, group = "what")]
+    vary: bool,
 }
 
 impl ExerciseArguments {
@@ -59,7 +68,7 @@ impl ExerciseArguments {
     /// If it cannot be done, or the exercise is not solved yet where that is asked.
     pub fn run(&self, project: &Project) -> Result<()> {
         interrupt::listen();
-        if self.prove {
+        if self.prove || self.vary {
             return self.prove(project);
         }
         let exercises = match &self.names[..] {
@@ -80,7 +89,11 @@ impl ExerciseArguments {
         match &exercises[..] {
             [exercise] if one && !self.list => self.about(project, exercise),
             _ => {
-                let asked = self.check || self.hint || self.solution || self.answer.is_some();
+                let asked = self.check
+                    || self.hint
+                    || self.solution
+                    || self.target
+                    || self.answer.is_some();
                 if asked || self.folder.is_some() {
                     let what = "a chapter has several exercises: name one, such as";
                     let first = exercises.first().map_or("05.2".to_owned(), Exercise::to_string);
@@ -104,21 +117,26 @@ impl ExerciseArguments {
         if let Some(answer) = &self.answer {
             return answer_to(exercise, answer, &mut progress);
         }
+        if self.target {
+            return target(exercise, &bench, &progress);
+        }
         if self.check {
             return check(exercise, &bench, &mut progress);
         }
         let takes = exercise.takes();
         let title = &exercise.patch.title;
-        let heading = format!("{exercise} · {title} ({takes})\n\n{}\n\n", exercise.text);
+        let time = exercise.time();
+        let heading = format!("{exercise} · {title} ({takes}, {time})\n\n{}\n\n", exercise.text);
         // What is seen once it is done would give the answer away.
         if exercise.takes == Takes::Look {
             bench.set_up()?;
             print(&heading)?;
             return self.look(exercise, &bench);
         }
+        print(&heading)?;
         let there = bench.set_up()?;
         let on = if there { "You go on where you left it.\n" } else { "" };
-        print(&format!("{heading}{}{on}\n", bench.introduction()))?;
+        print(&format!("{}{on}\n", bench.introduction()))?;
         bench.practise(!self.headless && has_display(), &mut progress)
     }
 
@@ -136,7 +154,7 @@ impl ExerciseArguments {
         if !self.apply {
             let why =
                 exercise.why.as_ref().map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
-            let answers = exercise.answers.join(", or ");
+            let answers = exercise.answers.right.join(", or ");
             return match exercise.takes {
                 Takes::Look => {
                     print(&format!("Answer: {answers}\nCheck: {}\n{why}", exercise.check))
@@ -164,12 +182,21 @@ impl ExerciseArguments {
         if self.names.is_empty() {
             exercises = Exercise::whole(project)?;
         }
+        if self.vary {
+            // Of Rust code each variant would be built.
+            exercises.retain(|exercise| exercise.takes == Takes::Shader);
+        }
         let programs = &Programs::beside_this(project)?;
         let originals = &Originals::new(programs);
         // Printed as they come: those that are built take minutes.
         let prove = |exercise: &Exercise| {
             interrupt::asked()?;
-            let line = Attempt { programs, originals, exercise }.prove();
+            let line = if self.vary {
+                variant::prove(programs, originals, exercise)
+            } else {
+                let solution = &Solution::new(programs, exercise);
+                Attempt { programs, originals, exercise, solution }.prove()
+            };
             interrupt::asked()?;
             let proved = line.is_ok();
             print(&format!("{}\n", line.unwrap_or_else(|error| format!("{error:#}"))))
@@ -193,12 +220,38 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
     }
     bench.set_up()?;
     match bench.missed()? {
-        Some(missed) => bail!("{exercise} is not solved yet: {missed}"),
+        Some(missed) => {
+            progress.count_failure(exercise)?;
+            let target = offer(exercise, progress);
+            bail!("{exercise} is not solved yet: {missed}{target}")
+        }
         None => {
             progress.note(exercise)?;
             print(&solved(exercise))
         }
     }
+}
+
+/// What to add to a failure once the target may be shown.
+pub fn offer(exercise: &Exercise, progress: &Progress) -> String {
+    match progress.shows_target(exercise) {
+        true => format!("; --target shows the target of {exercise}"),
+        false => String::new(),
+    }
+}
+
+fn target(exercise: &Exercise, bench: &Workbench, progress: &Progress) -> Result<()> {
+    let Some(arguments) = exercise.target().filter(|_| exercise.takes != Takes::Look) else {
+        let what = format!("exercise {exercise} has no target: no picture tells that it is solved");
+        return Err(Usage(what).into());
+    };
+    if !progress.shows_target(exercise) {
+        let failed = progress.failures(exercise);
+        bail!(
+            "the target of {exercise} is shown once two attempts have failed, not after {failed}"
+        );
+    }
+    print(&format!("{}: the target with {}\n", bench.target(arguments)?, quoted(arguments)))
 }
 
 fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Result<()> {
@@ -207,7 +260,7 @@ fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Resu
             format!("exercise {exercise} asks no question; --check tells whether it is solved");
         return Err(Usage(what).into());
     }
-    if !exercise.accepts(answer) {
+    if !exercise.answers.accept(answer) {
         bail!("'{answer}' is not the answer; --hint helps");
     }
     progress.note(exercise)?;
@@ -219,7 +272,8 @@ fn list(project: &Project, exercises: &[Exercise]) -> Result<()> {
     let line = |exercise: &Exercise| {
         let done = if progress.has(exercise) { "solved" } else { "" };
         let (name, takes) = (exercise.to_string(), exercise.takes());
-        format!("{name:5} {takes:13} {done:7} {}\n", exercise.patch.title)
+        let time = format!("{} min", exercise.minutes);
+        format!("{name:5} {takes:13} {time:>6}  {done:7} {}\n", exercise.patch.title)
     };
     print(&exercises.iter().map(line).collect::<String>())
 }

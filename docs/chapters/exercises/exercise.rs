@@ -11,15 +11,17 @@ use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project};
 
-use super::interval::{Interval, number};
+use super::answer::Answers;
+use super::expectation::Expectation;
 use super::proof::{Run, Step, steps};
+use super::variant::Exempt;
 use crate::patches::patch::{self, Field, Patch};
 
 /// Where the exercises lie.
 pub const FOLDER: &str = "docs/exercises";
 
 /// What a file of an exercise looks like.
-const FORM: &str = "write a title, a blank line, `Takes: shader`, `Text`, `Check`, `Hint`, `Run` with its \
+pub const FORM: &str = "write a title, a blank line, `Takes: shader`, `Minutes: 5`, `Text`, `Check`, `Hint`, `Run` with its \
     `Expect` lines, a blank line, the diff that solves it";
 
 /// What an exercise takes.
@@ -54,6 +56,8 @@ pub struct Exercise {
     pub number: usize,
     /// What it takes.
     pub takes: Takes,
+    /// How long it takes a reader, waiting included.
+    pub minutes: u32,
     /// What is to be done.
     pub text: String,
     /// What is seen once it is done.
@@ -63,9 +67,11 @@ pub struct Exercise {
     /// What the result teaches.
     pub why: Option<String>,
     /// What answers the question of one that takes only looking.
-    pub answers: Vec<String>,
+    pub answers: Answers,
     /// What proves that it is solved.
     pub steps: Vec<Step>,
+    /// Which variants of the solution give the same picture.
+    pub same: Vec<Exempt>,
     /// Its title, and what solves it.
     pub patch: Patch,
 }
@@ -134,13 +140,26 @@ impl Exercise {
             let what = format!("an exercise takes no '{takes}'");
             return wrong(line, &what, "write look, shader, file or Rust");
         };
+        let minutes = patch.field("Minutes")?;
+        let Some(minutes) = minutes.value.parse().ok().filter(|minutes| *minutes > 0) else {
+            let what = format!("'{}' is no number of minutes", minutes.value);
+            return wrong(minutes.line, &what, "write a whole number");
+        };
         let mut text_of = |key| patch.field(key).map(|field| field.value);
         let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
         let why = patch.field_if_any("Why")?.map(|field| field.value);
         let answer = patch.field_if_any("Answer")?;
+        let wrong_answer = patch.field_if_any("Wrong")?;
+        let same = patch.fields_of(&["Same"]);
+        let same: Vec<Vec<Exempt>> =
+            same.iter().map(|field| Exempt::parse(file, field)).collect::<Result<_, _>>()?;
+        let same = same.concat();
         let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
         patch.no_other_field("an exercise")?;
         let what = match (takes, &answer, patch.is_empty()) {
+            (Takes::Look, Some(_), _) if wrong_answer.is_none() => {
+                Some(("nothing tells a wrong answer", "add `Wrong: …`"))
+            }
             (Takes::Look, Some(_), true) => None,
             (Takes::Look, None, _) => {
                 Some(("what takes only looking asks a question", "add `Answer: …`"))
@@ -168,11 +187,26 @@ impl Exercise {
         if let Some((what, remedy)) = what {
             return wrong(line, what, remedy);
         }
-        let answers = answer.iter().flat_map(|field| field.value.split('|'));
-        let answers = answers.map(|answer| answer.trim().to_owned()).collect();
+        let value = |field: Option<Field>| field.map(|field| field.value).unwrap_or_default();
+        let answers = Answers::of(&value(answer), &value(wrong_answer));
+        if let Some(what) = answers.fault(&check) {
+            return wrong(line, &what, "mend `Answer`, `Wrong` or `Check`");
+        }
         let chapter = chapter.name.clone();
-        let exercise =
-            Self { chapter, number, takes, text, check, hint, why, answers, steps, patch };
+        let exercise = Self {
+            chapter,
+            number,
+            takes,
+            minutes,
+            text,
+            check,
+            hint,
+            why,
+            answers,
+            steps,
+            same,
+            patch,
+        };
         match exercise.gives_itself_away() {
             Some(word) => wrong(
                 line,
@@ -191,21 +225,26 @@ impl Exercise {
         format!("{word}{test}")
     }
 
+    /// How long it takes, in words.
+    pub fn time(&self) -> String {
+        format!("{} minute{}", self.minutes, if self.minutes == 1 { "" } else { "s" })
+    }
+
     /// Whether tests tell that it is solved.
     pub fn runs_tests(&self) -> bool {
         self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
     }
 
-    /// Whether an answer is right: compared without case, articles and final point; numbers as numbers, with
-    /// or without what is counted.
-    pub fn accepts(&self, answer: &str) -> bool {
-        let given = plain(answer);
-        self.answers.iter().map(|right| plain(right)).any(|right| {
-            match Interval::exactly(&right.split_whitespace().collect::<Vec<_>>()) {
-                Some(amount) => told(&given).is_some_and(|given| amount.holds(given)),
-                None => given == right,
-            }
-        })
+    /// The arguments of the first run of the program that is compared with the solution's, else of the first.
+    pub fn target(&self) -> Option<&[String]> {
+        let judged = |step: &&Step| {
+            step.expectations.iter().any(|one| matches!(one, Expectation::AsSolution(_)))
+        };
+        let step = self.steps.iter().find(judged).or(self.steps.first())?;
+        match &step.run {
+            Run::Program(arguments) => Some(arguments),
+            Run::Test(..) => None,
+        }
     }
 
     /// The argument of its first run that holds the answer, unless the text names it anyway.
@@ -213,25 +252,15 @@ impl Exercise {
         let Run::Program(arguments) = &self.steps.first()?.run else { return None };
         let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
         let mut told = arguments.iter().filter(|word| !self.text.contains(&***word));
-        told.find(|word| self.accepts(&value(word))).map(String::as_str)
+        told.find(|word| self.answers.accept(&value(word))).map(String::as_str)
     }
 
     /// Its item in the list on its page.
     fn item(&self) -> String {
         let Self { number, patch, text, check, .. } = self;
-        format!("{number}. **{}** ({}). {text} *Check:* {check}\n", patch.title, self.takes())
+        let (takes, time) = (self.takes(), self.time());
+        format!("{number}. **{}** ({takes}, {time}). {text} *Check:* {check}\n", patch.title)
     }
-}
-
-/// The number of an answer such as `about 1,600 squares`.
-fn told(answer: &str) -> Option<f64> {
-    let mut words = answer.strip_prefix("about ").unwrap_or(answer).split_whitespace();
-    let first = words.next()?;
-    // What is counted is words: two numbers are no answer.
-    if words.any(|word| word.contains(|c: char| c.is_ascii_digit())) {
-        return None;
-    }
-    number(if first == "zero" || first == "no" { "0" } else { first })
 }
 
 impl fmt::Display for Exercise {
@@ -271,53 +300,4 @@ pub fn check(project: &Project) -> Vec<Fault> {
         faults.extend(exercise.patch.patched_in(project).err());
     }
     faults
-}
-
-/// An answer in small letters, without articles and final point.
-fn plain(answer: &str) -> String {
-    let answer = answer.trim().trim_end_matches('.').to_lowercase();
-    let words = answer.split_whitespace().filter(|word| !["a", "an", "the"].contains(word));
-    words.collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn exercise(answers: &[&str]) -> Exercise {
-        Exercise {
-            chapter: "05_x".to_owned(),
-            number: 2,
-            takes: Takes::Look,
-            text: String::new(),
-            check: String::new(),
-            hint: String::new(),
-            why: None,
-            answers: answers.iter().map(|answer| (*answer).to_owned()).collect(),
-            steps: vec![],
-            patch: Patch::parse("f", "T\n", FORM).unwrap(),
-        }
-    }
-
-    #[test]
-    fn answers_are_compared_as_a_reader_means_them() {
-        let exercise = exercise(&["up", "+y", "the white king", "40 to 44", "1,600"]);
-        let right = [
-            "up",
-            "Up.",
-            "+y",
-            "White  King",
-            "a white king",
-            "40",
-            "44.0",
-            "42.5",
-            "1600",
-            "1,600",
-            "about 42 frames",
-        ];
-        let wrong = ["", "down", "king", "39", "45", "y", "the", "40 to 44"];
-        assert_eq!(right.map(|answer| exercise.accepts(answer)), [true; 11]);
-        assert_eq!(wrong.map(|answer| exercise.accepts(answer)), [false; 8]);
-        assert_eq!(exercise.to_string(), "05.2");
-    }
 }

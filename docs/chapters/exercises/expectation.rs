@@ -6,7 +6,7 @@ use super::interval::Interval;
 use crate::programs::command_line::quoted;
 
 /// The forms of an expectation, as an error tells them to the author.
-pub const FORMS: &str = "write differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
+pub const FORMS: &str = "write as the solution [but for 9 pixels], differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
     pixel X Y is R G B, pixels R G B: N [to M], largest a is N [to M], report KEY N [to M], says TEXT, \
     refused: TEXT, validation: TEXT, passes, fails [with TEXT]";
 
@@ -34,6 +34,8 @@ impl fmt::Display for Other {
 /// What must hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
+    /// The picture is the solution's, but for some pixels: `None` for one of a thousand.
+    AsSolution(Option<usize>),
     /// The mean difference of the pictures over all channels in sRGB, of 1.
     DiffersBy(Interval, Other),
     /// The number of pixels that differ in 8 bits.
@@ -126,6 +128,10 @@ impl Expectation {
         }
         let words: Vec<&str> = text.split_whitespace().collect();
         match &words[..] {
+            ["as", "the", "solution"] => Some(Self::AsSolution(None)),
+            ["as", "the", "solution", "but", "for", pixels, "pixels"] => {
+                Some(Self::AsSolution(Some(pixels.parse().ok()?)))
+            }
             ["same"] => Some(Self::Same(Other::default())),
             ["passes"] => Some(Self::Passes),
             ["fails"] => Some(Self::Fails(String::new())),
@@ -150,6 +156,19 @@ impl Expectation {
         matches!(self, Self::Passes | Self::Fails(_))
     }
 
+    /// Whether it tells of the picture what the page says of it: the solution must meet it, and where a picture is
+    /// compared with the solution's, a reader's need not.
+    pub fn describes(&self) -> bool {
+        matches!(
+            self,
+            Self::DiffersBy(..)
+                | Self::DiffersIn(..)
+                | Self::Pixel(..)
+                | Self::Pixels(..)
+                | Self::Largest(..)
+        )
+    }
+
     /// The picture that it compares with.
     pub fn other(&self) -> Option<&Other> {
         match self {
@@ -170,6 +189,9 @@ mod tests {
         for text in [
             "",
             "equal",
+            "as",
+            "as the solution but",
+            "as the solution but for x pixels",
             "differs",
             "differs by",
             "differs by x",

@@ -8,10 +8,10 @@ use common::app::Picture;
 use flip::near::Near;
 use serde_json::Value;
 
-use super::expectation::{Expectation, Other};
+use super::expectation::Expectation;
 use super::interval::Interval;
 use crate::patches::edition::Tested;
-use crate::pictures::difference::{mean_difference, pixels_apart, same_bits};
+use crate::pictures::difference::{darker_and_brighter, mean_difference, pixels_apart, same_bits};
 use crate::programs::command_line::quoted;
 use crate::programs::run_result::RunResult;
 
@@ -22,8 +22,8 @@ pub struct Mismatch {
     pub what: String,
     /// The arguments of the run that showed it; `None` if it was no run of a program.
     pub arguments: Option<Vec<String>>,
-    /// What it was compared with.
-    pub compared: Option<(Other, Picture)>,
+    /// What to look at beside it: what that is, and the picture.
+    pub beside: Option<(String, Picture)>,
 }
 
 impl fmt::Display for Mismatch {
@@ -43,9 +43,9 @@ impl From<String> for Mismatch {
 }
 
 impl Mismatch {
-    /// The line for a reader, with where the pictures lie: the run's own, and what it was compared with.
+    /// The line for a reader, with where the pictures lie: the run's own, and the one beside it.
     pub fn told(&self, own: &str, other: &str) -> String {
-        match &self.compared {
+        match &self.beside {
             Some((with, _)) => format!("{self}: yours {own}, {with} {other}"),
             None if self.arguments.is_some() => format!("{self}: {own}"),
             None => self.to_string(),
@@ -75,16 +75,28 @@ impl Expectation {
         };
         let held = |holds: bool, what: String| Ok((!holds).then_some(what));
         match self {
+            Self::AsSolution(but_for) => {
+                let (own, other) = pictures()?;
+                let (darker, brighter) = darker_and_brighter(own, other);
+                let (apart, all) = (darker + brighter, own.pixels.len());
+                let what = format!(
+                    "{apart} of {all} pixels differ from the target, {darker} of them darker and {brighter} \
+                     brighter"
+                );
+                held(apart <= but_for.unwrap_or(all / ROUNDED), what)
+            }
             Self::DiffersBy(amount, _) => {
                 let (own, other) = pictures()?;
                 let by = mean_difference(own, other);
-                held(amount.holds(by), format!("differs by {by:.4}, not {}", amount))
+                let much = much(amount.below(by));
+                let what = format!("{much}: by {by:.4} in the mean, where it should be {amount}");
+                held(amount.holds(by), differing(own, other, &what))
             }
             Self::DiffersIn(amount, _) => {
                 let (own, other) = pictures()?;
-                let pixels = pixels_apart(own, other);
-                let what = format!("differs in {pixels} pixels, not in {}", amount);
-                held(amount.holds(pixels as f64), what)
+                let pixels = pixels_apart(own, other) as f64;
+                let what = format!("{}: {amount} should", many(amount.below(pixels)));
+                held(amount.holds(pixels), differing(own, other, &what))
             }
             Self::Same(_) => {
                 let (own, other) = pictures()?;
@@ -168,6 +180,26 @@ impl Expectation {
     }
 }
 
+/// One pixel of so many may differ from the solution's: a colour that is computed in another order is off by about
+/// 1e-6, and crosses a step of 255 in fewer.
+const ROUNDED: usize = 1000;
+
+/// How many pixels differ, and what to say of it.
+fn differing(own: &Picture, other: &Picture, what: &str) -> String {
+    match (pixels_apart(own, other), own.pixels.len()) {
+        (0, _) => format!("no pixel differs from the other picture, {what}"),
+        (apart, all) => format!("{apart} of {all} pixels differ from the other picture, {what}"),
+    }
+}
+
+fn much(below: bool) -> &'static str {
+    if below { "too little" } else { "too much" }
+}
+
+fn many(below: bool) -> &'static str {
+    if below { "too few" } else { "too many" }
+}
+
 fn at_key<'a>(report: &'a Value, key: &str) -> Result<&'a Value> {
     let step = |value: &'a Value, part: &str| match part.parse::<usize>() {
         Ok(index) if value.is_array() => value.get(index),
@@ -179,6 +211,7 @@ fn at_key<'a>(report: &'a Value, key: &str) -> Result<&'a Value> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::expectation::Other;
     use super::*;
 
     /// Two pixels: mid grey and red.
@@ -201,7 +234,9 @@ mod tests {
     /// Whether it holds against a picture of which one pixel is black.
     fn holds(text: &str) -> bool {
         let expectation = Expectation::parse(text).unwrap_or_else(|| panic!("{text}"));
-        let other = expectation.other().map(|other| {
+        let as_solution = matches!(expectation, Expectation::AsSolution(_));
+        let other = expectation.other().cloned().or(as_solution.then(Other::default));
+        let other = other.map(|other| {
             let mut picture = picture();
             // Called by arguments, the pictures are the same.
             if other.arguments.is_none() {
@@ -216,6 +251,7 @@ mod tests {
     #[test]
     fn each_holds_or_not() {
         for (true_one, false_one) in [
+            ("as the solution but for 1 pixels", "as the solution"),
             ("differs by 0.16", "differs by 0.17"),
             ("differs by 0.1 to 0.2", "differs by 0.1 to 0.16"),
             ("differs in 1 pixels", "differs in 2 pixels"),

@@ -1,5 +1,6 @@
 //! Exercises: a reader solves one in a [`workbench`], and an [`attempt`] is held to what the exercise expects.
 
+pub mod answer;
 pub mod attempt;
 pub mod command;
 pub mod exercise;
@@ -8,6 +9,8 @@ pub mod interval;
 pub mod mismatch;
 pub mod progress;
 pub mod proof;
+pub mod solution;
+pub mod variant;
 pub mod watcher;
 pub mod window;
 pub mod workbench;

@@ -1,6 +1,6 @@
 //! What a reader has solved so far, in a file of the reader's.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -13,12 +13,17 @@ use serde::{Deserialize, Serialize};
 
 use super::exercise::Exercise;
 
-/// The names of the exercises that are solved.
+/// The names of the exercises that are solved, and how often others have failed.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Solved {
     solved: BTreeSet<String>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    failures: BTreeMap<String, usize>,
 }
+
+/// After how many failures a reader may see the target.
+const FAILURES: usize = 2;
 
 /// A reader's progress.
 pub struct Progress {
@@ -56,6 +61,29 @@ impl Progress {
         if !self.solved.solved.insert(exercise.to_string()) {
             return Ok(());
         }
+        self.write()
+    }
+
+    /// Whether the target of an exercise may be shown.
+    pub fn shows_target(&self, exercise: &Exercise) -> bool {
+        self.has(exercise) || self.failures(exercise) >= FAILURES
+    }
+
+    /// How often an exercise has failed.
+    pub fn failures(&self, exercise: &Exercise) -> usize {
+        self.solved.failures.get(&exercise.to_string()).copied().unwrap_or_default()
+    }
+
+    /// Counts a failure.
+    ///
+    /// # Errors
+    /// If that cannot be written.
+    pub fn count_failure(&mut self, exercise: &Exercise) -> Result<()> {
+        *self.solved.failures.entry(exercise.to_string()).or_default() += 1;
+        self.write()
+    }
+
+    fn write(&self) -> Result<()> {
         fs::create_dir_all(self.file.parent().unwrap_or(&self.file))?;
         write_whole(&self.file, (serde_json::to_string_pretty(&self.solved)? + "\n").as_bytes())
     }

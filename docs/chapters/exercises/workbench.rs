@@ -9,9 +9,11 @@ use common::output::print;
 use common::usage::Usage;
 
 use super::attempt::{Attempt, Originals, Verdict};
+use super::command::offer;
 use super::exercise::{Exercise, Takes};
 use super::progress::Progress;
 use super::proof::Run;
+use super::solution::Solution;
 use super::watcher::FolderWatcher;
 use super::window::Window;
 use crate::patches::copy::{Changed, copy_shaders, file_on_the_way};
@@ -112,7 +114,8 @@ impl<'a> Workbench<'a> {
                     let misfit = fault.what.replace("this hunk", "the solution");
                     anyhow!("{misfit}: {what}")
                 })?;
-                Originals::new(self.programs).keep(self.exercise, &self.kept())?;
+                let solution = Solution::new(self.programs, self.exercise);
+                Originals::new(self.programs).keep(self.exercise, &solution, &self.kept())?;
                 Ok(false)
             }
         }
@@ -188,12 +191,23 @@ impl<'a> Workbench<'a> {
         format!("{}.other.png", self.shown)
     }
 
+    /// Renders the solution beside the reader's picture, and tells where.
+    ///
+    /// # Errors
+    /// If it cannot be rendered or written.
+    pub fn target(&self, arguments: &[String]) -> Result<String> {
+        let shown = format!("{}.target.png", self.shown);
+        let file = PathBuf::from(format!("{}.target.png", self.folder.display()));
+        self.solution().picture(arguments)?.save(&file)?;
+        Ok(shown)
+    }
+
     /// What keeps the exercise from being solved, in a line; keeps the pictures beside the folder.
     ///
     /// # Errors
     /// If it cannot be told.
     pub fn missed(&self) -> Result<Option<String>> {
-        self.missed_with(&self.originals())
+        self.missed_with(&self.originals(), &self.solution())
     }
 
     fn originals(&self) -> Originals<'a> {
@@ -203,17 +217,25 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    fn missed_with(&self, originals: &Originals) -> Result<Option<String>> {
+    /// The solution; of Rust code the pictures that were kept, for it fits no edited code.
+    fn solution(&self) -> Solution<'a> {
+        match self.exercise.takes {
+            Takes::File | Takes::Rust => Solution::kept(self.programs, self.exercise, &self.kept()),
+            _ => Solution::new(self.programs, self.exercise),
+        }
+    }
+
+    fn missed_with(&self, originals: &Originals, solution: &Solution) -> Result<Option<String>> {
         let Self { programs, exercise, .. } = *self;
         let Verdict { missed, picture } =
-            Attempt { programs, originals, exercise }.verdict(&self.edition())?;
+            Attempt { programs, originals, exercise, solution }.verdict(&self.edition())?;
         let [own, other] = ["png", "other.png"]
             .map(|extension| PathBuf::from(format!("{}.{extension}", self.folder.display())));
         fs::create_dir_all(own.parent().context("a file lies in a folder")?)?;
         if let Some(picture) = &picture {
             picture.save(&own)?;
         }
-        match missed.as_ref().and_then(|missed| missed.compared.as_ref()) {
+        match missed.as_ref().and_then(|missed| missed.beside.as_ref()) {
             Some((_, picture)) => picture.save(&other)?,
             // It may lie there from the save before.
             None => drop(fs::remove_file(&other)),
@@ -233,21 +255,31 @@ impl<'a> Workbench<'a> {
             _ => vec![self.folder.clone()],
         };
         let mut watcher = FolderWatcher::of(folders);
-        let originals = self.originals();
+        let (originals, solution) = (self.originals(), self.solution());
+        let mut first = true;
         let mut window = with_window.then(|| self.window()).transpose()?;
         loop {
             watcher.wait()?;
             // A program that runs cannot be built anew everywhere.
             let again = self.exercise.takes != Takes::Shader && window.take().is_some();
-            let missed =
-                self.missed_with(&originals).unwrap_or_else(|error| Some(format!("{error:#}")));
+            let missed = self
+                .missed_with(&originals, &solution)
+                .unwrap_or_else(|error| Some(format!("{error:#}")));
             interrupt::asked()?;
             if again {
                 window = self.window().ok();
             }
             match missed {
                 None => break,
-                Some(missed) => print(&format!("not yet: {missed}\n"))?,
+                Some(missed) => {
+                    // What lies there at first is no attempt.
+                    if !first {
+                        progress.count_failure(self.exercise)?;
+                    }
+                    first = false;
+                    let target = offer(self.exercise, progress);
+                    print(&format!("not yet: {missed}{target}\n"))?;
+                }
             }
         }
         progress.note(self.exercise)?;

@@ -92,7 +92,14 @@ impl Edition {
             }
             Self::Copy(_) | Self::Edited => {
                 let (mut cargo, target) = self.cargo("build", programs);
-                let built = child::run(cargo.args(["--quiet", "--bin", chapter]), Limit::NONE)?;
+                let what = match self {
+                    Self::Copy(_) => {
+                        format!("building {chapter} in a copy, minutes the first time")
+                    }
+                    _ => format!("building {chapter}"),
+                };
+                cargo.args(["--quiet", "--bin", chapter]);
+                let built = child::run_saying(&mut cargo, Limit::NONE, &what)?;
                 let why = || first_error(&built.said);
                 ensure!(built.succeeded(), "{chapter} does not build: {}", why());
                 if *self == Self::Edited {
@@ -116,7 +123,9 @@ impl Edition {
     pub fn test(&self, programs: &Programs, (program, filter): (&str, &str)) -> Result<Tested> {
         // A build may take as long as it will, and only once.
         let (mut build, _) = self.cargo("test", programs);
-        let built = child::run(build.args(["--no-run", "--test", program]), Limit::NONE)?;
+        build.args(["--no-run", "--test", program]);
+        let what = format!("building the tests of {program}, minutes the first time");
+        let built = child::run_saying(&mut build, Limit::NONE, &what)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let tested = self.run_tests(programs, (program, filter), &[])?;
         // What plain `cargo test` leaves to the night is asked for here by its name.
@@ -145,7 +154,8 @@ impl Edition {
             .env("SHADERS", self.shaders(programs.project));
         // What a reader changes gives other figures than the page's.
         cargo.env("EXERCISE", "1");
-        let ended = child::run(&mut cargo, LIMIT)?;
+        let what = format!("running cargo test --test {program} {filter}");
+        let ended = child::run_saying(&mut cargo, LIMIT, &what)?;
         ensure!(ended.status.is_some(), "the tests '{filter}' do not end");
         let results = ended.told.lines().filter_map(|line| line.strip_prefix("test result: "));
         let results: Vec<&str> = results.collect();

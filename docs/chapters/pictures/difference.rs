@@ -15,6 +15,33 @@ pub fn pixels_apart(a: &Picture, b: &Picture) -> usize {
     a.chunks(3).zip(b.chunks(3)).filter(|(a, b)| a != b).count()
 }
 
+/// How many pixels are darker than another picture's and how many brighter, as a PNG would have them; one that
+/// only changes its colour counts as darker.
+pub fn darker_and_brighter(own: &Picture, other: &Picture) -> (usize, usize) {
+    let (own, other) = (own.srgb(), other.srgb());
+    let sum = |pixel: &[u8]| pixel.iter().map(|c| u32::from(*c)).sum::<u32>();
+    let apart = own.chunks(3).zip(other.chunks(3)).filter(|(a, b)| a != b);
+    apart.fold((0, 0), |(darker, brighter), (a, b)| match sum(a) <= sum(b) {
+        true => (darker + 1, brighter),
+        false => (darker, brighter + 1),
+    })
+}
+
+/// Where two pictures of one size differ, in red; the first is faint behind it.
+pub fn marked(own: &Picture, other: &Picture) -> Picture {
+    let pairs =
+        own.srgb().chunks(3).zip(other.srgb().chunks(3)).map(|(a, b)| a != b).collect::<Vec<_>>();
+    let paint = |(pixel, apart): (&[f32; 4], bool)| match apart {
+        true => [1.0, 0.0, 0.0, 1.0],
+        false => {
+            let grey = 0.25 * (pixel[0] + pixel[1] + pixel[2]).clamp(0.0, 3.0) / 3.0;
+            [grey, grey, grey, 1.0]
+        }
+    };
+    let pixels = own.pixels.iter().zip(pairs).map(paint).collect();
+    Picture { width: own.width, height: own.height, pixels }
+}
+
 /// Whether two pictures are the same to the bit.
 pub fn same_bits(a: &Picture, b: &Picture) -> bool {
     let bits = |picture: &Picture| -> Vec<[u32; 4]> {
@@ -39,5 +66,16 @@ mod tests {
         spot.pixels[4][1] = 0.300_000_1;
         assert_eq!(pixels_apart(&plain(0.3), &spot), 0);
         assert!(!same_bits(&plain(0.3), &spot) && same_bits(&spot, &spot));
+    }
+
+    #[test]
+    fn where_and_how_pictures_differ_is_told() {
+        let plain = Picture { width: 3, height: 1, pixels: vec![[0.3; 4]; 3] };
+        let mut own = plain.clone();
+        (own.pixels[0][1], own.pixels[2][1]) = (0.1, 0.7);
+        assert_eq!(darker_and_brighter(&own, &plain), (1, 1));
+        let marked = marked(&own, &plain);
+        let red = [1.0, 0.0, 0.0, 1.0];
+        assert_eq!([0, 1, 2].map(|at| marked.pixels[at] == red), [true, false, true]);
     }
 }

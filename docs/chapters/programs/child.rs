@@ -5,12 +5,16 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
+use common::output::complain;
 use patience::{GLANCE, Limit, Work};
 
 use super::interrupt;
+
+/// After which a wait says what it waits for.
+const SILENCE: Duration = Duration::from_secs(1);
 
 /// How a program ended.
 pub struct Ended {
@@ -80,11 +84,20 @@ pub fn start(command: &mut Command) -> Result<Child> {
 /// # Errors
 /// If it does not start, or a signal asks for our end.
 pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
+    run_saying(command, limit, "")
+}
+
+/// As [`run`]; if it takes more than a moment, a line on standard error says what is waited for, unless that is
+/// empty.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_saying(command: &mut Command, limit: Limit, what: &str) -> Result<Ended> {
     // Files and no pipes: nobody has to read them while the program runs.
     let file = || tempfile::tempfile().context("cannot make a temporary file");
     let (mut output, mut errors) = (file()?, file()?);
     command.stdin(Stdio::null()).stdout(output.try_clone()?).stderr(errors.try_clone()?);
-    let status = wait(&mut start(command)?, limit)?;
+    let status = wait_saying(&mut start(command)?, limit, what)?;
     let (told, said) = (read(&mut output)?, read(&mut errors)?);
     Ok(Ended { status, said, told, limit })
 }
@@ -102,7 +115,12 @@ pub fn show(command: &mut Command) -> Result<ExitStatus> {
 /// # Errors
 /// If a signal asks for our end, for which the child is killed, or the system does not tell of the child's.
 pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
+    wait_saying(child, limit, "")
+}
+
+fn wait_saying(child: &mut Child, limit: Limit, what: &str) -> Result<Option<ExitStatus>> {
     let (start, work) = (Instant::now(), Work::from(&*child));
+    let mut told = what.is_empty();
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
@@ -112,6 +130,10 @@ pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
             child.kill()?;
             child.wait()?;
             return asked.map(|()| None);
+        }
+        if !told && start.elapsed() >= SILENCE {
+            complain(&format!("waiting: {what}"));
+            told = true;
         }
         thread::sleep(GLANCE);
     }

@@ -32,12 +32,25 @@ impl RunResult {
     ///
     /// # Errors
     /// If it does not start.
-    pub fn of(mut command: Command, arguments: &[String], limit: Limit) -> Result<Self> {
+    pub fn of(command: Command, arguments: &[String], limit: Limit) -> Result<Self> {
+        Self::saying(command, arguments, limit, "")
+    }
+
+    /// As [`RunResult::of`], and says what is waited for if that takes long.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn saying(
+        mut command: Command,
+        arguments: &[String],
+        limit: Limit,
+        what: &str,
+    ) -> Result<Self> {
         let folder = NewFolder::temporary()?;
         let (out, report) = (folder.path().join("out.exr"), folder.path().join("report.json"));
         command.args(["--headless", "--validate"]).args(arguments);
         command.arg("--out").arg(&out).arg("--report").arg(&report);
-        let ended = child::run(&mut command, limit)?;
+        let ended = child::run_saying(&mut command, limit, what)?;
         let said = ended.said_in_a_line();
         Ok(Self {
             picture: Picture::open_exr(&out).ok(),
