@@ -30,7 +30,7 @@ pub struct Instruments {
 impl Instruments {
     /// Instruments that have seen nothing yet.
     pub fn new(options: Options) -> Self {
-        let probe = options.pixel.pixel.map(|_| Probe::new());
+        let probe = options.pixel.pixel.map(|_| Probe::default());
         Self {
             options,
             probe,

@@ -78,17 +78,13 @@ impl Options {
 }
 
 /// What watches a pixel.
+#[derive(Default)]
 pub struct Probe {
     stages: Arc<Stages>,
     opened: Mutex<Option<(Gpu, Buffer)>>,
 }
 
 impl Probe {
-    /// A probe, and what it asks of a device.
-    pub fn new() -> Self {
-        Self { stages: Arc::default(), opened: Mutex::default() }
-    }
-
     /// Changes what a device is opened with.
     pub fn device(&self, options: &mut GpuOptions) {
         options.prints = true;

@@ -257,7 +257,7 @@ fn clicked(picture: &Response, input: &InputState) -> Option<[f32; 2]> {
         _ => None,
     };
     let at = input.events.iter().find_map(released);
-    let at = at.filter(|at| input.pointer.primary_clicked() && picture.rect.contains(*at))?;
+    let at = at.filter(|_| input.pointer.primary_clicked() && picture.contains_pointer())?;
     let part = (at - picture.rect.min) / picture.rect.size();
     Some([part.x, part.y])
 }
