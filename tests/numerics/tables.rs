@@ -111,14 +111,19 @@ fn is_of_page(report: &Value) -> bool {
     serde_json::from_slice(&stored).is_ok_and(|stored: Value| stored["device"] == report["device"])
 }
 
-/// The page's table names a rung's hardest family, or none where it has half an ULP everywhere.
+/// The tables of both pages name a rung's hardest family, or none where it has half an ULP everywhere.
 fn page_names(rung: &Value, family: &str) {
-    let page = std::fs::read_to_string(run::root().join("docs/24_accuracy.md")).expect("a page");
     let start = format!("| {} {} |", text(rung, "rung"), text(rung, "name"));
-    let mut rows = page.lines().filter(|line| line.starts_with(&start));
-    // The table of origins has all families.
-    let is_named = rows.any(|row| row.contains(&format!(" | {family} | ")));
-    assert!(is_named || text(rung, "primitive") == "secondary origin", "{start} … | {family} |");
+    // Of a ladder the chapter has a part, and its origins have a table of all families.
+    let is_of_origins = text(rung, "primitive") == "secondary origin";
+    for (name, has_all) in [("docs/measured.md", !is_of_origins), ("docs/24_accuracy.md", false)] {
+        let page = std::fs::read_to_string(run::root().join(name)).expect("a page");
+        let rows = page.lines().filter(|line| line.starts_with(&start) && line.contains('%'));
+        let rows: Vec<&str> = rows.collect();
+        assert!(!rows.is_empty() || !has_all, "{name}: {start} … | {family} |");
+        let is_named = |row: &&str| row.contains(&format!(" | {family} | "));
+        assert!(is_of_origins || rows.iter().all(is_named), "{name}: {start} … | {family} |");
+    }
 }
 
 /// Every family by every rung; traced rays where they are not as direct ones.
