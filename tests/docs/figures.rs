@@ -238,7 +238,7 @@ fn what_only_an_author_can_mend_is_named() {
             |f| f.replace(PAGE, "(llvmpipe, Mesa 25.0.7, ", "(on "),
             &[(
                 "docs/02_basic.md:13: no note says which device gave docs/figures/02_basic/rows.json",
-                "below",
+                "below, or `<!-- stamp -->` and `<!-- /stamp -->` for the page",
             )],
         ),
         (
