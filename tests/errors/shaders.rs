@@ -314,12 +314,24 @@ fn a_payload_is_of_the_type_that_is_passed() {
 }
 
 #[test]
+fn a_ray_names_a_miss_shader_that_is_there() {
+    let file = "02_basic/camera.rgen";
+    let (from, to) = ("0,                          // missIndex", "1,      // missIndex");
+    let folder = folder(file, |text| text.replace(from, to));
+    let words = "a ray has the missIndex 1, and the pipeline has 1 miss shaders, counted from 0 in the order";
+    shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
+}
+
+#[test]
 fn what_is_seldom_meant_is_a_warning() {
     let hidden = "02_basic/camera.rgen: a ray has the cull mask 0, which every instance's mask hides from it";
     let opaque =
         "03_any_hit/decide.rahit is never asked: every ray has the flag gl_RayFlagsOpaqueEXT";
+    let beyond = "02_basic/camera.rgen: a ray has the sbtRecordOffset 1, and the pipeline has 1 hit groups: such \
+                  a record is there only if ShaderBindingTable::with_hit_records makes it";
     for (program, from, to, line) in [
         ("02_basic", "        0xff,  ", "        0x00,  ", hidden),
+        ("02_basic", "        0,                          // sbtR", "        1, // sbtR", beyond),
         ("03_any_hit", "        flags,\n", "        gl_RayFlagsOpaqueEXT,\n", opaque),
     ] {
         let folder = folder(&format!("{program}/camera.rgen"), |text| text.replace(from, to));

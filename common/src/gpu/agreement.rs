@@ -15,15 +15,22 @@ use super::shader::Shader;
 use crate::files::{self, cache};
 
 /// Holds the shaders of a pipeline against what Rust has declared, against what the program binds, and against
-/// each other; what is no error and seldom meant.
+/// each other; what is no error and seldom meant. `groups` says how many shader groups the pipeline has of each
+/// kind: raygen, miss, hit, callable.
 ///
 /// What agrees is noted beside the shaders' words, by a hash of all that was compared and of what compares, and
 /// is not looked at again.
 ///
 /// # Errors
 /// On the first that differs, with where it stands and what would be right.
-pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result<Vec<String>> {
-    let Blueprint { name, bindings, textures, groups, .. } = blueprint;
+pub fn check(
+    blueprint: &Blueprint,
+    groups: [usize; 4],
+    shaders: &[Shader],
+    known: &Known,
+) -> Result<Vec<String>> {
+    let Blueprint { name, bindings, textures, .. } = blueprint;
+    let [raygens, misses, hits, _] = groups;
     let mut hasher = DefaultHasher::new();
     let ways = [
         include_str!("agreement.rs"),
@@ -32,7 +39,7 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
         include_str!("reflection/rays.rs"),
     ];
     (ways, include_str!("enumeration.rs"), known).hash(&mut hasher);
-    (shaders, bindings, textures.is_some()).hash(&mut hasher);
+    (shaders, bindings, textures.is_some(), groups).hash(&mut hasher);
     let file = format!("{:016x}.agreed", hasher.finish());
     let note = cache::folder("spirv").map(|folder| folder.join(file));
     if let Some(warnings) = note.as_ref().and_then(|note| fs::read_to_string(note).ok()) {
@@ -52,11 +59,12 @@ pub fn check(blueprint: &Blueprint, shaders: &[Shader], known: &Known) -> Result
     for layout in &known.enums {
         layout.check(name, &constants)?;
     }
-    if !groups.is_empty() && bindings.contains(&Binding::StorageImage) {
+    if raygens > 0 && bindings.contains(&Binding::StorageImage) {
         reflections.iter().try_for_each(|(path, shader)| shader.check_launch(path))?;
     }
+    reflections.iter().try_for_each(|(path, shader)| shader.check_misses(path, misses))?;
     check_payloads(&reflections)?;
-    let warnings = warnings(shaders, &reflections);
+    let warnings = warnings(shaders, &reflections, hits);
     // A note that cannot be written costs time at the next start, nothing else.
     let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
     Ok(warnings)
@@ -78,9 +86,9 @@ fn check_payloads(shaders: &[(&str, Reflection)]) -> Result<()> {
 }
 
 /// What of the shaders is no error and seldom meant.
-fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)]) -> Vec<String> {
-    let mut found: Vec<String> =
-        reflections.iter().flat_map(|(path, shader)| shader.warnings(path)).collect();
+fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)], hits: usize) -> Vec<String> {
+    let of_each = reflections.iter().flat_map(|(path, shader)| shader.warnings(path, hits));
+    let mut found: Vec<String> = of_each.collect();
     let any_hit = shaders.iter().find(|shader| shader.stage == vk::ShaderStageFlags::ANY_HIT_KHR);
     let never_asked = reflections.iter().all(|(_, shader)| shader.traces_opaque_alone());
     found.extend(any_hit.filter(|_| never_asked).map(|Shader { path, .. }| {

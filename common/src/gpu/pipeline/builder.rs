@@ -257,7 +257,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Compiles each stage and makes the pipeline of what has been filled in.
     fn pipeline(self, gpu: &Gpu) -> Result<Pipeline> {
         let start = Instant::now();
-        let Self { mut blueprint, textures, known, defines, as_written, .. } = self;
+        let Self { mut blueprint, groups, textures, known, defines, as_written, .. } = self;
         let mut shaders = Vec::new();
         for Stage { path, .. } in &blueprint.stages {
             shaders.push(Shader::of(path, &defines, |stage| {
@@ -272,7 +272,7 @@ impl<'a> PipelineBuilder<'a> {
              is to be said in requirements(), so that devices are chosen by it",
             blueprint.name
         );
-        let warnings = agreement::check(&blueprint, &shaders, &known)?;
+        let warnings = agreement::check(&blueprint, groups, &shaders, &known)?;
         gpu.warn(&blueprint.name, warnings);
         for (stage, shader) in blueprint.stages.iter_mut().zip(shaders) {
             (stage.stage, stage.words) = (shader.stage.as_raw(), shader.spirv);

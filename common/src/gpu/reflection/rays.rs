@@ -10,6 +10,12 @@ use super::Reflection;
 /// `gl_RayFlagsOpaqueEXT`: no any-hit shader is asked.
 const OPAQUE: u32 = 1;
 
+// Where the operands of `OpTraceRayKHR` stand.
+const FLAGS: usize = 1;
+const CULL_MASK: usize = 2;
+const RECORD_OFFSET: usize = 3;
+const MISS_INDEX: usize = 5;
+
 /// What a shader traces or takes as payloads, each by its shape.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Payloads {
@@ -61,20 +67,48 @@ impl Reflection {
         Payloads { traced: traced.collect(), taken: taken.collect() }
     }
 
-    /// What is no error and yet seldom meant: a ray that no instance's mask lets through.
-    pub fn warnings(&self, path: &str) -> Vec<String> {
-        let blind = self.traces().filter(|trace| self.constant(trace.operands.get(2)) == Some(0));
-        let line = |_| {
+    /// Holds that each ray names a miss shader of the pipeline, which has so many; one beyond them is
+    /// undefined.
+    ///
+    /// # Errors
+    /// If a `missIndex` that is a constant does not.
+    pub fn check_misses(&self, path: &str, count: usize) -> Result<()> {
+        for index in self.operands(MISS_INDEX) {
+            ensure!(
+                (index as usize) < count,
+                "{path}: a ray has the missIndex {index}, and the pipeline has {count} miss shaders, counted \
+                 from 0 in the order of its .miss lines"
+            );
+        }
+        Ok(())
+    }
+
+    /// What is no error and yet seldom meant: a ray that no instance's mask lets through, and one whose record
+    /// lies beyond those of a table with one for each of the pipeline's hit groups.
+    pub fn warnings(&self, path: &str, hit_groups: usize) -> Vec<String> {
+        let blind = self.operands(CULL_MASK).find(|mask| *mask == 0).map(|_| {
             format!("{path}: a ray has the cull mask 0, which every instance's mask hides from it")
-        };
-        blind.map(line).take(1).collect()
+        });
+        let beyond = self.operands(RECORD_OFFSET).find(|offset| *offset as usize >= hit_groups);
+        let beyond = beyond.filter(|_| hit_groups > 0).map(|offset| {
+            format!(
+                "{path}: a ray has the sbtRecordOffset {offset}, and the pipeline has {hit_groups} hit groups: \
+                 such a record is there only if ShaderBindingTable::with_hit_records makes it"
+            )
+        });
+        blind.into_iter().chain(beyond).collect()
     }
 
     /// Whether no ray of the shader asks an any-hit shader: each one's flags say so, whatever else they are.
     pub fn traces_opaque_alone(&self) -> bool {
         self.traces().all(|trace| {
-            self.constant(trace.operands.get(1)).is_some_and(|flags| flags & OPAQUE != 0)
+            self.constant(trace.operands.get(FLAGS)).is_some_and(|flags| flags & OPAQUE != 0)
         })
+    }
+
+    /// An operand of each trace, where it is a constant.
+    fn operands(&self, place: usize) -> impl Iterator<Item = u32> {
+        self.traces().filter_map(move |trace| self.constant(trace.operands.get(place)))
     }
 
     fn traces(&self) -> impl Iterator<Item = &Instruction> {
