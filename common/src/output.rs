@@ -19,10 +19,10 @@ pub fn print_and_exit(text: &str) -> ! {
     std::process::exit(1)
 }
 
-/// As [`print`], for what is no text.
+/// As [`print()`], for what is no text.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn write(bytes: &[u8]) -> Result<()> {
     let mut stdout = stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {

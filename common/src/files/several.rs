@@ -7,11 +7,11 @@ use anyhow::{Context, Result};
 
 use super::{NewFolder, Unfinished, unfinished};
 
-/// Writes several files, all or none of them, as [`write_whole`] does each, and keeps the folders that were
+/// Writes several files, all or none of them, as [`write_whole`](super::write_whole) does each, and keeps the folders that were
 /// made for them.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// As [`write_whole`](super::write_whole).
 pub fn write_all(files: &[(&Path, &[u8])], mut folders: Vec<NewFolder>) -> Result<()> {
     let failed = |path: &Path| format!("cannot write '{}'", path.display());
     let mut all = Vec::new();

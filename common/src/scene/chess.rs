@@ -74,7 +74,7 @@ impl Scene {
     // ANCHOR_END: metal
 }
 
-/// As [`place_pieces`], of a position that is not to be trusted.
+/// As `place_pieces`, of a position that is not to be trusted.
 ///
 /// # Errors
 /// If it is none: eight ranks of eight squares.

@@ -286,7 +286,7 @@ impl Folder {
     /// OBJ file.
     ///
     /// # Errors
-    /// [`Unavailable`] if it is not there, no name is given, or it is outside the folder, directly or
+    /// `Unavailable` if it is not there, no name is given, or it is outside the folder, directly or
     /// through a symbolic link; another if the name is too long.
     pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
         let missing = |what: String| anyhow!(Unavailable::Missing(format!("{keyword} {what}")));

@@ -21,7 +21,7 @@ pub enum Value<'a> {
     Choice(&'a mut u32, &'a [&'a str]),
     /// Three numbers, each between two others.
     Vector(&'a mut Vec3, RangeInclusive<f32>),
-    /// A point in f64, each coordinate within ±[`FAR`].
+    /// A point in f64, each coordinate within ±1e18.
     Point(&'a mut DVec3),
 }
 
