@@ -9,6 +9,7 @@ mod failures;
 mod long;
 mod lost;
 mod signals;
+mod stand_ins;
 mod started;
 
 use std::path::Path;

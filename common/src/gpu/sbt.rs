@@ -222,8 +222,8 @@ mod tests {
     /// Handle size, handle alignment, base alignment, largest stride, as drivers report them.
     const VENDORS: [(&str, [u32; 4]); 4] = [
         ("NVIDIA", [32, 32, 64, 4096]),
-        ("AMD (RADV)", [32, 32, 32, 4096]),
-        ("Intel (ANV)", [32, 32, 64, 4096]),
+        ("AMD (RADV)", [32, 16, 32, 16_384]),
+        ("Intel (ANV)", [32, 16, 64, 65_535]),
         ("an extreme of the specification", [32, 64, 4096, 4096]),
     ];
 
