@@ -301,16 +301,33 @@ fn a_launch_is_a_band_and_no_picture() {
 
 #[test]
 fn a_payload_is_of_the_type_that_is_passed() {
-    let file = "02_basic/sky.rmiss";
-    let folder = folder(file, |text| {
+    // The closest hit shader's, and the miss shader's.
+    let hit = folder("02_basic/shade.rchit", |text| {
+        text.replace("rayPayloadInEXT vec4 payload;", "rayPayloadInEXT vec3 passed;\nvec4 payload;")
+            .replace("payload = vec4(color, 1.0);", "payload = vec4(color, 1.0);\npassed = color;")
+    });
+    let words =
+        "no traceRayEXT of the pipeline passes a payload of the type that this shader takes";
+    shaders_refused(hit.path(), &[&format!("02_basic/shade.rchit: {words}")]);
+    let miss = folder("02_basic/sky.rmiss", |text| {
         text.replace("rayPayloadInEXT vec4 payload;", "rayPayloadInEXT vec3 payload;")
             .replace("payload = vec4(sky(gl_WorldRayDirectionEXT), 1.0)", "payload = vec3(1.0)")
             .replace("payload = vec4(-1.0)", "payload = vec3(-1.0)")
             .replace("payload = vec4(gl_WorldRayDirectionEXT, -1.0)", "payload = vec3(0.0)")
     });
-    let words =
-        "no traceRayEXT of the pipeline passes a payload of the type that this shader takes";
-    shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
+    let words = "a ray has the missIndex 0, which is 02_basic/sky.rmiss, and passes a payload of another type";
+    shaders_refused(miss.path(), &[&format!("02_basic/camera.rgen: {words}")]);
+}
+
+/// The shadow ray of 05 that asks the sky: it was silent, and all was dark.
+#[test]
+fn a_ray_that_names_the_miss_shader_of_another_payload_is_refused() {
+    let (from, to) = ("1,                          // missIndex", "0, // missIndex");
+    let folder = folder("common/shadow.glsl", |text| text.replace(from, to));
+    let mut command = run::command("05_shadow_miss");
+    command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
+    let words = "a ray has the missIndex 0, which is 05_shadow_miss/sky.rmiss, and passes a payload of another type";
+    refused_by(command, 1, &[&format!("05_shadow_miss/camera.rgen: {words}")]);
 }
 
 #[test]

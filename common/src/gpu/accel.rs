@@ -43,6 +43,8 @@ pub struct AccelerationStructure {
     pub address: vk::DeviceAddress,
     /// Bytes that it takes of a buffer.
     pub size: u64,
+    /// How many hit records its instances need, as far as is known: one more than the largest offset.
+    pub hit_records: u32,
     /// What it was built from and with.
     plan: Plan,
     /// Where it lies, others that were built with it beside it.

@@ -10,7 +10,7 @@ use ash::vk;
 use super::blueprint::{Binding, Blueprint};
 use super::enumeration;
 use super::layout::Known;
-use super::reflection::{Payloads, Reflection};
+use super::reflection::{Passed, Payloads, Reflection};
 use super::shader::Shader;
 use crate::files::{self, cache};
 
@@ -63,24 +63,44 @@ pub fn check(
         reflections.iter().try_for_each(|(path, shader)| shader.check_launch(path))?;
     }
     reflections.iter().try_for_each(|(path, shader)| shader.check_misses(path, misses))?;
-    check_payloads(&reflections)?;
+    // The groups of a kind stand together: raygen, then miss.
+    let miss_groups = blueprint.groups.iter().skip(raygens).take(misses);
+    let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
+    check_payloads(&reflections, &miss_shaders)?;
     let warnings = warnings(shaders, &reflections, hits);
     // A note that cannot be written costs time at the next start, nothing else.
     let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
     Ok(warnings)
 }
 
-/// Holds that each payload that a shader takes is one that a shader of the pipeline passes.
-fn check_payloads(shaders: &[(&str, Reflection)]) -> Result<()> {
-    let payloads = shaders.iter().map(|(path, shader)| (*path, shader.payloads()));
-    let payloads: Vec<_> = payloads.collect();
-    let traced: Vec<&String> = payloads.iter().flat_map(|(_, passed)| &passed.traced).collect();
-    for (path, Payloads { taken, .. }) in &payloads {
-        ensure!(
-            traced.is_empty() || taken.iter().all(|taken| traced.contains(&taken)),
-            "{path}: no traceRayEXT of the pipeline passes a payload of the type that this shader takes by \
-             rayPayloadInEXT; its last argument is the location of the rayPayloadEXT that it passes"
-        );
+/// Holds that each payload that a shader takes is one that a shader of the pipeline passes, and a miss shader's one
+/// that every ray passes which names it. `misses` has the miss shaders in their order.
+fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()> {
+    let payloads: Vec<_> = shaders.iter().map(|(_, shader)| shader.payloads()).collect();
+    let passed = || {
+        payloads
+            .iter()
+            .zip(shaders)
+            .flat_map(|(of, (by, _))| of.passed.iter().map(move |passed| (*by, passed)))
+    };
+    for (number, (Payloads { taken, .. }, (path, _))) in payloads.iter().zip(shaders).enumerate() {
+        let [taken] = &taken[..] else { continue };
+        match misses.iter().position(|miss| *miss == number) {
+            Some(index) => {
+                for (by, Passed { miss, shape }) in passed() {
+                    ensure!(
+                        *miss != Some(index as u32) || shape == taken,
+                        "{by}: a ray has the missIndex {index}, which is {path}, and passes a payload of another \
+                         type than that takes by rayPayloadInEXT"
+                    );
+                }
+            }
+            None => ensure!(
+                passed().next().is_none() || passed().any(|(_, passed)| passed.shape == *taken),
+                "{path}: no traceRayEXT of the pipeline passes a payload of the type that this shader takes by \
+                 rayPayloadInEXT; its last argument is the location of the rayPayloadEXT that it passes"
+            ),
+        }
     }
     Ok(())
 }

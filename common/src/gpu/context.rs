@@ -5,7 +5,7 @@
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
 use std::ffi::CString;
-use std::mem::{self, ManuallyDrop};
+use std::mem::ManuallyDrop;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -138,14 +138,10 @@ impl Gpu {
         if chosen.software {
             threads::ensure_threads()?;
         }
-        let device = match device::create(&vulkan.instance, &chosen) {
-            Ok(device) => device,
-            Err(error) => {
-                // A loader that runs out of memory there keeps its lock (1.3.239), and would wait for it for ever.
-                mem::forget(vulkan);
-                return Err(error);
-            }
-        };
+        // A loader that runs out of memory here keeps its lock (1.3.239), and would wait for it for ever: an instance
+        // whose device cannot be opened goes with the process.
+        let vulkan = ManuallyDrop::new(vulkan);
+        let device = device::create(&vulkan.instance, &chosen)?;
         let instance = &vulkan.instance;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(chosen.queue_family, 0) };
@@ -157,14 +153,12 @@ impl Gpu {
             buffer_device_address: true,
             allocation_sizes: Default::default(),
         });
-        // SAFETY: nothing has been made from the device, here and below.
-        let allocator = allocator.inspect_err(|_| unsafe { device.destroy_device(None) })?;
+        let allocator = allocator?;
         let pool = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)
             .queue_family_index(chosen.queue_family);
         // SAFETY: the queue family belongs to this device.
-        let command_pool = unsafe { device.create_command_pool(&pool, None) }
-            .inspect_err(|_| unsafe { device.destroy_device(None) })?;
+        let command_pool = unsafe { device.create_command_pool(&pool, None)? };
         let features = &chosen.features;
         let tells_executables = features.executable.pipeline_executable_info == vk::TRUE;
         let gpu = Self(Arc::new(GpuContext {
@@ -187,7 +181,7 @@ impl Gpu {
             device,
             chosen,
             queue,
-            vulkan,
+            vulkan: ManuallyDrop::into_inner(vulkan),
         }));
         gpu.name_object(gpu.queue, "queue");
         gpu.name_object(gpu.command_pool, "commands");
@@ -196,7 +190,11 @@ impl Gpu {
     }
 
     /// Gives an object a name that validation messages and debuggers show.
-    pub fn name_object<T: vk::Handle>(&self, handle: T, name: &str) {
+    pub fn name_object<T: vk::Handle + Copy>(&self, handle: T, name: &str) {
+        // What could be done without was not made.
+        if handle.is_null() {
+            return;
+        }
         let name = CString::new(name).unwrap_or_default();
         let info =
             vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);

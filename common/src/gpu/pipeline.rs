@@ -7,6 +7,7 @@ mod hit_group;
 
 use std::ops::Deref;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use anyhow::{Result, ensure};
@@ -51,6 +52,8 @@ pub struct Pipeline {
 pub struct RayTracingPipeline {
     /// How many groups there are of each kind: raygen, miss, hit, callable.
     pub groups: [usize; 4],
+    /// How many hit records the largest table made for it has.
+    pub(super) hit_records: AtomicU32,
     pipeline: Pipeline,
 }
 
@@ -75,6 +78,34 @@ impl RayTracingPipeline {
     /// ```
     pub fn builder(name: &str) -> PipelineBuilder<'_> {
         PipelineBuilder::new(name)
+    }
+
+    /// As [`Pipeline::bind`]; and holds that each instance's hit record is in the table.
+    ///
+    /// # Errors
+    /// As [`Pipeline::bind`]; if an instance needs a record that there is not.
+    pub fn bind<T: ShaderStruct>(
+        &self,
+        cmd: vk::CommandBuffer,
+        descriptors: &[Descriptor],
+        push: &T,
+    ) -> Result<()> {
+        let records = self.hit_records.load(Ordering::Relaxed);
+        for descriptor in descriptors {
+            if let Descriptor::AccelerationStructure(AccelerationStructure { hit_records, .. }) =
+                descriptor
+                && records > 0
+            {
+                ensure!(
+                    *hit_records <= records,
+                    "an instance of the top level has the hit record {}, and the shader binding table of '{}' \
+                     has {records}, counted from 0 in the order of the .hit lines",
+                    hit_records - 1,
+                    self.blueprint.name
+                );
+            }
+        }
+        self.pipeline.bind(cmd, descriptors, push)
     }
 }
 

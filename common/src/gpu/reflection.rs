@@ -10,7 +10,7 @@ use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 
 use super::layout::StructLayout;
-pub use rays::Payloads;
+pub use rays::{Passed, Payloads};
 
 /// A descriptor as a shader declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

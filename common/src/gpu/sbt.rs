@@ -6,6 +6,8 @@
 //! works on some vendors' devices and loses the device on others, so the arithmetic stands alone here,
 //! tested on the limits of several.
 
+use std::sync::atomic::Ordering;
+
 use anyhow::{Result, ensure};
 use ash::vk;
 
@@ -130,6 +132,7 @@ impl ShaderBindingTable {
         let longest = hit.iter().map(|record| record.data.len()).max().unwrap_or(0);
         let [raygen, miss, _, callable] = pipeline.groups.map(one_each);
         let records = [&raygen[..], &miss, hit, &callable];
+        pipeline.hit_records.fetch_max(hit.len() as u32, Ordering::Relaxed);
         // The raygen record has the first pixel of a launch.
         let data = [size_of::<[u32; 2]>(), 0, longest, 0];
         let layout = layout(&gpu.limits, records.map(<[_]>::len), data)?;

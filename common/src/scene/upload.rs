@@ -174,7 +174,13 @@ pub fn build_top(
     let bytes: Vec<_> = instances.iter().map(instance_bytes).collect();
     let buffer = Buffer::with_data(gpu, "instances", &bytes, input_usage())?;
     let count = instances.len() as u32;
-    AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())
+    let mut top =
+        AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())?;
+    let record = |i: &vk::AccelerationStructureInstanceKHR| {
+        i.instance_shader_binding_table_record_offset_and_flags.low_24() + 1
+    };
+    top.hit_records = instances.iter().map(record).max().unwrap_or_default();
+    Ok(top)
 }
 
 /// An instance as the device reads it: 64 bytes.

@@ -255,12 +255,28 @@ impl Exercise {
         told.find(|word| self.answers.accept(&value(word))).map(String::as_str)
     }
 
-    /// Its item in the list on its page.
+    /// Its item in the list on its page. The answer to a question is folded away: one looks first.
     fn item(&self) -> String {
         let Self { number, patch, text, check, .. } = self;
         let (takes, time) = (self.takes(), self.time());
-        format!("{number}. **{}** ({takes}, {time}). {text} *Check:* {check}\n", patch.title)
+        let check = match self.takes {
+            Takes::Look => {
+                let indent = " ".repeat(format!("{number}. ").len());
+                let check = capitalised(check);
+                format!(
+                    "\n\n{indent}<details><summary>Check</summary>\n\n{indent}{check}\n\n{indent}</details>\n"
+                )
+            }
+            _ => format!(" *Check:* {check}"),
+        };
+        format!("{number}. **{}** ({takes}, {time}). {text}{check}\n", patch.title)
     }
+}
+
+/// A sentence that begins with a capital letter.
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 impl fmt::Display for Exercise {

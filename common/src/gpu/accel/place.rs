@@ -39,8 +39,16 @@ pub(super) fn place(
         let address = unsafe { extension.get_acceleration_structure_device_address(&of) };
         gpu.name_object(handle, &plan.name);
         gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
-        let (_buffer, gpu) = (buffer.clone(), gpu.clone());
-        placed.push(AccelerationStructure { handle, address, size, plan, _buffer, gpu });
+        let (hit_records, _buffer, gpu) = (0, buffer.clone(), gpu.clone());
+        placed.push(AccelerationStructure {
+            handle,
+            address,
+            size,
+            hit_records,
+            plan,
+            _buffer,
+            gpu,
+        });
     }
     Ok(placed)
 }

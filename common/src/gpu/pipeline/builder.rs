@@ -1,6 +1,7 @@
 //! A pipeline put together line by line.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicU32;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
@@ -218,7 +219,11 @@ impl<'a> PipelineBuilder<'a> {
             "pipeline '{name}' needs a recursion depth of {recursion}; {} allows {limit}",
             gpu.name
         );
-        Ok(RayTracingPipeline { groups: self.groups, pipeline: self.pipeline(gpu)? })
+        Ok(RayTracingPipeline {
+            groups: self.groups,
+            hit_records: AtomicU32::new(0),
+            pipeline: self.pipeline(gpu)?,
+        })
     }
 
     /// Compiles the compute shader and makes the pipeline.

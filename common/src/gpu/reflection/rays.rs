@@ -16,12 +16,21 @@ const CULL_MASK: usize = 2;
 const RECORD_OFFSET: usize = 3;
 const MISS_INDEX: usize = 5;
 
-/// What a shader traces or takes as payloads, each by its shape.
+/// A payload that a trace passes.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Passed {
+    /// The trace's `missIndex`, if it is a constant.
+    pub miss: Option<u32>,
+    /// The payload's type.
+    pub shape: String,
+}
+
+/// What a shader passes and takes as payloads.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Payloads {
     /// Those that its traces pass.
-    pub traced: Vec<String>,
-    /// Those that it takes from who called it.
+    pub passed: Vec<Passed>,
+    /// The types of those that it takes from who called it.
     pub taken: Vec<String>,
 }
 
@@ -36,6 +45,11 @@ impl Reflection {
         let index = self.built_in(BuiltIn::LaunchIdKHR);
         let record = self.variables(StorageClass::ShaderRecordBufferKHR);
         for function in &self.module.functions {
+            // The log of `--pixel` asks whether a launch is that of the one pixel.
+            let name = function.def.as_ref().and_then(|def| def.result_id);
+            if name.is_some_and(|id| self.debug_name(id, None).starts_with("log_")) {
+                continue;
+            }
             let reads = |ids: &[u32]| instructions(function).any(|i| names(i, ids));
             ensure!(
                 !reads(&size),
@@ -55,16 +69,17 @@ impl Reflection {
     pub fn payloads(&self) -> Payloads {
         let shape = |variable: u32| self.shape(self.pointee(variable)?);
         let traces = self.traces();
-        let traced = traces.filter_map(|trace| match trace.operands.last() {
-            Some(Operand::IdRef(payload)) => shape(*payload),
-            _ => None,
+        let passed = traces.filter_map(|trace| {
+            let Some(Operand::IdRef(payload)) = trace.operands.last() else { return None };
+            let miss = self.constant(trace.operands.get(MISS_INDEX));
+            Some(Passed { miss, shape: shape(*payload)? })
         });
         let taken = self.variables(StorageClass::IncomingRayPayloadKHR);
         let used = |id: &u32| {
             self.module.functions.iter().flat_map(instructions).any(|i| names(i, &[*id]))
         };
         let taken = taken.into_iter().filter(used).filter_map(shape);
-        Payloads { traced: traced.collect(), taken: taken.collect() }
+        Payloads { passed: passed.collect(), taken: taken.collect() }
     }
 
     /// Holds that each ray names a miss shader of the pipeline, which has so many; one beyond them is

@@ -14,6 +14,7 @@ fn main() -> ExitCode {
 
 struct Demo {
     scene: SceneOnGpu,
+    /// The top level points to it, so it must live as long.
     _sphere: AccelerationStructure,
     tlas: AccelerationStructure,
     pipeline: RayTracingPipeline,
@@ -41,6 +42,7 @@ impl Sample for Demo {
         let boxes = boxes_on_gpu(gpu, "sphere", &[bounds])?;
         let shape = [Geometry::Aabbs { boxes: boxes.address, count: 1, opaque: true }];
         let sphere = AccelerationStructure::bottom(gpu, "sphere", &shape, BuildOptions::default())?;
+        // The scene's own top level has no ball. This one has both.
         // Meshes use hit record 0, and the sphere 1: the order of the hit groups below.
         let meshes = world.instances.iter().enumerate();
         let meshes =
