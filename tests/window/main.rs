@@ -11,6 +11,7 @@ mod lost;
 mod signals;
 mod stand_ins;
 mod started;
+mod wayland;
 
 use std::path::Path;
 use std::process::Output;
