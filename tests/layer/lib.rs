@@ -1,6 +1,8 @@
 //! What the loader and a Vulkan layer tell each other:
 //! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
 
+pub mod below;
+
 use std::ffi::{CStr, c_char, c_void};
 
 use ash::vk;

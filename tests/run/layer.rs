@@ -27,6 +27,12 @@ impl Layer {
         Self::new("narrow", narrow::NAME, layers, false, vec![("NARROW", faults.into())])
     }
 
+    /// A display or a card with a mood of its own, in the words of `tests/window/moods`.
+    pub fn moods(words: &str) -> Self {
+        let layers = format!("VK_LAYER_KHRONOS_validation:{}", moods::NAME);
+        Self::new("moods", moods::NAME, layers, false, vec![("MOODS", words.into())])
+    }
+
     /// A call that fails: `fault` names it in the words of `tests/errors/failing`; empty for none.
     pub fn failing(fault: &str) -> Self {
         // Mesa's own layer, which sorts devices, crashes of some failures.

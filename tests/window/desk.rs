@@ -27,6 +27,8 @@ pub struct Desk {
     x: RustConnection,
     root: u32,
     window: u32,
+    /// The bits of a colour.
+    bits: u32,
 }
 
 /// Calls `look` until it finds something.
@@ -66,20 +68,27 @@ impl Desk {
     }
 
     /// The same, of a program that may lie anywhere.
-    pub fn begin_by(
+    pub fn begin_by(command: Command, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
+        Self::begin_on(server(&[]), command, arguments, environment)
+    }
+
+    /// The same, on this server.
+    pub fn begin_on(
+        (server, display): (Child, String),
         mut command: Command,
         arguments: &[&str],
         environment: &[(&str, &Path)],
     ) -> Self {
-        let (server, display) = server(&[]);
         let folder = tempfile::tempdir().expect("a temporary folder");
         command.args(arguments).current_dir(folder.path()).env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         command.envs(environment.iter().copied()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let sample = command.spawn().expect("the sample starts");
         let (x, screen) = RustConnection::connect(Some(&display)).expect("the server answers");
-        let root = x.setup().roots[screen].root;
-        let mut desk = Self { folder, sample: Some(sample), server, x, root, window: 0 };
+        let screen = &x.setup().roots[screen];
+        let bits = if screen.root_depth == 30 { 10 } else { 8 };
+        let root = screen.root;
+        let mut desk = Self { folder, sample: Some(sample), server, x, root, window: 0, bits };
         desk.window = wait("a window", || desk.find_window());
         desk.focus();
         desk
@@ -142,7 +151,11 @@ impl Desk {
         let image = self.x.get_image(format, self.window, 0, 0, width, height, u32::MAX).unwrap();
         // A window that is resized at this very moment has no such image: try again later.
         let Ok(image) = image.reply() else { return RgbImage::new(width.into(), height.into()) };
-        let pixels = image.data.chunks_exact(4).map(|bgrx| Rgb([bgrx[2], bgrx[1], bgrx[0]]));
+        let pixels = image.data.chunks_exact(4).map(|pixel| {
+            let word = u32::from_le_bytes([pixel[0], pixel[1], pixel[2], pixel[3]]);
+            // The upper 8 bits of each colour; blue has the lowest.
+            Rgb([2, 1, 0].map(|place| (word >> ((place + 1) * self.bits - 8)) as u8))
+        });
         let mut shown = RgbImage::new(width.into(), height.into());
         shown.pixels_mut().zip(pixels).for_each(|(to, from)| *to = from);
         shown
@@ -275,6 +288,15 @@ impl Desk {
         self.sample.as_ref().expect("the sample runs").id()
     }
 
+    /// Processor time that the sample has taken, in ticks of the system's clock.
+    pub fn worked(&self) -> u64 {
+        let text = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).expect("it runs");
+        // The program's name, in brackets, may hold anything; the time in its own code is the 12th word behind it.
+        let (_, words) = text.rsplit_once(") ").expect("a name in brackets");
+        let words: Vec<&str> = words.split(' ').collect();
+        words[11..13].iter().map(|ticks| ticks.parse::<u64>().expect("a number")).sum()
+    }
+
     /// Waits until the sample has ended, and returns how, and what it said.
     pub fn end(self) -> Output {
         self.end_with(|| ()).0
@@ -353,8 +375,8 @@ impl Sync for RustConnection {
 /// Starts an X server on a free display, with these arguments, too.
 pub fn server(more: &[&str]) -> (Child, String) {
     let mut command = Command::new("Xvfb");
-    command.args(more);
     command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);
+    command.args(more);
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
     let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup"));
     let mut number = String::new();

@@ -9,7 +9,9 @@ mod failures;
 mod long;
 mod lost;
 mod signals;
+mod stand_ins;
 mod started;
+mod wayland;
 
 use std::path::Path;
 use std::process::Output;

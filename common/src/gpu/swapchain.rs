@@ -1,6 +1,6 @@
 //! The images of a window: acquired, drawn to, presented, and made anew when the window changes.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use ash::{khr, vk};
 
 use super::{Gpu, Vulkan, WindowHandles};
@@ -15,12 +15,18 @@ const FORMATS: [(vk::Format, vk::Format); 3] = [
     (vk::Format::A8B8G8R8_SRGB_PACK32, vk::Format::A8B8G8R8_UNORM_PACK32),
 ];
 
+/// Formats of 10 bits in sRGB, which some desktops have alone. They have no sibling that converts.
+const DEEP_FORMATS: [vk::Format; 2] =
+    [vk::Format::A2B10G10R10_UNORM_PACK32, vk::Format::A2R10G10B10_UNORM_PACK32];
+
 /// A `VkSwapchainKHR` and its surface, destroyed on drop; drop it before its window.
 pub struct Swapchain {
     /// The format in which a copy converts linear colour to what the window shows.
     pub srgb: vk::Format,
     /// The same bits without conversion.
     pub unorm: vk::Format,
+    /// Whether the images have more bits: then `unorm` is to be blitted to them, and else either format copied.
+    pub deep: bool,
     window: WindowHandles,
     surfaces: khr::surface::Instance,
     swapchains: khr::swapchain::Device,
@@ -28,6 +34,8 @@ pub struct Swapchain {
     handle: vk::SwapchainKHR,
     extent: vk::Extent2D,
     stale: bool,
+    /// Whether new images of this size were no better: a window system may call any suboptimal for ever.
+    resigned: bool,
     images: Vec<vk::Image>,
     /// One an image: presentation may still wait for it when another image is drawn.
     drawn: Vec<vk::Semaphore>,
@@ -51,11 +59,12 @@ impl Swapchain {
     /// A swapchain for a window that `gpu` was made for; it has no images until [`Swapchain::fit`].
     ///
     /// # Errors
-    /// If the window shows no 8-bit colour.
+    /// If the window shows no sRGB colour of 8 or 10 bits.
     pub fn new(gpu: &Gpu, window: WindowHandles) -> Result<Self> {
         let mut swapchain = Self {
             srgb: vk::Format::UNDEFINED,
             unorm: vk::Format::UNDEFINED,
+            deep: false,
             window,
             surfaces: khr::surface::Instance::new(&gpu.vulkan.entry, &gpu.vulkan.instance),
             swapchains: khr::swapchain::Device::new(&gpu.vulkan.instance, &gpu.device),
@@ -63,6 +72,7 @@ impl Swapchain {
             handle: vk::SwapchainKHR::null(),
             extent: vk::Extent2D::default(),
             stale: true,
+            resigned: false,
             images: Vec::new(),
             drawn: Vec::new(),
             acquired: vk::Semaphore::null(),
@@ -72,8 +82,9 @@ impl Swapchain {
         swapchain.acquired = unsafe { gpu.device.create_semaphore(&Default::default(), None)? };
         gpu.name_object(swapchain.acquired, "image acquired");
         swapchain.make_surface()?;
-        let (srgb, unorm) = swapchain.format()?.1;
+        let (format, (srgb, unorm)) = swapchain.format()?;
         (swapchain.srgb, swapchain.unorm) = (srgb, unorm);
+        swapchain.deep = DEEP_FORMATS.contains(&format);
         Ok(swapchain)
     }
 
@@ -133,7 +144,7 @@ impl Swapchain {
         };
         match result {
             Ok((index, suboptimal)) => {
-                self.stale |= suboptimal;
+                self.stale |= suboptimal && !self.resigned;
                 Ok(Some(Acquired {
                     image: self.images[index as usize],
                     before: self.acquired,
@@ -146,8 +157,8 @@ impl Swapchain {
         }
     }
 
-    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`; `false` if the window has changed
-    /// and wants another.
+    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`; whether it was shown. If the window has
+    /// changed, it may not be.
     ///
     /// # Errors
     /// If the device was lost.
@@ -160,11 +171,16 @@ impl Swapchain {
         // SAFETY: the image was acquired from this swapchain, and its semaphore is signalled.
         match unsafe { self.swapchains.queue_present(self.gpu.queue, &info) } {
             Ok(suboptimal) => {
-                self.stale |= suboptimal;
-                Ok(!self.stale)
+                self.stale |= suboptimal && !self.resigned;
+                Ok(true)
             }
             Err(error) => self.outdated(error).map(|()| false),
         }
+    }
+
+    /// Whether new images are due: [`Swapchain::fit`] makes them.
+    pub fn is_stale(&self) -> bool {
+        self.stale
     }
 
     fn outdated(&mut self, error: vk::Result) -> Result<()> {
@@ -184,7 +200,7 @@ impl Swapchain {
         }
     }
 
-    /// The window's format and the pair that it belongs to.
+    /// The window's format, and the pair that it belongs to or, if it has 10 bits, that is blitted to it.
     fn format(&self) -> Result<(vk::Format, (vk::Format, vk::Format))> {
         // SAFETY: as above.
         let offered = unsafe {
@@ -197,10 +213,20 @@ impl Swapchain {
             })
         };
         let pair = FORMATS.into_iter().find(|&(srgb, unorm)| has(srgb) || has(unorm));
-        let Some((srgb, unorm)) = pair else {
-            bail!("this window shows no 8-bit sRGB colour: add --headless to render without it");
+        if let Some((srgb, unorm)) = pair {
+            return Ok((if has(srgb) { srgb } else { unorm }, (srgb, unorm)));
+        }
+        let blit = |&format: &vk::Format| {
+            let (instance, device) = (&self.gpu.vulkan.instance, self.gpu.physical_device);
+            // SAFETY: as above.
+            let known = unsafe { instance.get_physical_device_format_properties(device, format) };
+            known.optimal_tiling_features.contains(vk::FormatFeatureFlags::BLIT_DST)
         };
-        Ok((if has(srgb) { srgb } else { unorm }, (srgb, unorm)))
+        let deep = DEEP_FORMATS.into_iter().filter(|&format| has(format)).find(blit);
+        deep.map(|format| (format, FORMATS[0])).context(
+            "this window shows no sRGB colour of 8 bits, nor one of 10 that the device can blit to: add \
+             --headless to render without it",
+        )
     }
 
     fn make_surface(&mut self) -> Result<()> {
@@ -211,7 +237,7 @@ impl Swapchain {
         self.surface =
             unsafe { ash_window::create_surface(entry, instance, display, window, None) }
                 .context("cannot draw to the window")?;
-        self.stale = true;
+        (self.stale, self.extent) = (true, vk::Extent2D::default());
         Ok(())
     }
 
@@ -221,11 +247,6 @@ impl Swapchain {
         capabilities: &vk::SurfaceCapabilitiesKHR,
         extent: vk::Extent2D,
     ) -> Result<bool> {
-        // A count of 0 as the most means any number.
-        let most = match capabilities.max_image_count {
-            0 => u32::MAX,
-            most => most,
-        };
         let alpha = [vk::CompositeAlphaFlagsKHR::OPAQUE, vk::CompositeAlphaFlagsKHR::INHERIT]
             .into_iter()
             .find(|&flag| capabilities.supported_composite_alpha.contains(flag))
@@ -233,7 +254,8 @@ impl Swapchain {
         let old = self.handle;
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(self.surface)
-            .min_image_count((capabilities.min_image_count + 1).min(most))
+            // One image more would be one more picture that waits for the display, and shows old input.
+            .min_image_count(capabilities.min_image_count)
             .image_format(self.format()?.0)
             .image_color_space(vk::ColorSpaceKHR::SRGB_NONLINEAR)
             .image_extent(extent)
@@ -265,6 +287,7 @@ impl Swapchain {
                 self.drawn.push(semaphore);
             }
         }
+        self.resigned = extent == self.extent;
         self.extent = extent;
         self.stale = false;
         Ok(true)

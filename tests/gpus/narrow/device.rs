@@ -2,7 +2,8 @@
 
 use ash::vk;
 
-use crate::{below, faults, memory, queues};
+use crate::{faults, memory, queues};
+use layer::below;
 
 pub unsafe extern "system" fn create(
     physical: vk::PhysicalDevice,

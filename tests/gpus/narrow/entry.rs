@@ -5,7 +5,8 @@ use std::ffi::{c_char, c_void};
 use ash::vk;
 use layer::Negotiation;
 
-use crate::{below, device, memory, physical, queues};
+use crate::{device, memory, physical, queues};
+use layer::below;
 
 /// Settles on version 2 of the interface, the present one.
 ///

@@ -18,7 +18,6 @@
 //! - `tell=FILE`: when the device is destroyed, the file gets four numbers: how often was submitted, and how
 //!   many allocations there were of memory in the device, in the host, and in the device but mapped.
 
-mod below;
 mod device;
 mod entry;
 mod faults;

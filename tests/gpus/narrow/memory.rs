@@ -8,7 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use ash::vk;
 use ash::vk::Handle;
 
-use crate::{below, faults, limits};
+use crate::{faults, limits};
+use layer::below;
 
 /// The type that only the device reads and writes.
 const DEVICE: u32 = 0;

@@ -4,7 +4,8 @@ use std::ffi::{CStr, c_char, c_void};
 
 use ash::{khr, vk};
 
-use crate::{below, faults, features, limits};
+use crate::{faults, features, limits};
+use layer::below;
 
 /// All that the samples ask for; what is not here, the device does not have.
 const EXTENSIONS: [&CStr; 5] = [

@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use ash::vk;
 
-use crate::{below, faults};
+use crate::faults;
+use layer::below;
 
 static SUBMITS: AtomicU32 = AtomicU32::new(0);
 

@@ -4,13 +4,27 @@
 //! value, in an order that changes from round to round, and only times of the same round are divided
 //! by each other. The first value is timed twice a round: the second time against the first is the
 //! noise floor, which no smaller difference can beat.
+//!
+//! A small launch keeps a GPU busy for less time than it takes to begin one, and its clocks stay low. So values
+//! are rendered until their times stop falling, and where one takes less than [`LEAST`] the picture is made wider
+//! and higher: more rays of the same kind.
 
 use std::collections::HashMap;
 
 use anyhow::Result;
+use ash::vk;
 use common::app::{Bands, Progress, Run, controls};
+use common::gpu::Image;
 use common::usage::Usage;
 use serde::Serialize;
+
+/// Milliseconds that a launch has to take to be worth timing.
+const LEAST: f64 = 5.0;
+/// How many times as wide and as high as asked for a picture is made for that, at most.
+const WIDEST: u32 = 8;
+/// How many frames warm up a value, at most, and how much less than the least before is less.
+const WARMING: u32 = 20;
+const FALLING: f64 = 0.97;
 
 /// What is to be compared.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -26,8 +40,10 @@ pub struct Options {
 pub struct Comparison {
     /// The control.
     pub control: String,
-    /// How many rounds were timed, after one to warm up.
+    /// How many rounds were timed, after some frames to warm up.
     pub rounds: u32,
+    /// The size of the picture, where a device is too fast for the one asked for.
+    pub widened: Option<[u32; 2]>,
     /// The first value against itself.
     pub noise: Ratio,
     /// Each value, in the order given.
@@ -85,15 +101,59 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), Usage> {
 /// If a value is none of the control's, or the sample or the device fails.
 pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
     let rounds = run.args.frames;
-    let turns = u64::from(rounds) * (values.len() as u64 + 1) + values.len() as u64;
+    let turns = u64::from(rounds) * (values.len() as u64 + 1);
     let mut progress = Progress::new(turns, "frames");
     // What a picture costs is known of each value.
     let mut bands = HashMap::<_, Bands>::new();
-    compare(control, values, rounds, |value| {
+    let mut frame = |run: &mut Run, value: &str| {
         controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
-        progress.step();
         run.time(bands.entry(value.to_owned()).or_default())
-    })
+    };
+    let mut quickest = f64::INFINITY;
+    for value in values {
+        quickest = quickest.min(warm_up(|| frame(run, value))?);
+    }
+    let widened = widen(run, quickest)?;
+    let mut comparison = compare(control, values, rounds, |value| {
+        progress.step();
+        frame(run, value)
+    })?;
+    comparison.widened = widened;
+    Ok(comparison)
+}
+
+/// Makes the picture of a run so large that the quickest value takes as long as it has to, if the device has room;
+/// its size, if it is another.
+fn widen(run: &mut Run, quickest: f64) -> Result<Option<[u32; 2]>> {
+    let most = run.gpu.limits.core.max_image_dimension2_d;
+    let extent = run.image.extent;
+    let side = |pixels: u32, times: u32| pixels.saturating_mul(times);
+    let fits = |times: u32| side(extent.width.max(extent.height), times) <= most;
+    let enough = |times: u32| quickest * f64::from(times * times) >= LEAST;
+    let mut times = 1;
+    while !enough(times) && times < WIDEST && fits(2 * times) {
+        times *= 2;
+    }
+    if times == 1 {
+        return Ok(None);
+    }
+    let [width, height] = [extent.width, extent.height].map(|pixels| side(pixels, times));
+    run.image = Image::storage(&run.gpu, "picture", vk::Extent2D { width, height })?;
+    Ok(Some([width, height]))
+}
+
+/// Renders frames until they take no less time than those before; the least.
+fn warm_up(mut frame: impl FnMut() -> Result<f64>) -> Result<f64> {
+    let mut least = frame()?;
+    for _ in 1..WARMING {
+        let took = frame()?;
+        let falls = took < FALLING * least;
+        least = least.min(took);
+        if !falls {
+            break;
+        }
+    }
+    Ok(least)
 }
 
 /// Times `rounds` rounds; `frame` renders one frame with the value set and returns milliseconds.
@@ -109,7 +169,7 @@ pub fn compare(
     // The first value stands at the end once more, for the noise.
     let turns: Vec<&str> = values.iter().chain(&values[..1]).map(String::as_str).collect();
     for value in values {
-        frame(value)?;
+        warm_up(|| frame(value))?;
     }
     let mut times = vec![Vec::new(); turns.len()];
     for round in 0..rounds as usize {
@@ -132,6 +192,7 @@ pub fn compare(
     Ok(Comparison {
         control: control.to_owned(),
         rounds,
+        widened: None,
         noise: ratio(turns.len() - 1),
         values: values.iter().enumerate().map(measured).collect(),
     })
@@ -154,6 +215,12 @@ impl Comparison {
             row(value, format!("{milliseconds:.1}"), *ratio);
         }
         row(&format!("{first} again (noise)"), String::new(), self.noise);
+        if let Some([width, height]) = self.widened {
+            table += &format!(
+                "\n> Launches were widened to {width}x{height}, for one of the size asked for takes less than {LEAST} \
+                 ms: too little to be timed.\n"
+            );
+        }
         table
     }
 }
@@ -192,7 +259,8 @@ mod tests {
             Ok(1.0)
         })
         .unwrap();
-        let rounds: Vec<_> = order[2..].chunks(3).map(|round| round[0].as_str()).collect();
+        // Two frames of each warm up.
+        let rounds: Vec<_> = order[4..].chunks(3).map(|round| round[0].as_str()).collect();
         assert!(rounds.contains(&"a") && rounds.contains(&"b"), "{rounds:?}");
     }
 
@@ -246,6 +314,10 @@ mod tests {
         let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
         // A frame is asked for once for each of its bands.
         notes.dedup();
-        assert_eq!(notes[..4], ["build 1, 10", "frame 0", "build 2, 20", "frame 0"]);
+        for pair in notes.chunks(2) {
+            assert!(pair[0].starts_with("build ") && pair[1] == "frame 0", "{pair:?}");
+        }
+        let built = |note: &&String| note.starts_with("build 2, 20");
+        assert!(notes[0] == "build 1, 10" && notes.iter().any(|note| built(&note)), "{notes:?}");
     }
 }

@@ -9,7 +9,7 @@ use winit::event::WindowEvent;
 
 use super::panel::Panel;
 use super::style;
-use super::window_on_gpu::WindowOnGpu;
+use super::window_on_gpu::{Presented, WindowOnGpu};
 use crate::app::args::Args;
 use crate::app::controls::Listed;
 use crate::output;
@@ -102,7 +102,7 @@ impl Lost {
         let viewport = drawing.viewport_output.get(&ViewportId::ROOT);
         let delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
         let shown = self.on_gpu.present(extent, None, drawing)?;
-        let delay = if shown == Some(true) { delay } else { Duration::ZERO };
+        let delay = if shown == Presented::Shown { delay } else { Duration::ZERO };
         self.redraw_at = Instant::now().checked_add(delay);
         Ok(choice)
     }

@@ -1,7 +1,7 @@
 //! How large the next picture may be, so that the window stays responsive on any device.
 //!
-//! While something changes, pictures are as large as fifteen of them a second allow. Once nothing has
-//! changed for a moment, the picture sharpens: to full size at once if that is quick, else to the largest
+//! While something changes, pictures are as large as sixty of them a second allow, or fifteen on a software
+//! driver. Once nothing has changed for a moment, the picture sharpens: to full size at once if that is quick, else to the largest
 //! size that is quick, and then in steps of four times the pixels. A change gives up a slow picture that
 //! is being traced. A device that traces full size within the budget never sees any of this.
 
@@ -9,8 +9,10 @@ use std::time::{Duration, Instant};
 
 use ash::vk::Extent2D;
 
-/// Milliseconds for a picture while something moves: a fifteenth of a second, less the panel's share.
-const MOVING: f64 = 40.0;
+/// Milliseconds for a picture while something moves: a sixtieth of a second, less the panel's share.
+const MOVING: f64 = 14.0;
+/// The same on a software driver, which would have too few pixels left: a fifteenth of a second.
+const MOVING_IN_SOFTWARE: f64 = 40.0;
 /// Milliseconds for a first still picture.
 const QUICK: f64 = 120.0;
 /// How long nothing must change before the picture sharpens.
@@ -33,6 +35,8 @@ pub enum Step {
 
 /// Chooses sizes from the times that earlier pictures took.
 pub struct Pace {
+    /// Milliseconds for a picture while something moves.
+    moving: f64,
     /// Milliseconds a pixel.
     cost: Option<f64>,
     /// The first picture after a start also compiles shaders in the driver: its time tells nothing.
@@ -46,9 +50,9 @@ pub struct Pace {
 impl Pace {
     /// Knows nothing yet; a software driver begins small.
     pub fn new(software: bool, now: Instant) -> Self {
-        let start = if software { UNKNOWN } else { 0 };
+        let (start, moving) = if software { (UNKNOWN, MOVING_IN_SOFTWARE) } else { (0, MOVING) };
         let (cost, shown) = (None, None);
-        Self { cost, warm: false, start, level: start, shown, changed: now }
+        Self { moving, cost, warm: false, start, level: start, shown, changed: now }
     }
 
     /// The picture no longer shows how things stand.
@@ -78,7 +82,7 @@ impl Pace {
     pub fn step(&mut self, now: Instant, full: Extent2D, accumulates: bool) -> Step {
         let level = match self.shown {
             None => {
-                self.level = self.level_within(MOVING, full, self.level);
+                self.level = self.level_within(self.moving, full, self.level);
                 self.level
             }
             Some(0) if accumulates => 0,
@@ -144,9 +148,9 @@ mod tests {
     }
 
     impl Simulation {
-        fn new(full_milliseconds: f64) -> Self {
+        fn new(software: bool, full_milliseconds: f64) -> Self {
             let now = Instant::now();
-            Self { pace: Pace::new(true, now), now, full_milliseconds }
+            Self { pace: Pace::new(software, now), now, full_milliseconds }
         }
 
         /// Takes a step and returns the milliseconds that it took, 0 for none.
@@ -165,12 +169,16 @@ mod tests {
 
     #[test]
     fn a_drag_stays_within_the_budget_and_then_sharpens() {
-        for full in [20.0, 100.0, 325.0, 5000.0] {
-            let mut run = Simulation::new(full);
+        let devices = [(true, MOVING_IN_SOFTWARE), (false, MOVING)];
+        let times = [20.0, 30.0, 100.0, 325.0, 5000.0];
+        for ((software, most), full) in devices.into_iter().flat_map(|d| times.map(|t| (d, t))) {
+            let mut run = Simulation::new(software, full);
             for frame in 0..100 {
                 run.pace.change(run.now);
                 let took = run.step();
-                assert!(took > 0.0 && (took <= MOVING || frame < 2), "{full}: {took}");
+                // The smallest picture has a 256th of the pixels.
+                let least = full / 256.0;
+                assert!(took > 0.0 && (took <= most.max(least) || frame < 2), "{full}: {took}");
             }
             let released = run.now;
             while !run.pace.is_sharp() {

@@ -2,7 +2,8 @@
 //!
 //! Both meet on a canvas. The picture is blitted to it as sRGB, so that the device converts linear
 //! floats; the panel is blended over it as plain bytes, because its colours were chosen in sRGB. The
-//! canvas is then copied, bit by bit, to the window, whose images may have either format.
+//! canvas is then copied, bit by bit, to the window, whose images may have either format. To images of 10
+//! bits it is blitted, from a copy that says nothing of sRGB: the device would convert the bytes back.
 
 use anyhow::{Context as _, Result};
 use ash::vk;
@@ -17,6 +18,9 @@ use crate::gpu::{Acquired, Gpu, Image, Swapchain, transition};
 pub struct Painter {
     panel: Renderer<GpuAllocator>,
     canvas: Option<Image>,
+    /// The canvas's bytes as plain numbers, where the window's images have more bits.
+    plain: Option<Image>,
+    deep: bool,
     srgb: vk::Format,
     unorm: vk::Format,
     filter: vk::Filter,
@@ -60,6 +64,8 @@ impl Painter {
         Ok(Self {
             panel,
             canvas: None,
+            plain: None,
+            deep: swapchain.deep,
             srgb: swapchain.srgb,
             unorm: swapchain.unorm,
             filter: if smooth { vk::Filter::LINEAR } else { vk::Filter::NEAREST },
@@ -100,11 +106,13 @@ impl Painter {
     ) -> Result<()> {
         use vk::ImageLayout as Layout;
         if self.canvas.as_ref().is_none_or(|canvas| canvas.extent != extent) {
-            self.canvas = None;
-            let canvas = Image::canvas(&self.gpu, "canvas", extent, self.srgb, self.unorm)?;
-            self.canvas = Some(canvas);
+            (self.canvas, self.plain) = (None, None);
+            let make = |name, format| Image::canvas(&self.gpu, name, extent, format, self.unorm);
+            self.canvas = Some(make("canvas", self.srgb)?);
+            self.plain = self.deep.then(|| make("plain canvas", self.unorm)).transpose()?;
         }
         let canvas = self.canvas.as_ref().context("the canvas was just made")?;
+        let plain = self.plain.as_ref();
         let (gpu, panel, filter) = (&self.gpu, &mut self.panel, self.filter);
         gpu.submit_between(target.before, target.after, |cmd| {
             canvas.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
@@ -114,7 +122,7 @@ impl Painter {
             if let Some((picture, area)) = picture {
                 picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
                 let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
-                blit(gpu, cmd, picture, (canvas, area), filter);
+                blit(gpu, cmd, picture, (canvas.handle, extent, area), filter);
                 picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
             }
             canvas.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::COLOR_ATTACHMENT_OPTIMAL);
@@ -135,20 +143,18 @@ impl Painter {
             drawn.context("cannot draw the panel")?;
             canvas.transition(cmd, Layout::COLOR_ATTACHMENT_OPTIMAL, Layout::TRANSFER_SRC_OPTIMAL);
             transition(gpu, cmd, target.image, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
-            let region = vk::ImageCopy::default()
-                .src_subresource(LAYER)
-                .dst_subresource(LAYER)
-                .extent(extent.into());
-            // SAFETY: both images are in the layouts named and as large as the region.
-            unsafe {
-                gpu.device.cmd_copy_image(
-                    cmd,
-                    canvas.handle,
-                    Layout::TRANSFER_SRC_OPTIMAL,
-                    target.image,
-                    Layout::TRANSFER_DST_OPTIMAL,
-                    &[region],
-                );
+            match plain {
+                None => copy(gpu, cmd, canvas, target.image),
+                Some(plain) => {
+                    plain.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
+                    copy(gpu, cmd, canvas, plain.handle);
+                    plain.transition(
+                        cmd,
+                        Layout::TRANSFER_DST_OPTIMAL,
+                        Layout::TRANSFER_SRC_OPTIMAL,
+                    );
+                    blit(gpu, cmd, plain, (target.image, extent, extent), vk::Filter::NEAREST);
+                }
             }
             let shown = Layout::PRESENT_SRC_KHR;
             transition(gpu, cmd, target.image, Layout::TRANSFER_DST_OPTIMAL, shown);
@@ -186,26 +192,39 @@ fn clear(gpu: &Gpu, cmd: vk::CommandBuffer, canvas: &Image) {
     }
 }
 
-/// Scales a picture to the right end of another of the same height.
+/// Copies an image to one of the same size, bit by bit.
+fn copy(gpu: &Gpu, cmd: vk::CommandBuffer, from: &Image, to: vk::Image) {
+    let region = vk::ImageCopy::default()
+        .src_subresource(LAYER)
+        .dst_subresource(LAYER)
+        .extent(from.extent.into());
+    let [source, target] =
+        [vk::ImageLayout::TRANSFER_SRC_OPTIMAL, vk::ImageLayout::TRANSFER_DST_OPTIMAL];
+    // SAFETY: both images are in the layouts named, as large as the region, and outlive the submission.
+    unsafe { gpu.device.cmd_copy_image(cmd, from.handle, source, to, target, &[region]) };
+}
+
+/// Scales a picture to the right end of another of the same height: its handle, its size, and what of it is
+/// covered.
 fn blit(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,
     from: &Image,
-    (to, area): (&Image, vk::Extent2D),
+    (to, size, area): (vk::Image, vk::Extent2D, vk::Extent2D),
     filter: vk::Filter,
 ) {
     let corner = |x: u32, y: u32, z| vk::Offset3D { x: x as i32, y: y as i32, z };
     let vk::Extent2D { width, height } = from.extent;
-    let left = to.extent.width - area.width;
+    let left = size.width - area.width;
     let regions = [vk::ImageBlit2::default()
         .src_subresource(LAYER)
         .src_offsets([corner(0, 0, 0), corner(width, height, 1)])
         .dst_subresource(LAYER)
-        .dst_offsets([corner(left, 0, 0), corner(to.extent.width, to.extent.height, 1)])];
+        .dst_offsets([corner(left, 0, 0), corner(size.width, size.height, 1)])];
     let info = vk::BlitImageInfo2::default()
         .src_image(from.handle)
         .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
-        .dst_image(to.handle)
+        .dst_image(to)
         .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
         .regions(&regions)
         .filter(filter);

@@ -149,8 +149,11 @@ impl Session {
     /// # Errors
     /// If validation had something to say.
     pub fn close(self) -> Result<()> {
-        let longest = self.lag.longest.as_millis();
-        tracing::info!("{} frames; longest wait for a frame {longest} ms", self.presented);
+        let (presented, longest) = (self.presented, self.lag.longest.as_millis());
+        let pictures = self.view.pictures;
+        tracing::info!(
+            "{presented} frames of {pictures} pictures; longest wait for a frame {longest} ms"
+        );
         let Self { view, on_gpu, .. } = self;
         drop(view);
         on_gpu.close().map(drop)

@@ -18,6 +18,9 @@ use crate::gpu::{Gpu, Image, Timer};
 /// For how long bands are traced before the window looks for input again.
 const SLICE: Duration = Duration::from_millis(40);
 
+/// For how long pictures are added to a mean before the display is shown one: most of a frame of 60 a second.
+const FRAME: Duration = Duration::from_millis(12);
+
 /// Milliseconds that a preview may take before a change gives it up.
 const PATIENCE: f64 = 150.0;
 
@@ -38,6 +41,8 @@ pub struct View {
     clock: Clock,
     timer: Timer,
     index: u32,
+    /// How many pictures were whole.
+    pub pictures: u32,
     changed: bool,
     milliseconds: f64,
     full: vk::Extent2D,
@@ -83,6 +88,7 @@ impl View {
             clock: Clock::default(),
             timer: Timer::new(gpu)?,
             index: 0,
+            pictures: 0,
             changed: true,
             milliseconds: 0.0,
             full: nothing,
@@ -176,7 +182,23 @@ impl View {
             return Ok(kept);
         }
         self.begin(extent)?;
-        self.go_on()
+        let stepped = self.go_on()?;
+        self.add_pictures(now, stepped)
+    }
+
+    /// Adds to a mean what the display's frame has time for. A display shows 60 pictures a second, and a device
+    /// may trace ten times as many.
+    fn add_pictures(&mut self, since: Instant, mut stepped: Stepped) -> Result<Stepped> {
+        let fits = |took: f64| since.elapsed().as_secs_f64() + took / 1e3 < FRAME.as_secs_f64();
+        while matches!(stepped, Stepped::New { milliseconds, full: true, .. } if fits(milliseconds))
+            && self.sample.accumulates()
+            && !self.plays()
+            && !self.background.is_building()
+        {
+            self.begin(self.full)?;
+            stepped = self.go_on()?;
+        }
+        Ok(stepped)
     }
 
     /// Has the sample build what its controls ask for. If it cannot, and there is a picture, that stays.
@@ -273,6 +295,7 @@ impl View {
     /// Puts the picture that is whole in the place of the last.
     fn show(&mut self) -> Stepped {
         std::mem::swap(&mut self.image, &mut self.next);
+        self.pictures += 1;
         self.milliseconds = std::mem::take(&mut self.spent);
         let extent = self.image.extent;
         let pixels = u64::from(extent.width) * u64::from(extent.height);

@@ -24,11 +24,25 @@ pub struct WindowOnGpu {
     pub window: Window,
 }
 
+/// What came of an image for the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presented {
+    /// The window shows it.
+    Shown,
+    /// The window shows it, and wants images of another kind from now on.
+    ShownStale,
+    /// It was drawn, and the window had changed by then. Wayland lets nobody draw again before a frame was
+    /// shown ([`Window::pre_present_notify`]), so whoever drew it has to draw at once.
+    Lost,
+    /// The window had none.
+    NoImage,
+}
+
 impl WindowOnGpu {
     /// Opens the device that the arguments name, to draw to a window.
     ///
     /// # Errors
-    /// If there is none that can, or the window shows no 8-bit colour.
+    /// If there is none that can, or the window shows no sRGB colour.
     pub fn new(window: Window, Of { program, args, watch }: Of) -> Result<Self> {
         let handles = WindowHandles {
             display: window.display_handle().context("the window has no display")?.as_raw(),
@@ -87,8 +101,7 @@ impl WindowOnGpu {
         Ok(drawing)
     }
 
-    /// Puts a picture, scaled to its area, and what lies over it on the window. `None` if the window had no
-    /// image; `false` if it has changed and wants another.
+    /// Puts a picture, scaled to its area, and what lies over it on the window.
     ///
     /// # Errors
     /// If the window system or the device fails.
@@ -97,13 +110,17 @@ impl WindowOnGpu {
         extent: vk::Extent2D,
         picture: Option<(&Image, vk::Extent2D)>,
         drawing: FullOutput,
-    ) -> Result<Option<bool>> {
+    ) -> Result<Presented> {
         let scale = drawing.pixels_per_point;
         let triangles = self.egui.egui_ctx().tessellate(drawing.shapes, scale);
-        let Some(target) = self.swapchain.acquire()? else { return Ok(None) };
+        let Some(target) = self.swapchain.acquire()? else { return Ok(Presented::NoImage) };
         self.painter.paint(extent, picture, (&triangles, scale), target)?;
         self.window.pre_present_notify();
-        self.swapchain.present(target).map(Some)
+        Ok(match (self.swapchain.present(target)?, self.swapchain.is_stale()) {
+            (true, false) => Presented::Shown,
+            (true, true) => Presented::ShownStale,
+            (false, _) => Presented::Lost,
+        })
     }
 
     /// Closes the device, and hands back the window.

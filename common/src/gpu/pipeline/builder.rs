@@ -304,7 +304,12 @@ impl<'a> PipelineBuilder<'a> {
         gpu.name_object(set_layout, &blueprint.name);
         pipeline.build_time = start.elapsed();
         if let Some(device) = &gpu.executable_properties {
-            let executables = Executable::all(device, pipeline.handle)?;
+            // A driver that does not tell has made the pipeline all the same.
+            let executables = Executable::all(device, pipeline.handle).unwrap_or_else(|error| {
+                let line = format!("{} tells no figures of its compiler: {error}", gpu.name);
+                gpu.warn(&blueprint.name, vec![line]);
+                Vec::new()
+            });
             gpu.count(|statistics| statistics.executables = executables);
         }
         gpu.count(|statistics| {

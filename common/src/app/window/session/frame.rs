@@ -11,9 +11,13 @@ use crate::app::Watch;
 use crate::app::window::keys::Ask;
 use crate::app::window::panel::Outcome;
 use crate::app::window::view::Stepped;
+use crate::app::window::window_on_gpu::Presented;
 
 /// How often the title is written anew while pictures come.
 const TITLE: Duration = Duration::from_millis(500);
+
+/// How often a frame is drawn for a window that changes all the while.
+const TRIES: u32 = 3;
 
 impl Session {
     /// One frame of the window; `false` if it was the last.
@@ -21,17 +25,27 @@ impl Session {
     /// # Errors
     /// If the sample, the device or the window system fails.
     pub fn draw(&mut self, watch: &dyn Watch) -> Result<bool> {
+        for _ in 0..TRIES {
+            if let Some(go_on) = self.try_to_draw(watch)? {
+                return Ok(go_on);
+            }
+        }
+        Ok(true)
+    }
+
+    /// As [`Session::draw`]; nothing if the window changed meanwhile and shows no part of it.
+    fn try_to_draw(&mut self, watch: &dyn Watch) -> Result<Option<bool>> {
         let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.
-            _ => return Ok(true),
+            _ => return Ok(Some(true)),
         };
         let (outcome, drawing) = self.panel()?;
         if outcome.changed {
             self.view.change();
         }
         if outcome.asked.contains(&Ask::Leave) {
-            return Ok(false);
+            return Ok(Some(false));
         }
         if let Some(part) = outcome.clicked {
             let told = watch.clicked(&mut || self.view.trace_pixel(part))?;
@@ -49,9 +63,10 @@ impl Session {
         }
         let viewport = drawing.viewport_output.get(&ViewportId::ROOT);
         let panel_delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        self.present(extent, drawing)?;
+        let presented = self.present(extent, drawing)?;
         self.plan(&stepped, panel_delay);
-        Ok(!self.args.frames_given || self.presented < self.args.frames)
+        let go_on = !self.args.frames_given || self.presented < self.args.frames;
+        Ok((presented != Presented::Lost).then_some(go_on))
     }
 
     /// The part of a window that the picture has: all, or what lies to the right of the panel.
@@ -79,18 +94,18 @@ impl Session {
     }
 
     /// Puts picture and panel on the window.
-    fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<()> {
+    fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<Presented> {
         let area = self.area(extent, drawing.pixels_per_point);
         let presented = self.on_gpu.present(extent, Some((&self.view.image, area)), drawing)?;
-        if presented.is_some() {
+        if let Presented::Shown | Presented::ShownStale = presented {
             self.presented += 1;
             let waited = self.lag.present();
             tracing::debug!("presented; {} ms since the last", waited.as_millis());
         }
-        if presented != Some(true) {
+        if presented != Presented::Shown {
             self.redraw_at = Some(Instant::now());
         }
-        Ok(())
+        Ok(presented)
     }
 
     /// Notes what came of the frame, and when the next is due.

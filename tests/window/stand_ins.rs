@@ -1,0 +1,159 @@
+//! Displays and cards that a software driver on an X server is not, by the layer `moods`.
+
+use std::path::Path;
+use std::process::{Child, Output};
+use std::time::Duration;
+
+use run::layer::Layer;
+
+use super::desk::{Desk, KEY_ESCAPE, wait};
+use super::{alone, changed, desk, ended_well, same};
+
+/// What a display has counted.
+#[derive(Debug, PartialEq)]
+struct Counted {
+    swapchains: u32,
+    acquired: u32,
+    presented: u32,
+}
+
+/// Opens a sample under a mood, has `act` done to its window, and counts.
+fn under(
+    mood: &str,
+    name: &str,
+    arguments: &[&str],
+    act: impl FnOnce(&mut Desk),
+) -> (Counted, Output) {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("told");
+    let moods = Layer::moods(&format!("{mood},tell={}", file.display()));
+    let mut environment = moods.environment();
+    environment.push(("RUST_LOG", "raybook=info".into()));
+    let environment: Vec<_> =
+        environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
+    let mut desk = Desk::begin(name, &[&["--validate"], arguments].concat(), &environment);
+    act(&mut desk);
+    let output = desk.end();
+    let told = std::fs::read_to_string(file).expect("the layer has counted");
+    let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
+    let [swapchains, acquired, presented] = numbers[..] else { panic!("{told}") };
+    (Counted { swapchains, acquired, presented }, output)
+}
+
+/// How many frames and how many pictures the log tells of, once the sample has ended well.
+fn frames_and_pictures(output: &Output) -> [u32; 2] {
+    let log = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && log.lines().count() == 1, "{}: {log}", output.status);
+    let (before, after) = log.split_once(" frames of ").expect("a line of the log");
+    let number = |text: Option<&str>| text.and_then(|text| text.parse().ok()).expect("a number");
+    [number(before.split(' ').next_back()), number(after.split(' ').next())]
+}
+
+#[test]
+fn a_display_that_calls_every_image_suboptimal_gets_new_ones_once() {
+    let arguments = ["--size", "480x300", "--frames", "30"];
+    let (counted, output) = under("suboptimal", "02_basic", &arguments, |_| ());
+    let [frames, _] = frames_and_pictures(&output);
+    assert_eq!(frames, 30);
+    assert_eq!(counted, Counted { swapchains: 2, acquired: 30, presented: 30 });
+}
+
+#[test]
+fn a_resize_is_followed_where_every_image_is_suboptimal() {
+    let (counted, output) = under("suboptimal", "02_basic", &["--size", "480x300"], |desk| {
+        desk.resize(400, 360);
+        let sized = || Some(desk.picture().0).filter(|image| image.dimensions() == (400, 360));
+        wait("a picture of the new size", sized);
+        desk.close();
+    });
+    frames_and_pictures(&output);
+    assert!((3..=4).contains(&counted.swapchains), "{counted:?}");
+}
+
+#[test]
+fn what_a_present_did_not_show_is_drawn_again() {
+    let arguments = ["--size", "480x300", "--frames", "20"];
+    let (counted, output) = under("out-of-date=3", "02_basic", &arguments, |_| ());
+    assert_eq!(frames_and_pictures(&output)[0], 20);
+    assert_eq!(counted, Counted { swapchains: 2, acquired: 21, presented: 21 });
+}
+
+#[test]
+fn a_display_may_want_more_images() {
+    let arguments = ["--size", "480x300", "--frames", "20"];
+    let (counted, output) = under("images=6", "02_basic", &arguments, |_| ());
+    assert_eq!(frames_and_pictures(&output)[0], 20);
+    assert_eq!(counted, Counted { swapchains: 1, acquired: 20, presented: 20 });
+}
+
+/// A small picture takes a few milliseconds here, and the display is shown one in 12.
+#[test]
+fn pictures_are_added_to_a_mean_without_waiting_for_the_display() {
+    let arguments = ["--size", "64x40", "--frames", "30"];
+    let (_, output) = under("fast=30", "04_jitter_camera", &arguments, |_| ());
+    let [frames, pictures] = frames_and_pictures(&output);
+    println!("{frames} frames of {pictures} pictures");
+    assert!(frames == 30 && pictures >= 2 * frames, "{frames} frames of {pictures} pictures");
+}
+
+#[test]
+fn a_window_without_the_compiler_s_figures_says_so_and_opens() {
+    let (_, output) = under("no-figures", "02_basic", &["--size", "480x300"], |desk| {
+        let (first, _) = desk.picture();
+        changed(desk, &first, [(440, 150), (470, 250)]);
+        desk.key(KEY_ESCAPE);
+    });
+    let log = String::from_utf8_lossy(&output.stderr);
+    let line = "tells no figures of its compiler: A host memory allocation has failed";
+    assert!(output.status.success() && log.starts_with("warning: "), "{log}");
+    assert_eq!(log.matches(line).count(), 1, "{log}");
+}
+
+/// Whatever the display says of an image: a window that shows what there is to be seen does nothing.
+#[test]
+fn a_window_at_rest_takes_no_time() {
+    for mood in ["suboptimal", "images=6", "fast=30"] {
+        under(mood, "02_basic", &["--size", "480x300"], |desk| {
+            let (picture, _) = desk.picture();
+            wait("the picture in the window", || same(&desk.shown(), &picture).then_some(()));
+            wait("rest", || {
+                let before = desk.worked();
+                std::thread::sleep(Duration::from_millis(100));
+                (desk.worked() == before).then_some(())
+            });
+            desk.close();
+        });
+    }
+}
+
+/// A screen whose colours have 10 bits.
+fn deep_screen() -> (Child, String) {
+    desk::server(&["-screen", "0", "1600x1000x30"])
+}
+
+#[test]
+fn a_window_of_ten_bits_shows_the_picture() {
+    let _alone = alone();
+    let moods = Layer::moods("deep");
+    let environment = moods.environment();
+    let environment: Vec<_> =
+        environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
+    let arguments = ["--validate", "--size", "640x420"];
+    let desk = Desk::begin_on(deep_screen(), run::heeding("02_basic"), &arguments, &environment);
+    let desk = desk.with_a_picture();
+    let (picture, _) = desk.picture();
+    wait("the picture in the window", || same(&desk.shown(), &picture).then_some(()));
+    desk.key(KEY_ESCAPE);
+    ended_well(desk.end());
+}
+
+#[test]
+fn a_window_that_cannot_be_blitted_to_is_refused() {
+    let _alone = alone();
+    let output = desk::outcome_on(deep_screen(), "02_basic", &["--validate"], &[], |_| ());
+    let (_, line) = run::refusal(output);
+    let words =
+        "this window shows no sRGB colour of 8 bits, nor one of 10 that the device can blit to";
+    assert!(line.contains(words), "{line}");
+}
