@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use run::cards::{Card, refusal, report, said};
+use run::layer::Layer;
 use run::{chapters, command};
 
 /// The card that every plain run of the tests takes, and its name.
@@ -57,6 +58,20 @@ fn shows_all(sample: &str) {
         assert!(output.status.success(), "{sample}, {all}: {}", said(&output));
         assert_eq!(said(&output), "", "{sample}, {all}: not silent");
     }
+}
+
+/// In a window they are asked for wherever a driver has them: no reason to close it.
+#[test]
+fn a_driver_that_tells_no_figures_of_its_compiler_is_a_warning() {
+    let Some(mut command) = CARD.command("02_basic") else { return };
+    let moods = Layer::moods("no-figures");
+    command.envs(moods.environment()).args(TINY).arg("--compiler-figures");
+    let output = command.output().expect("it starts");
+    assert!(output.status.success(), "{}", said(&output));
+    let line = format!(
+        "warning: {NAME} tells no figures of its compiler: A host memory allocation has failed"
+    );
+    assert_eq!(said(&output).trim(), line);
 }
 
 #[test]
