@@ -286,7 +286,7 @@ fn the_search_answers_from_a_file() {
     );
     let found = found.as_array().expect("no result within ten seconds");
     assert!(
-        found.iter().any(|link| link.as_str().unwrap().contains("05_shadow_miss.html")),
+        found.iter().any(|link| link.as_str().unwrap().contains("35_soft_shadows.html")),
         "{found:?}"
     );
 }
@@ -295,7 +295,7 @@ fn the_search_answers_from_a_file() {
 fn the_arrow_keys_turn_the_pages() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);
-    browser.open(&address("20_wireframe.html"));
+    browser.open(&address("36_two_normals.html"));
     let label =
         browser.run("document.querySelector('.nav-chapters.next').getAttribute('aria-label')");
     assert_eq!(label, "08 · Intersection");
@@ -303,10 +303,10 @@ fn the_arrow_keys_turn_the_pages() {
     browser.press("ArrowRight", 39);
     let there = browser.run("new Promise(done => setTimeout(() => done(location.pathname), 1))");
     // The old page may still be there to answer.
-    let there = if there.as_str().unwrap().ends_with("20_wireframe.html") {
+    let there = if there.as_str().unwrap().ends_with("36_two_normals.html") {
         std::iter::repeat_with(|| browser.run("location.pathname"))
             .take(200)
-            .find(|path| !path.as_str().unwrap().ends_with("20_wireframe.html"))
+            .find(|path| !path.as_str().unwrap().ends_with("36_two_normals.html"))
             .unwrap()
     } else {
         there

@@ -42,6 +42,8 @@ pub struct Comparison {
     pub control: String,
     /// How many rounds were timed, after some frames to warm up.
     pub rounds: u32,
+    /// How many frames were rendered, those that warm up among them.
+    pub frames: u32,
     /// The size of the picture, where a device is too fast for the one asked for.
     pub widened: Option<[u32; 2]>,
     /// The first value against itself.
@@ -105,7 +107,9 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     let mut progress = Progress::new(turns, "frames");
     // What a picture costs is known of each value.
     let mut bands = HashMap::<_, Bands>::new();
+    let mut frames = 0;
     let mut frame = |run: &mut Run, value: &str| {
+        frames += 1;
         controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
         run.time(bands.entry(value.to_owned()).or_default())
     };
@@ -118,7 +122,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         progress.step();
         frame(run, value)
     })?;
-    comparison.widened = widened;
+    (comparison.frames, comparison.widened) = (frames, widened);
     Ok(comparison)
 }
 
@@ -192,6 +196,7 @@ pub fn compare(
     Ok(Comparison {
         control: control.to_owned(),
         rounds,
+        frames: 0,
         widened: None,
         noise: ratio(turns.len() - 1),
         values: values.iter().enumerate().map(measured).collect(),
