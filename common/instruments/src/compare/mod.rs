@@ -117,18 +117,24 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     for value in values {
         quickest = quickest.min(warm_up(|| frame(run, value))?);
     }
-    let widened = widen(run, quickest)?;
+    let widened = widened(run, quickest)?;
+    let size = widened.as_ref().map(|image| [image.extent.width, image.extent.height]);
+    let asked = widened.map(|image| std::mem::replace(&mut run.image, image));
     let mut comparison = compare(control, values, rounds, |value| {
         progress.step();
         frame(run, value)
     })?;
-    (comparison.frames, comparison.widened) = (frames, widened);
+    // What is rendered after it has the size that was asked for.
+    if let Some(asked) = asked {
+        run.image = asked;
+    }
+    (comparison.frames, comparison.widened) = (frames, size);
     Ok(comparison)
 }
 
-/// Makes the picture of a run so large that the quickest value takes as long as it has to, if the device has room;
-/// its size, if it is another.
-fn widen(run: &mut Run, quickest: f64) -> Result<Option<[u32; 2]>> {
+/// A picture so large that the quickest value takes as long as it has to, if the device has room and that of the run
+/// is too small.
+fn widened(run: &Run, quickest: f64) -> Result<Option<Image>> {
     let most = run.gpu.limits.core.max_image_dimension2_d;
     let extent = run.image.extent;
     let side = |pixels: u32, times: u32| pixels.saturating_mul(times);
@@ -138,12 +144,12 @@ fn widen(run: &mut Run, quickest: f64) -> Result<Option<[u32; 2]>> {
     while !enough(times) && times < WIDEST && fits(2 * times) {
         times *= 2;
     }
-    if times == 1 {
+    // A software driver begins at once, and has no clock that rises.
+    if times == 1 || run.gpu.software {
         return Ok(None);
     }
     let [width, height] = [extent.width, extent.height].map(|pixels| side(pixels, times));
-    run.image = Image::storage(&run.gpu, "picture", vk::Extent2D { width, height })?;
-    Ok(Some([width, height]))
+    Image::storage(&run.gpu, "wide picture", vk::Extent2D { width, height }).map(Some)
 }
 
 /// Renders frames until they take no less time than those before; the least.
