@@ -100,3 +100,40 @@ pub fn remove_device(handle: vk::Device) -> Option<Arc<Device>> {
 pub fn address(function: vk::PFN_vkVoidFunction) -> *const c_void {
     function.map_or(std::ptr::null(), |function| function as *const c_void)
 }
+
+/// A layer's `vkCreateInstance` that changes nothing and keeps what lies below.
+///
+/// # Safety
+/// As Vulkan's, here and below.
+pub unsafe extern "system" fn create_instance(
+    info: *const vk::InstanceCreateInfo,
+    allocator: *const vk::AllocationCallbacks,
+    instance: *mut vk::Instance,
+) -> vk::Result {
+    // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
+    unsafe {
+        match crate::create_instance(info, allocator, instance, |_, below| below) {
+            Ok(get_proc_addr) => {
+                add_instance(*instance, get_proc_addr);
+                vk::Result::SUCCESS
+            }
+            Err(error) => error,
+        }
+    }
+}
+
+/// A layer's `vkDestroyInstance`.
+///
+/// # Safety
+/// As Vulkan's.
+pub unsafe extern "system" fn destroy_instance(
+    instance: vk::Instance,
+    allocator: *const vk::AllocationCallbacks,
+) {
+    if instance != vk::Instance::null()
+        && let Some(below) = remove_instance(instance)
+    {
+        // SAFETY: the caller destroys an instance of its own.
+        unsafe { (below.core.fp_v1_0().destroy_instance)(instance, allocator) };
+    }
+}

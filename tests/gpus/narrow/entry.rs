@@ -22,8 +22,8 @@ pub unsafe extern "system" fn narrow_negotiate(negotiation: *mut Negotiation) ->
 fn instance_function(name: &str) -> Option<*const c_void> {
     Some(match name {
         "vkGetInstanceProcAddr" => get_instance_proc_addr as *const c_void,
-        "vkCreateInstance" => create_instance as *const c_void,
-        "vkDestroyInstance" => destroy_instance as *const c_void,
+        "vkCreateInstance" => below::create_instance as *const c_void,
+        "vkDestroyInstance" => below::destroy_instance as *const c_void,
         "vkCreateDevice" => device::create as *const c_void,
         "vkEnumerateDeviceExtensionProperties" => physical::extensions as *const c_void,
         "vkGetPhysicalDeviceProperties" => physical::properties as *const c_void,
@@ -104,34 +104,5 @@ unsafe extern "system" fn get_device_proc_addr(
             (Some(own), Some(_)) => layer::function(own),
             _ => below,
         }
-    }
-}
-
-unsafe extern "system" fn create_instance(
-    info: *const vk::InstanceCreateInfo,
-    allocator: *const vk::AllocationCallbacks,
-    instance: *mut vk::Instance,
-) -> vk::Result {
-    // SAFETY: the loader calls this once for each instance, and the function below is the one of that name.
-    unsafe {
-        match layer::create_instance(info, allocator, instance, |_, below| below) {
-            Ok(get_proc_addr) => {
-                below::add_instance(*instance, get_proc_addr);
-                vk::Result::SUCCESS
-            }
-            Err(error) => error,
-        }
-    }
-}
-
-unsafe extern "system" fn destroy_instance(
-    instance: vk::Instance,
-    allocator: *const vk::AllocationCallbacks,
-) {
-    if instance != vk::Instance::null()
-        && let Some(below) = below::remove_instance(instance)
-    {
-        // SAFETY: the caller destroys an instance of its own.
-        unsafe { (below.core.fp_v1_0().destroy_instance)(instance, allocator) };
     }
 }

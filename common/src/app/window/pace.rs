@@ -1,9 +1,9 @@
 //! How large the next picture may be, so that the window stays responsive on any device.
 //!
 //! While something changes, pictures are as large as sixty of them a second allow, or fifteen on a software
-//! driver. Once nothing has changed for a moment, the picture sharpens: to full size at once if that is quick, else to the largest
-//! size that is quick, and then in steps of four times the pixels. A change gives up a slow picture that
-//! is being traced. A device that traces full size within the budget never sees any of this.
+//! driver. Once nothing has changed for a moment, the picture sharpens: to full size at once if that is quick,
+//! else to the largest size that is quick, and then in steps of four times the pixels. A change gives up a slow
+//! picture that is being traced. A device that traces full size within the budget never sees any of this.
 
 use std::time::{Duration, Instant};
 
