@@ -103,10 +103,12 @@ fn bounds_are_approached_and_kept(gpu: &Gpu) {
             operands.iter_mut().for_each(|v| v.y = v.y.min(9.0));
         }
         let (mut most, mut least) = (0.0f64, 0.0f64);
+        // The errors are added to what the device makes of a sine, which a GPU computes to some 2^-21.
+        let most_allowed = if run::device::is_software() { 1.0 } else { 1.0 + f64::powi(2.0, -9) };
         for (v, result) in operands.iter().zip(results(gpu, "probe.rgen", number, &operands)) {
             let [x, y, z] = v.to_array().map(f64::from);
             let part = (f64::from(result) - exact(x, y, z)) / bound(x, y, z);
-            assert!(part.abs() <= 1.0, "{name} of {v}: {result} is {part} bounds off");
+            assert!(part.abs() <= most_allowed, "{name} of {v}: {result} is {part} bounds off");
             (most, least) = (most.max(part), least.min(part));
         }
         println!("{name}: from {least:.3} to {most:.3} of the bound");

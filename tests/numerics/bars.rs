@@ -83,6 +83,10 @@ const P99: [(&str, &str, f64); 27] = [
 /// slabs' distances round to a tie.
 const EDGES: (&str, f64) = ("box from 1e4", 2.0);
 
+/// Another device rounds otherwise: of ten thousand rays so many may graze a shape so closely that rounding sends
+/// them to the other side. An NVIDIA H200 has one, of C1 on the capsule from 1e4. Only top rungs promise none.
+const GRAZING: f64 = 1.0;
+
 /// The rungs whose every answer is right to one ULP, whatever the family.
 const TOPS: [&str; 10] = ["S4", "S5", "B3", "B4", "P3", "P4", "T3", "C2", "C3", "I2"];
 
@@ -95,7 +99,8 @@ fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
     for (rung, family, bar) in P99 {
         let Some(row) = row(rungs, rung, family, "direct") else { continue };
         assert!(row.number("p99") <= bar, "{rung} on {family}: p99 {}", row.number("p99"));
-        let most = if family == EDGES.0 { EDGES.1 } else { 0.0 };
+        let elsewhere = if run::device::is_software() { 0.0 } else { GRAZING };
+        let most = if family == EDGES.0 { EDGES.1 } else { elsewhere };
         assert!(row.wrong() <= most, "{rung} on {family}: {} wrong", row.wrong());
     }
     for rung in rungs {

@@ -68,20 +68,5 @@ pub(crate) fn golden_tolerance(name: &str, picture: &Picture, own: f32) -> Optio
     if device::is_software() {
         return Some(own);
     }
-    let chapter = &name[..2];
-    // What a picture of another seed has, and a hundredth of it for each surface that a path meets: see
-    // `tests/samples/worst.rs`.
-    let of_paths = |anew: f32, surfaces: f32| Some(own + 0.01 * surfaces * anew);
-    match chapter {
-        "24" => None,
-        // Of 160x100 pixels and the golden's samples, by llvmpipe (Mesa 25.0.7).
-        "11" => of_paths(0.074, 5.0),
-        "29" => of_paths(0.134, 5.0),
-        "27" => of_paths(0.140, 20.0),
-        _ => {
-            let near = Near::of(chapter);
-            let flips = 5.0 * near.flips(picture) as f32 / picture.pixels.len() as f32;
-            Some(own + near.mean + flips)
-        }
-    }
+    flip::near::golden(name, (picture.width, picture.height), own)
 }

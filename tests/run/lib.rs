@@ -288,6 +288,20 @@ pub fn has_worst_arithmetic() -> bool {
     *HAS
 }
 
+/// Whether the device that tests run on offers what a chapter needs; if not, a line says what it lacks.
+pub fn is_offered(chapter: &str) -> bool {
+    if device::is_software() {
+        return true;
+    }
+    let output = command(chapter).arg("--list-controls").output().expect("the sample starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let lacking = !output.status.success() && errors.contains(": lacks VK_");
+    if lacking {
+        println!("not tried: {errors}");
+    }
+    !lacking
+}
+
 /// The chapters, in their order: the folders of `samples/` that begin with a number.
 pub fn chapters() -> Vec<String> {
     let folders = root().join("samples").read_dir().expect("samples/ can be read");

@@ -6,8 +6,9 @@
 //! noise floor, which no smaller difference can beat.
 //!
 //! A small launch keeps a GPU busy for less time than it takes to begin one, and its clocks stay low. So values
-//! are rendered until their times stop falling, and where one takes less than [`LEAST`] the picture is made wider
-//! and higher: more rays of the same kind.
+//! are rendered until their times stop falling, and while one takes less than [`LEAST`] the picture is made twice as
+//! wide and as high, and timed again: more rays of the same kind. How long it takes is not computed from the small
+//! picture: that leaves most of the GPU idle, so 64 times the rays may take 12 times as long.
 
 use std::collections::HashMap;
 
@@ -21,7 +22,9 @@ use serde::Serialize;
 /// Milliseconds that a launch has to take to be worth timing.
 const LEAST: f64 = 5.0;
 /// How many times as wide and as high as asked for a picture is made for that, at most.
-const WIDEST: u32 = 8;
+const WIDEST: u32 = 16;
+/// How many pixels it has for that, at most: a gigabyte of four 32-bit floats.
+const MOST_PIXELS: u64 = 1 << 26;
 /// How many frames warm up a value, at most, and how much less than the least before is less.
 const WARMING: u32 = 20;
 const FALLING: f64 = 0.97;
@@ -114,15 +117,27 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         run.time(bands.entry(value.to_owned()).or_default())
     };
     // A software driver begins at once, and has no clock that rises: there any picture is wide enough.
-    let mut quickest = LEAST;
-    if !run.gpu.software {
+    let mut asked = None;
+    while !run.gpu.software && has_room(run, asked.as_ref()) {
+        let mut quickest = LEAST;
         for value in values {
             quickest = quickest.min(warm_up(|| frame(run, value))?);
         }
+        if quickest >= LEAST {
+            break;
+        }
+        let [width, height] = twice(run.image.extent);
+        let extent = vk::Extent2D { width, height };
+        let Ok(wide) = Image::storage(&run.gpu, "wide picture", extent) else { break };
+        let before = std::mem::replace(&mut run.image, wide);
+        // A chapter may have no room for what it keeps of so many pixels.
+        if values.iter().any(|value| frame(run, value).is_err()) {
+            run.image = before;
+            break;
+        }
+        asked.get_or_insert(before);
     }
-    let widened = widened(run, quickest)?;
-    let size = widened.as_ref().map(|image| [image.extent.width, image.extent.height]);
-    let asked = widened.map(|image| std::mem::replace(&mut run.image, image));
+    let size = asked.as_ref().map(|_| [run.image.extent.width, run.image.extent.height]);
     let mut comparison = compare(control, values, rounds, |value| {
         progress.step();
         frame(run, value)
@@ -135,23 +150,18 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     Ok(comparison)
 }
 
-/// A picture so large that the quickest value takes as long as it has to, if the device has room and that of the run
-/// is too small.
-fn widened(run: &Run, quickest: f64) -> Result<Option<Image>> {
-    let most = run.gpu.limits.core.max_image_dimension2_d;
-    let extent = run.image.extent;
-    let side = |pixels: u32, times: u32| pixels.saturating_mul(times);
-    let fits = |times: u32| side(extent.width.max(extent.height), times) <= most;
-    let enough = |times: u32| quickest * f64::from(times * times) >= LEAST;
-    let mut times = 1;
-    while !enough(times) && times < WIDEST && fits(2 * times) {
-        times *= 2;
-    }
-    if times == 1 {
-        return Ok(None);
-    }
-    let [width, height] = [extent.width, extent.height].map(|pixels| side(pixels, times));
-    Image::storage(&run.gpu, "wide picture", vk::Extent2D { width, height }).map(Some)
+/// Whether a picture may be made twice as wide and as high again; `asked` is the first one, if it was made larger.
+fn has_room(run: &Run, asked: Option<&Image>) -> bool {
+    let [width, height] = twice(run.image.extent);
+    let first = asked.map_or(run.image.extent, |image| image.extent);
+    let side = run.gpu.limits.core.max_image_dimension2_d;
+    width.max(height) <= side
+        && u64::from(width) * u64::from(height) <= MOST_PIXELS
+        && width / first.width <= WIDEST
+}
+
+fn twice(extent: vk::Extent2D) -> [u32; 2] {
+    [extent.width, extent.height].map(|pixels| pixels.saturating_mul(2))
 }
 
 /// Renders frames until they take no less time than those before; the least.
