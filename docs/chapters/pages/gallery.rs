@@ -18,6 +18,7 @@ const AFTER: &[(&str, &str)] = &[
     ("reordering.md", "Threads that change places"),
     ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
+    ("on-a-gpu.md", "On a GPU"),
     ("compilers.md", "What a GPU's compiler says"),
     ("arithmetic.md", "The worst arithmetic that conforms"),
     ("needs.md", "What a device must offer"),
