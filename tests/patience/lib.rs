@@ -163,7 +163,11 @@ mod tests {
             work
         });
         let other = other.join().unwrap();
-        assert_eq!(other.done(), None);
+        // The system wakes who joins a thread a moment before it forgets the thread.
+        while other.done().is_some() {
+            assert!(start.elapsed() < ASLEEP);
+            thread::yield_now();
+        }
         assert!(start.elapsed() >= Duration::from_millis(100));
         let own = Work::of_this_thread().done().unwrap() - before;
         assert!(own < Duration::from_millis(100), "{own:?}");
