@@ -3,7 +3,7 @@
 pub use crate::app::{Controls, Frame, Sample, Setup, Variant, Variants};
 pub use crate::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
-    HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable,
+    HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable, padded,
 };
 pub use crate::scene::{
     Camera, CameraBasis, DirectionalLight, Instance, Material, Mesh, Model, Scene, SceneAddresses,

@@ -23,7 +23,7 @@ Start shadow_start(Hit hit) {
 // ANCHOR: visibility
 // 1 if light arrives from a direction, else 0: it comes from t = `end` along `to_light`.
 float visibility(Start start, vec3 to_light, float end) {
-    // What is below the surface, the surface itself hides; that needs no ray.
+    // A light below the surface is hidden by the surface itself: that needs no ray.
     return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
 }
 // ANCHOR_END: visibility

@@ -184,7 +184,10 @@ fn help_begins_with_what_a_sample_does() {
     for name in [crate::SAMPLE, "24_accuracy"] {
         let output = run::command(name).arg("--help").output().unwrap();
         let told = String::from_utf8(output.stdout).unwrap();
-        assert!(told.starts_with("Renders one chapter\n\nUsage: "), "{name}: {told}");
+        assert!(
+            told.starts_with("Shows its scene in a window, or renders a picture\n\nUsage: "),
+            "{name}: {told}"
+        );
     }
 }
 

@@ -360,3 +360,40 @@ fn what_is_seldom_meant_is_a_warning() {
         assert_eq!(said.trim_end(), format!("warning: {line}"));
     }
 }
+
+/// Silent without the check: a sphere is shaded by what is beside its normal, a triangle by no weights.
+#[test]
+fn a_hit_attribute_is_of_the_type_that_is_written() {
+    for (program, shader, from, to, line) in [
+        (
+            "08_intersection",
+            "shape.rchit",
+            "hitAttributeEXT vec3 outward;",
+            "hitAttributeEXT vec4 all;\n#define outward all.xyz",
+            "its hitAttributeEXT is not of the type of that of 08_intersection/sphere.rint, which writes it",
+        ),
+        (
+            "02_basic",
+            "shade.rchit",
+            "hitAttributeEXT vec2 weights;",
+            "hitAttributeEXT vec3 all;\n#define weights all.xy",
+            "its hitAttributeEXT is no vec2, and a triangle's are two weights",
+        ),
+    ] {
+        let file = format!("{program}/{shader}");
+        let folder = folder(&file, |text| text.replace(from, to));
+        let mut command = run::command(program);
+        command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
+        refused_by(command, 1, &[&format!("{file}: {line}")]);
+    }
+}
+
+#[test]
+fn a_name_of_a_file_that_is_not_included_names_the_file() {
+    let file = "05_shadow_miss/camera.rgen";
+    let folder = folder(file, |text| text.replace("#include \"common/hit.glsl\"\n", ""));
+    let mut command = run::command("05_shadow_miss");
+    command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
+    let words = "Hit stands in common/hit.glsl, which is not included before this line";
+    refused_by(command, 1, &[words]);
+}

@@ -65,17 +65,22 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     cargo(&["build"]);
     println!("built in {} s", start.elapsed().as_secs());
     cargo(&["test", "--locked"]);
-    // A hit record beyond the table: silent without the check, and the ball is gone.
+    // A hit record beyond the table, and one of the other kind: silent without the check, and the ball is gone.
     let main = folder.join("src/main.rs");
     let good = std::fs::read_to_string(&main).expect("the program");
-    let beyond = good.replace("0, 1, &sphere", "0, 2, &sphere");
-    assert_ne!(beyond, good);
-    std::fs::write(&main, beyond).expect("an edit");
-    cargo(&["build"]);
-    let mut wrong = Command::new(target.join("debug/glow"));
-    let refused = wrong.args(["--headless", "--size", "8x8"]).output().expect("it starts");
-    let (_, line) = run::refusal(refused);
-    assert!(line.contains("an instance of the top level has the hit record 2"), "{line}");
+    for (record, words) in [
+        (2, "an instance of the top level has the hit record 2"),
+        (0, "an instance of boxes has the hit record 0, which is a hit group for triangles"),
+    ] {
+        let edited = good.replace("0, 1, &sphere", &format!("0, {record}, &sphere"));
+        assert_ne!(edited, good);
+        std::fs::write(&main, edited).expect("an edit");
+        cargo(&["build"]);
+        let mut wrong = Command::new(target.join("debug/glow"));
+        let refused = wrong.args(["--headless", "--size", "8x8"]).output().expect("it starts");
+        let (_, line) = run::refusal(refused);
+        assert!(line.contains(words), "{line}");
+    }
     std::fs::write(&main, good).expect("an edit");
     cargo(&["build"]);
     // Nothing of it lies in the book.

@@ -12,7 +12,7 @@ use crate::usage::Usage;
 
 /// What a sample was asked to do.
 #[derive(Clone, Debug, Parser)]
-#[command(disable_version_flag = true, about = "Renders one chapter")]
+#[command(disable_version_flag = true, about = "Shows its scene in a window, or renders a picture")]
 pub struct Args {
     /// Render without a window, write what is asked for, and exit
     #[arg(long)]

@@ -17,6 +17,7 @@ use anyhow::Result;
 use ash::vk;
 
 use super::geometry::Geometry;
+use super::pipeline::Asked;
 use super::{Buffer, Gpu};
 use plan::Plan;
 
@@ -43,8 +44,8 @@ pub struct AccelerationStructure {
     pub address: vk::DeviceAddress,
     /// Bytes that it takes of a buffer.
     pub size: u64,
-    /// How many hit records its instances need, as far as is known: one more than the largest offset.
-    pub hit_records: u32,
+    /// The hit records that its instances ask for, as far as is known.
+    pub asked: Asked,
     /// What it was built from and with.
     plan: Plan,
     /// Where it lies, others that were built with it beside it.
@@ -96,6 +97,7 @@ impl AccelerationStructure {
 
 impl Drop for AccelerationStructure {
     fn drop(&mut self) {
+        self.gpu.forget_level(self.address);
         // SAFETY: submissions are waited for, so no trace or build uses it any more.
         unsafe {
             self.gpu.acceleration_structure.destroy_acceleration_structure(self.handle, None);

@@ -1,5 +1,5 @@
 //! Whether shaders and Rust agree on structures, enumerations and bindings, and shaders with each other on
-//! payloads and on what a launch is.
+//! payloads, on hit attributes and on what a launch is.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use anyhow::{Result, ensure};
 use ash::vk;
 
-use super::blueprint::{Binding, Blueprint};
+use super::blueprint::{Binding, Blueprint, Group};
 use super::enumeration;
 use super::layout::Known;
 use super::reflection::{Passed, Payloads, Reflection};
@@ -39,7 +39,7 @@ pub fn check(
         include_str!("reflection/rays.rs"),
     ];
     (ways, include_str!("enumeration.rs"), known).hash(&mut hasher);
-    (shaders, bindings, textures.is_some(), groups).hash(&mut hasher);
+    (shaders, bindings, textures.is_some(), groups, &blueprint.groups).hash(&mut hasher);
     let file = format!("{:016x}.agreed", hasher.finish());
     let note = cache::folder("spirv").map(|folder| folder.join(file));
     if let Some(warnings) = note.as_ref().and_then(|note| fs::read_to_string(note).ok()) {
@@ -67,6 +67,7 @@ pub fn check(
     let miss_groups = blueprint.groups.iter().skip(raygens).take(misses);
     let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
     check_payloads(&reflections, &miss_shaders)?;
+    check_hit_attributes(&reflections, &blueprint.groups)?;
     let warnings = warnings(shaders, &reflections, hits);
     // A note that cannot be written costs time at the next start, nothing else.
     let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
@@ -100,6 +101,34 @@ fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()
                 "{path}: no traceRayEXT of the pipeline passes a payload of the type that this shader takes by \
                  rayPayloadInEXT; its last argument is the location of the rayPayloadEXT that it passes"
             ),
+        }
+    }
+    Ok(())
+}
+
+/// The type of the attribute that a triangle's hit has: a vec2.
+const WEIGHTS: &str = "TypeVector(TypeFloat(32) 2)";
+
+/// Holds that the shaders of a hit group take the attribute that it has: what its intersection shader declares, or, of
+/// triangles, the two weights.
+fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Result<()> {
+    for group in groups {
+        let shader = |stage: u32| shaders.get(stage as usize);
+        for &(path, ref taker) in [group.any_hit, group.closest_hit].into_iter().filter_map(shader)
+        {
+            let Some(taken) = taker.hit_attribute() else { continue };
+            match shader(group.intersection) {
+                Some((of, intersection)) => ensure!(
+                    intersection.hit_attribute() == Some(taken),
+                    "{path}: its hitAttributeEXT is not of the type of that of {of}, which writes it; both \
+                     declare the same"
+                ),
+                None => ensure!(
+                    taken == WEIGHTS,
+                    "{path}: its hitAttributeEXT is no vec2, and a triangle's are two weights, those of its \
+                     second and third corner"
+                ),
+            }
         }
     }
     Ok(())

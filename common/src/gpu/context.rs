@@ -4,10 +4,11 @@
 //! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
 //! replace or drop anything between frames and needs no rule for lifetimes.
 
+use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::mem::ManuallyDrop;
 use std::ops::Deref;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context as _, Result};
 use ash::{Device, ext, khr, vk};
@@ -85,6 +86,8 @@ pub struct GpuContext {
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
+    /// What the acceleration structures are made of, by address.
+    levels: Mutex<BTreeMap<vk::DeviceAddress, vk::GeometryTypeKHR>>,
     pub(super) command_pool: vk::CommandPool,
     names: ext::debug_utils::Device,
     /// The loader and the instance: the last to go.
@@ -175,6 +178,7 @@ impl Gpu {
             names: ext::debug_utils::Device::new(instance, &device),
             allocator: ManuallyDrop::new(Arc::new(Mutex::new(allocator))),
             statistics: Mutex::default(),
+            levels: Mutex::default(),
             command_pool,
             requirements: options.requirements,
             emulation: options.emulation,
@@ -241,6 +245,23 @@ impl Gpu {
             statistics.warnings.retain(|(of, _)| of != name);
             statistics.warnings.extend(warnings.into_iter().map(|line| (name.to_owned(), line)));
         });
+    }
+
+    /// What a bottom level is made of, if one of this device lies there.
+    pub fn level_at(&self, address: vk::DeviceAddress) -> Option<vk::GeometryTypeKHR> {
+        self.levels().get(&address).copied()
+    }
+
+    pub(super) fn note_level(&self, address: vk::DeviceAddress, kind: vk::GeometryTypeKHR) {
+        self.levels().insert(address, kind);
+    }
+
+    pub(super) fn forget_level(&self, address: vk::DeviceAddress) {
+        self.levels().remove(&address);
+    }
+
+    fn levels(&self) -> MutexGuard<'_, BTreeMap<vk::DeviceAddress, vk::GeometryTypeKHR>> {
+        self.levels.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Bytes of device memory in use, buffers and images together.

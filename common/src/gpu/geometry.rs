@@ -52,6 +52,15 @@ impl Geometry {
         count
     }
 
+    /// Of what kind it is.
+    pub(super) fn kind(&self) -> vk::GeometryTypeKHR {
+        match self {
+            Self::Triangles { .. } => vk::GeometryTypeKHR::TRIANGLES,
+            Self::Aabbs { .. } => vk::GeometryTypeKHR::AABBS,
+            Self::Instances { .. } => vk::GeometryTypeKHR::INSTANCES,
+        }
+    }
+
     /// What of it an update must not change: all but where it lies.
     pub(super) fn without_addresses(&self) -> Self {
         match *self {
@@ -75,9 +84,8 @@ impl Geometry {
     /// As Vulkan takes it.
     pub(super) fn described(&self) -> vk::AccelerationStructureGeometryKHR<'static> {
         let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
-        let (kind, data) = match *self {
-            Self::Triangles { vertices, vertex_stride, vertex_count, indices, .. } => (
-                vk::GeometryTypeKHR::TRIANGLES,
+        let data = match *self {
+            Self::Triangles { vertices, vertex_stride, vertex_count, indices, .. } => {
                 vk::AccelerationStructureGeometryDataKHR {
                     triangles: vk::AccelerationStructureGeometryTrianglesDataKHR::default()
                         .vertex_format(vk::Format::R32G32B32_SFLOAT)
@@ -86,26 +94,20 @@ impl Geometry {
                         .max_vertex(vertex_count.saturating_sub(1))
                         .index_type(vk::IndexType::UINT32)
                         .index_data(address(indices)),
-                },
-            ),
-            Self::Aabbs { boxes, .. } => (
-                vk::GeometryTypeKHR::AABBS,
-                vk::AccelerationStructureGeometryDataKHR {
-                    aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
-                        .data(address(boxes))
-                        .stride(size_of::<vk::AabbPositionsKHR>() as u64),
-                },
-            ),
-            Self::Instances { instances, .. } => (
-                vk::GeometryTypeKHR::INSTANCES,
-                vk::AccelerationStructureGeometryDataKHR {
-                    instances: vk::AccelerationStructureGeometryInstancesDataKHR::default()
-                        .data(address(instances)),
-                },
-            ),
+                }
+            }
+            Self::Aabbs { boxes, .. } => vk::AccelerationStructureGeometryDataKHR {
+                aabbs: vk::AccelerationStructureGeometryAabbsDataKHR::default()
+                    .data(address(boxes))
+                    .stride(size_of::<vk::AabbPositionsKHR>() as u64),
+            },
+            Self::Instances { instances, .. } => vk::AccelerationStructureGeometryDataKHR {
+                instances: vk::AccelerationStructureGeometryInstancesDataKHR::default()
+                    .data(address(instances)),
+            },
         };
         vk::AccelerationStructureGeometryKHR::default()
-            .geometry_type(kind)
+            .geometry_type(self.kind())
             .geometry(data)
             .flags(self.flags())
     }

@@ -18,6 +18,15 @@ pub fn margin(reach: f32) -> f32 {
 }
 
 /// A box with that margin, rounded outwards.
+///
+/// ```no_run
+/// use raybook::prelude::*;
+///
+/// /// The box of a unit sphere for rays that begin no farther than 100 from it.
+/// fn unit_sphere(gpu: &Gpu) -> Result<Buffer> {
+///     boxes_on_gpu(gpu, "sphere", &[padded((Vec3::NEG_ONE, Vec3::ONE), 100.0)])
+/// }
+/// ```
 pub fn padded((low, high): Bounds, reach: f32) -> [Vec3; 2] {
     let margin = DVec3::splat(margin(reach).into());
     [down(low.as_dvec3() - margin), -down(-(high.as_dvec3() + margin))]

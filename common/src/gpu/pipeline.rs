@@ -4,10 +4,10 @@ mod builder;
 mod compute;
 mod graphics;
 mod hit_group;
+mod hit_records;
 
 use std::ops::Deref;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use anyhow::{Result, ensure};
@@ -17,10 +17,11 @@ pub use builder::PipelineBuilder;
 pub use compute::{Band, ComputePipeline};
 pub use graphics::GraphicsPipeline;
 pub use hit_group::HitGroup;
+pub use hit_records::Asked;
 
 use super::blueprint::{Binding, Blueprint, STAGES};
 use super::layout::ShaderStruct;
-use super::{AccelerationStructure, Buffer, Gpu, Image};
+use super::{AccelerationStructure, Buffer, Gpu, Image, Record};
 
 /// What is pushed to a binding for the next trace.
 #[derive(Clone, Copy)]
@@ -52,8 +53,8 @@ pub struct Pipeline {
 pub struct RayTracingPipeline {
     /// How many groups there are of each kind: raygen, miss, hit, callable.
     pub groups: [usize; 4],
-    /// How many hit records the largest table made for it has.
-    pub(super) hit_records: AtomicU32,
+    /// Of which kind of hit group each record of the largest table made for it is.
+    pub(super) hit_records: Mutex<Vec<vk::RayTracingShaderGroupTypeKHR>>,
     pipeline: Pipeline,
 }
 
@@ -80,31 +81,37 @@ impl RayTracingPipeline {
         PipelineBuilder::new(name)
     }
 
-    /// As [`Pipeline::bind`]; and holds that each instance's hit record is in the table.
+    /// Notes the hit records of a table that was made for it.
+    pub(super) fn knows_hit_records(&self, hit: &[Record]) {
+        let [raygen, miss, ..] = self.groups;
+        let kind = |record: &Record| self.blueprint.groups[raygen + miss + record.group].kind;
+        let kinds = hit.iter().map(kind).map(vk::RayTracingShaderGroupTypeKHR::from_raw);
+        let mut known = self.hit_records.lock().unwrap_or_else(PoisonError::into_inner);
+        if hit.len() > known.len() {
+            *known = kinds.collect();
+        }
+    }
+
+    /// As [`Pipeline::bind`]; and holds that each instance's hit record is in the table, and of its kind.
     ///
     /// # Errors
-    /// As [`Pipeline::bind`]; if an instance needs a record that there is not.
+    /// As [`Pipeline::bind`]; if an instance has a record that there is not, or one of the other kind.
     pub fn bind<T: ShaderStruct>(
         &self,
         cmd: vk::CommandBuffer,
         descriptors: &[Descriptor],
         push: &T,
     ) -> Result<()> {
-        let records = self.hit_records.load(Ordering::Relaxed);
+        let records = self.hit_records.lock().unwrap_or_else(PoisonError::into_inner);
         for descriptor in descriptors {
-            if let Descriptor::AccelerationStructure(AccelerationStructure { hit_records, .. }) =
+            if let Descriptor::AccelerationStructure(AccelerationStructure { asked, .. }) =
                 descriptor
-                && records > 0
+                && !records.is_empty()
             {
-                ensure!(
-                    *hit_records <= records,
-                    "an instance of the top level has the hit record {}, and the shader binding table of '{}' \
-                     has {records}, counted from 0 in the order of the .hit lines",
-                    hit_records - 1,
-                    self.blueprint.name
-                );
+                hit_records::check(asked, &records, &self.blueprint.name)?;
             }
         }
+        drop(records);
         self.pipeline.bind(cmd, descriptors, push)
     }
 }

@@ -6,7 +6,6 @@
 //! works on some vendors' devices and loses the device on others, so the arithmetic stands alone here,
 //! tested on the limits of several.
 
-use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Result, ensure};
@@ -135,7 +134,6 @@ impl ShaderBindingTable {
         let longest = hit.iter().map(|record| record.data.len()).max().unwrap_or(0);
         let [raygen, miss, _, callable] = pipeline.groups.map(one_each);
         let records = [&raygen[..], &miss, hit, &callable];
-        pipeline.hit_records.fetch_max(hit.len() as u32, Ordering::Relaxed);
         // The raygen record has the first pixel of a launch.
         let data = [size_of::<[u32; 2]>(), 0, longest, 0];
         let layout = layout(&gpu.limits, records.map(<[_]>::len), data)?;
@@ -161,6 +159,7 @@ impl ShaderBindingTable {
             }
             first_group += count;
         }
+        pipeline.knows_hit_records(hit);
         let usage = vk::BufferUsageFlags::SHADER_BINDING_TABLE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let name = format!("{} shader binding table", pipeline.blueprint.name);

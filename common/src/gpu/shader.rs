@@ -4,6 +4,7 @@
 //! once and an error names its file and line. The result is kept in the cache `spirv`, keyed by a
 //! hash of the whole text, includes and all.
 
+mod not_included;
 mod source;
 
 use std::collections::hash_map::DefaultHasher;
@@ -195,11 +196,11 @@ pub fn to_spirv(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Ve
         program.add_shader(&shader);
         program.compile(stage)
     });
-    compiled.map_err(|error| anyhow!(first_message(path, &error)))
+    compiled.map_err(|error| anyhow!(first_message(path, text, &error)))
 }
 
 /// glslang's first error as one line, `file:line: what`.
-fn first_message(path: &str, error: &GlslangError) -> String {
+fn first_message(path: &str, text: &str, error: &GlslangError) -> String {
     let log = match error {
         GlslangError::PreprocessError(log)
         | GlslangError::ParseError(log)
@@ -217,7 +218,9 @@ fn first_message(path: &str, error: &GlslangError) -> String {
         None if has_place(&message) => message,
         None => format!("{path}: {message}"),
     };
-    format!("shader does not compile: {placed}")
+    let hint = not_included::hint(path, &placed, text)
+        .map_or_else(String::new, |hint| format!(": {hint}"));
+    format!("shader does not compile: {placed}{hint}")
 }
 
 /// Whether a message begins with `file:line:`.

@@ -176,10 +176,12 @@ pub fn build_top(
     let count = instances.len() as u32;
     let mut top =
         AccelerationStructure::top(gpu, "top level", &buffer, count, BuildOptions::default())?;
-    let record = |i: &vk::AccelerationStructureInstanceKHR| {
-        i.instance_shader_binding_table_record_offset_and_flags.low_24() + 1
+    let asked = |i: &vk::AccelerationStructureInstanceKHR| {
+        // SAFETY: the instances of a build on the device name bottom levels by address.
+        let level = unsafe { i.acceleration_structure_reference.device_handle };
+        (i.instance_shader_binding_table_record_offset_and_flags.low_24(), gpu.level_at(level))
     };
-    top.hit_records = instances.iter().map(record).max().unwrap_or_default();
+    top.asked = instances.iter().map(asked).collect();
     Ok(top)
 }
 

@@ -7,6 +7,7 @@ use ash::vk;
 
 use super::{AccelerationStructure, Plan};
 use crate::gpu::buffer::offsets;
+use crate::gpu::pipeline::Asked;
 use crate::gpu::{Buffer, Gpu};
 
 /// What the offset of a structure in its buffer must be a multiple of.
@@ -39,16 +40,9 @@ pub(super) fn place(
         let address = unsafe { extension.get_acceleration_structure_device_address(&of) };
         gpu.name_object(handle, &plan.name);
         gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
-        let (hit_records, _buffer, gpu) = (0, buffer.clone(), gpu.clone());
-        placed.push(AccelerationStructure {
-            handle,
-            address,
-            size,
-            hit_records,
-            plan,
-            _buffer,
-            gpu,
-        });
+        plan.geometries.first().inspect(|one| gpu.note_level(address, one.kind()));
+        let (asked, _buffer, gpu) = (Asked::new(), buffer.clone(), gpu.clone());
+        placed.push(AccelerationStructure { handle, address, size, asked, plan, _buffer, gpu });
     }
     Ok(placed)
 }

@@ -1,7 +1,7 @@
 //! A pipeline put together line by line.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicU32;
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
@@ -221,7 +221,7 @@ impl<'a> PipelineBuilder<'a> {
         );
         Ok(RayTracingPipeline {
             groups: self.groups,
-            hit_records: AtomicU32::new(0),
+            hit_records: Mutex::default(),
             pipeline: self.pipeline(gpu)?,
         })
     }

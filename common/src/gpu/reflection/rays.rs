@@ -1,5 +1,5 @@
 //! What a shader says of rays, where it goes wrong in silence: the launch that it counts in, the payloads that it
-//! passes and takes, and traces that can find nothing.
+//! passes and takes, the hit attribute, and traces that can find nothing.
 
 use anyhow::{Result, ensure};
 use rspirv::dr::{Function, Instruction, Operand};
@@ -67,19 +67,19 @@ impl Reflection {
 
     /// The payloads that the shader passes and takes.
     pub fn payloads(&self) -> Payloads {
-        let shape = |variable: u32| self.shape(self.pointee(variable)?);
         let traces = self.traces();
         let passed = traces.filter_map(|trace| {
             let Some(Operand::IdRef(payload)) = trace.operands.last() else { return None };
             let miss = self.constant(trace.operands.get(MISS_INDEX));
-            Some(Passed { miss, shape: shape(*payload)? })
+            Some(Passed { miss, shape: self.shape_of(*payload)? })
         });
-        let taken = self.variables(StorageClass::IncomingRayPayloadKHR);
-        let used = |id: &u32| {
-            self.module.functions.iter().flat_map(instructions).any(|i| names(i, &[*id]))
-        };
-        let taken = taken.into_iter().filter(used).filter_map(shape);
-        Payloads { passed: passed.collect(), taken: taken.collect() }
+        let taken = self.used(StorageClass::IncomingRayPayloadKHR);
+        Payloads { passed: passed.collect(), taken }
+    }
+
+    /// The type of the hit attribute that the shader uses, if it uses one.
+    pub fn hit_attribute(&self) -> Option<String> {
+        self.used(StorageClass::HitAttributeKHR).into_iter().next()
     }
 
     /// Holds that each ray names a miss shader of the pipeline, which has so many; one beyond them is
@@ -153,6 +153,20 @@ impl Reflection {
                 && i.operands.first() == Some(&Operand::StorageClass(wanted))
         });
         variables.filter_map(|i| i.result_id).collect()
+    }
+
+    /// The types of the variables of a storage class that a function names.
+    fn used(&self, class: StorageClass) -> Vec<String> {
+        let used = |id: &u32| {
+            self.module.functions.iter().flat_map(instructions).any(|i| names(i, &[*id]))
+        };
+        let variables = self.variables(class).into_iter().filter(used);
+        variables.filter_map(|id| self.shape_of(id)).collect()
+    }
+
+    /// The type of what a variable holds, as [`Self::shape`] says it.
+    fn shape_of(&self, variable: u32) -> Option<String> {
+        self.shape(self.pointee(variable)?)
     }
 
     fn global(&self, id: u32) -> Option<&Instruction> {

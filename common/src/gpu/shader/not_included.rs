@@ -1,0 +1,101 @@
+//! A name that a shader does not know, and the file of `common/` that has it.
+
+use std::fs;
+
+use super::folders;
+
+/// Where a compiler's message is about a name that a file of `common/` declares, and the shader's whole text does not
+/// have that file: says so. `message` begins with `file:line: `, and `path` is the
+/// shader's own.
+pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
+    let (place, what) = message.split_once(": ")?;
+    let named = what.split('\'').nth(1).filter(|name| !name.is_empty());
+    let names: Vec<&str> = match named {
+        Some(name) => vec![name],
+        // "syntax error, unexpected IDENTIFIER" does not say which.
+        None => words(line(path, place, text)?).collect(),
+    };
+    let mut files: Vec<_> = folders()
+        .iter()
+        .filter_map(|folder| fs::read_dir(folder.join("common")).ok())
+        .flatten()
+        .filter_map(|entry| {
+            let entry = entry.ok()?;
+            let file = format!("common/{}", entry.file_name().to_str()?);
+            let is_new = file.ends_with(".glsl") && !text.contains(&format!("#line 1 \"{file}\""));
+            is_new.then_some(())?;
+            Some((file, fs::read_to_string(entry.path()).ok()?))
+        })
+        .collect();
+    files.sort();
+    let mut found = names.into_iter().flat_map(|name| {
+        let declares = |(_, text): &&(String, String)| declares(text, name);
+        files.iter().find(declares).map(|(file, _)| (name, file))
+    });
+    let (name, file) = found.next()?;
+    Some(format!("{name} stands in {file}, which is not included before this line"))
+}
+
+/// The line of a shader's whole text that `file:line` names.
+fn line<'a>(path: &str, place: &str, text: &'a str) -> Option<&'a str> {
+    let (file, number) = place.rsplit_once(':')?;
+    let number: usize = number.parse().ok()?;
+    let (mut at, mut is_here) = (1, file == path);
+    for line in text.lines() {
+        if let Some(rest) = line.strip_prefix("#line ") {
+            let (next, name) = rest.split_once(' ')?;
+            (at, is_here) = (next.parse().ok()?, name.trim_matches('"') == file);
+            continue;
+        }
+        if is_here && at == number {
+            return Some(line);
+        }
+        at += 1;
+    }
+    None
+}
+
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    let code = line.split("//").next().unwrap_or_default();
+    code.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
+/// Whether a file declares a structure, a buffer, a function, a macro or a constant of that name.
+fn declares(text: &str, name: &str) -> bool {
+    text.lines().any(|line| {
+        let words: Vec<&str> = words(line).collect();
+        let after = |word: &str| {
+            words.iter().position(|w| *w == word).is_some_and(|at| words.get(at + 1) == Some(&name))
+        };
+        let is_function = !line.starts_with(' ')
+            && words.get(1) == Some(&name)
+            && line.contains(&format!("{name}("));
+        after("struct")
+            || after("buffer")
+            || after("define")
+            || is_function
+            || line.starts_with("const ") && words.get(2) == Some(&name)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_found_behind_includes() {
+        let text = "#version 460\n#line 2 \"a.rgen\"\nb\n#line 1 \"c.glsl\"\nd\n#line 3 \"a.rgen\"\ne\nf\n";
+        assert_eq!(line("a.rgen", "a.rgen:4", text), Some("f"));
+        assert_eq!(line("a.rgen", "c.glsl:1", text), Some("d"));
+        assert_eq!(line("a.rgen", "c.glsl:9", text), None);
+    }
+
+    #[test]
+    fn a_declaration_is_no_use() {
+        let text = "struct Hit {\n    vec3 position;\n};\nvec3 sky(vec3 d) {\n    return other(d);\n}\nconst float PI = 3.0;\n";
+        assert_eq!(
+            ["Hit", "sky", "PI", "position", "other"].map(|name| declares(text, name)),
+            [true, true, true, false, false]
+        );
+    }
+}
