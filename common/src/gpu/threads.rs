@@ -1,13 +1,19 @@
 //! Threads of a driver that computes on the processor.
 
+use std::fs;
 use std::num::NonZero;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::thread::{self, Builder};
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
 /// The most that Mesa's driver starts to trace with, and one for its queue.
 const MOST: usize = 32 + 1;
+
+/// Longer than the system takes to forget a thread that has ended.
+const FORGOTTEN: Duration = Duration::from_secs(1);
 
 /// Fails if the system starts no more threads: such a driver starts one a processor when its device is opened,
 /// and waits forever for those that there are not.
@@ -18,17 +24,31 @@ pub fn ensure_threads() -> Result<()> {
     let wanted = thread::available_parallelism().map_or(1, NonZero::get) + 1;
     // All of them wait here, so that they are there at the same time.
     let gate = Mutex::new(());
-    thread::scope(|scope| {
-        let _closed = gate.lock();
-        for _ in 0..wanted.min(MOST) {
-            let wait = || drop(gate.lock());
+    let ended: Vec<_> = thread::scope(|scope| {
+        let closed = gate.lock();
+        let wait = || {
+            drop(gate.lock());
+            fs::read_link("/proc/thread-self").ok()
+        };
+        let start = |_| {
             Builder::new()
                 .stack_size(1 << 16)
                 .spawn_scoped(scope, wait)
-                .context("it needs threads, and the system starts no more (ulimit -u)")?;
-        }
-        Ok(())
-    })
+                .context("it needs threads, and the system starts no more (ulimit -u)")
+        };
+        let started = (0..wanted.min(MOST)).map(start).collect::<Result<Vec<_>>>()?;
+        drop(closed);
+        Ok::<_, anyhow::Error>(
+            started.into_iter().filter_map(|thread| thread.join().ok()?).collect(),
+        )
+    })?;
+    // Linux wakes who joins a thread a moment before it forgets the thread, which counts until then.
+    let (start, system) = (Instant::now(), Path::new("/proc"));
+    let is_left = |thread: &PathBuf| system.join(thread).exists();
+    while ended.iter().any(is_left) && start.elapsed() < FORGOTTEN {
+        thread::yield_now();
+    }
+    Ok(())
 }
 
 #[cfg(test)]
