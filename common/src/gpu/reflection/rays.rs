@@ -10,7 +10,7 @@ use super::Reflection;
 /// `gl_RayFlagsOpaqueEXT`: no any-hit shader is asked.
 const OPAQUE: u32 = 1;
 
-// Where the operands of `OpTraceRayKHR` stand.
+// Where the operands of `OpTraceRayKHR` stand, and those of a trace to a hit object behind that object.
 const FLAGS: usize = 1;
 const CULL_MASK: usize = 2;
 const RECORD_OFFSET: usize = 3;
@@ -69,8 +69,8 @@ impl Reflection {
     pub fn payloads(&self) -> Payloads {
         let traces = self.traces();
         let passed = traces.filter_map(|trace| {
-            let Some(Operand::IdRef(payload)) = trace.operands.last() else { return None };
-            let miss = self.constant(trace.operands.get(MISS_INDEX));
+            let Some(Operand::IdRef(payload)) = trace.last() else { return None };
+            let miss = self.constant(trace.get(MISS_INDEX));
             Some(Passed { miss, shape: self.shape_of(*payload)? })
         });
         let taken = self.used(StorageClass::IncomingRayPayloadKHR);
@@ -116,19 +116,23 @@ impl Reflection {
 
     /// Whether no ray of the shader asks an any-hit shader: each one's flags say so, whatever else they are.
     pub fn traces_opaque_alone(&self) -> bool {
-        self.traces().all(|trace| {
-            self.constant(trace.operands.get(FLAGS)).is_some_and(|flags| flags & OPAQUE != 0)
-        })
+        self.traces()
+            .all(|trace| self.constant(trace.get(FLAGS)).is_some_and(|flags| flags & OPAQUE != 0))
     }
 
     /// An operand of each trace, where it is a constant.
     fn operands(&self, place: usize) -> impl Iterator<Item = u32> {
-        self.traces().filter_map(move |trace| self.constant(trace.operands.get(place)))
+        self.traces().filter_map(move |trace| self.constant(trace.get(place)))
     }
 
-    fn traces(&self) -> impl Iterator<Item = &Instruction> {
+    /// The operands of each trace, from the top level on.
+    fn traces(&self) -> impl Iterator<Item = &[Operand]> {
         let all = self.module.functions.iter().flat_map(instructions);
-        all.filter(|i| i.class.opcode == Op::TraceRayKHR)
+        all.filter_map(|i| match i.class.opcode {
+            Op::TraceRayKHR => Some(&i.operands[..]),
+            Op::HitObjectTraceRayEXT | Op::HitObjectTraceRayNV => i.operands.get(1..),
+            _ => None,
+        })
     }
 
     /// The variables that are this built-in.
