@@ -121,10 +121,11 @@ impl Edition {
     /// # Errors
     /// If they do not build, or there is none; in one line.
     pub fn test(&self, programs: &Programs, (program, filter): (&str, &str)) -> Result<Tested> {
-        // A build may take as long as it will, and only once.
+        // A build may take as long as it will, and only once. With a test Cargo builds all programs of its package.
         let (mut build, _) = self.cargo("test", programs);
         build.args(["--no-run", "--test", program]);
-        let what = format!("building the tests of {program}, minutes the first time");
+        let what =
+            format!("building all programs and the tests of {program}, minutes the first time");
         let built = child::run_saying(&mut build, Limit::NONE, &what)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let tested = self.run_tests(programs, (program, filter), &[])?;
