@@ -167,6 +167,7 @@ impl Expectation {
                 let heard = seen.messages().iter().any(|message| message.contains(text));
                 held(heard, format!("validation does not say '{text}'"))
             }
+            Self::Gone(_) => Err(anyhow!("a run of a program shows no code")),
             Self::Passes | Self::Fails(_) => Err(anyhow!("a run of a program is no test")),
         }
     }

@@ -170,6 +170,19 @@ impl Edition {
         Ok(Tested { passed, failed, said: ended.told })
     }
 
+    /// What one of its files holds.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn read(&self, project: &Project, file: &str) -> Result<String> {
+        let path = match (self, file.strip_prefix("shaders/")) {
+            (Self::Copy(folder), None) => folder.join(file),
+            (_, Some(shader)) => self.shaders(project).join(shader),
+            _ => project.root.join(file),
+        };
+        fs::read_to_string(path).with_context(|| format!("cannot read '{file}'"))
+    }
+
     /// Where its shaders lie.
     fn shaders(&self, project: &Project) -> PathBuf {
         match self {
