@@ -6,6 +6,7 @@ pub mod code;
 pub mod command;
 pub mod exercise;
 pub mod expectation;
+pub mod formula;
 pub mod interval;
 pub mod mismatch;
 pub mod progress;
