@@ -448,10 +448,7 @@ fn hints_solutions_and_answers_are_given() {
         "shaders/02_basic/camera.rgen: changed\n"
     );
     assert_eq!(ask(&["02.1", "--check"]).code, 0);
-    assert_eq!(
-        ask(&["2.2", "--solution"]).out,
-        "Answer: up, or +y, or to the sky, or 40 to 44\nCheck: It looks up.\n"
-    );
+    assert_eq!(ask(&["2.2", "--solution"]).out, "Answer: up\nCheck: It looks up.\n");
     let told = ask(&["02.2", "--headless"]).out;
     assert!(
         told.contains("cargo run --bin 02_basic -- --set show=normal --headless --out "),

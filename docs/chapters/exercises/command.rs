@@ -157,7 +157,8 @@ impl ExerciseArguments {
             let why = exercise.why.as_deref().map(plain);
             let why = why.map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
             let check = plain(&exercise.check);
-            let answer = exercise.answers.right.join(", or ");
+            // The other alternatives are ways to say the same.
+            let answer = exercise.answers.right.first().map_or("", String::as_str);
             return match exercise.takes {
                 Takes::Look => print(&format!("Answer: {answer}\nCheck: {check}\n{why}")),
                 _ => print(&format!("{}\nCheck: {check}\n{why}", exercise.patch.diff())),

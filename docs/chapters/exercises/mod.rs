@@ -2,6 +2,7 @@
 
 pub mod answer;
 pub mod attempt;
+pub mod clause;
 pub mod code;
 pub mod command;
 pub mod exercise;
