@@ -6,6 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 use common::files::NewFolder;
+use common::output::complain;
 use manuscript::project::Project;
 use patience::{ASLEEP, Limit};
 
@@ -59,7 +60,10 @@ impl Patched {
         let copy = project.root.join(COPY);
         fs::create_dir_all(&copy).with_context(|| format!("cannot make '{}'", copy.display()))?;
         let lock = File::create(project.root.join(LOCK)).context("cannot make a lock")?;
-        lock.lock().context("cannot wait for a lock")?;
+        if lock.try_lock().is_err() {
+            complain("waiting: another command builds in the same copy");
+            lock.lock().context("cannot wait for a lock")?;
+        }
         patch.copy_to(project, &copy)?;
         Ok(Self { edition: Edition::Copy(copy), _shaders: None, _lock: Some(lock) })
     }
