@@ -1,7 +1,7 @@
 //! What is asked of the tool: its commands and their arguments.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -18,7 +18,7 @@ pub struct Arguments {
     pub command: Command,
 
     /// The project's root
-    #[arg(long, value_name = "DIR", global = true, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), hide_default_value = true)]
+    #[arg(long, value_name = "DIR", global = true, default_value_os_t = own_project(), hide_default_value = true)]
     pub root: PathBuf,
 }
 
@@ -147,6 +147,12 @@ pub enum Command {
     Words,
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
+}
+
+/// The project that this tool belongs to, by a path without `..`: errors show it.
+fn own_project() -> PathBuf {
+    let tool = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tool.ancestors().nth(2).unwrap_or(tool).to_owned()
 }
 
 /// Reads the arguments.

@@ -204,7 +204,7 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
     let file = "docs/exercises/02.1.diff";
     let prove = |name| fixture.run(&["exercise", name, "--prove"]);
     let outcome = prove("02.1");
-    let solved = "02.1: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with --size 50x30; \
+    let solved = "02.1: yours is darker than the target in 1500 of 1500 pixels with --size 50x30; \
          solved by its solution\n";
     assert_eq!((outcome.code, &*outcome.out), (0, solved), "{}", outcome.err);
     assert_eq!(prove("02.2").out, "02.2: its answer holds\n");
@@ -245,8 +245,8 @@ fn an_exercise_that_is_not_what_its_file_claims_is_refused() {
 fn a_readers_copy_is_checked_and_never_overwritten() {
     let fixture = Fixture::new();
     let ask = |words: &[&str]| fixture.run(&[&["exercise", "02.1"], words].concat());
-    let unsolved = "error: 02.1 is not solved yet: 1500 of 1500 pixels differ from the target, 1500 of them \
-                    darker and 0 brighter with --size 50x30: yours target/exercises/02.1.png, where they differ \
+    let unsolved = "error: 02.1 is not solved yet: yours is darker than the target in 1500 of 1500 pixels \
+                    with --size 50x30: yours target/exercises/02.1.png, where they differ \
                     target/exercises/02.1.other.png";
     // The target would give the solution away: first one tries.
     let target = ask(&["--target"]);
@@ -325,7 +325,7 @@ fn who_waits_is_told_for_what() {
     fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("it may be run");
     for (name, what) in [
         ("02.3", "waiting: building 02_basic"),
-        ("01.1", "waiting: building the tests of samples, minutes the first time"),
+        ("01.1", "waiting: building all programs and the tests of samples, minutes the first time"),
     ] {
         let outcome = run(fixture.command(&["exercise", name, "--check"]).env("CARGO", &cargo));
         assert_eq!(outcome.code, 1, "{}", outcome.err);
@@ -372,13 +372,13 @@ fn each_save_is_checked_until_the_exercise_is_solved() {
     // The check's text comes with the verdict, once the exercise is solved.
     assert!(!told.iter().any(|line| line.contains("Check:")), "{told:#?}");
     let last = told.last().expect("a line");
-    let first = "not yet: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with";
+    let first = "not yet: yours is darker than the target in 1500 of 1500 pixels with";
     assert!(last.starts_with(first), "{last}");
     fixture.replace(camera, "payload);", "payload) // half");
     let line = next();
     assert!(line.starts_with("not yet: shader does not compile: 02_basic/camera.rgen:"), "{line}");
     fixture.replace(camera, "payload) // half", "vec4(0.9));");
-    let pixels = "not yet: 1500 of 1500 pixels differ from the target, 1500 of them darker and 0 brighter with \
+    let pixels = "not yet: yours is darker than the target in 1500 of 1500 pixels with \
                   --size 50x30: yours target/exercises/02.1.png, where they differ \
                   target/exercises/02.1.other.png; --target shows the target of 02.1";
     assert_eq!(next(), pixels);
@@ -448,10 +448,7 @@ fn hints_solutions_and_answers_are_given() {
         "shaders/02_basic/camera.rgen: changed\n"
     );
     assert_eq!(ask(&["02.1", "--check"]).code, 0);
-    assert_eq!(
-        ask(&["2.2", "--solution"]).out,
-        "Answer: up, or +y, or to the sky, or 40 to 44\nCheck: It looks up.\n"
-    );
+    assert_eq!(ask(&["2.2", "--solution"]).out, "Answer: up\nCheck: It looks up.\n");
     let told = ask(&["02.2", "--headless"]).out;
     assert!(
         told.contains("cargo run --bin 02_basic -- --set show=normal --headless --out "),

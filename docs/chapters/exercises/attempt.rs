@@ -10,6 +10,7 @@ use common::app::Picture;
 use flip::near::Near;
 use patience::Limit;
 
+use super::code;
 use super::exercise::{Exercise, Takes};
 use super::expectation::{Expectation, Other};
 use super::mismatch::Mismatch;
@@ -228,6 +229,13 @@ impl Attempt<'_> {
         let judged = step.expectations.iter().any(is_as_solution) && held != Held::All;
         let asked = step.expectations.iter().filter(|one| !(judged && one.describes()));
         for expectation in asked {
+            if let Expectation::Gone(code) = expectation {
+                let read = |file: &str| edition.read(self.programs.project, file);
+                match code::left(code, &self.exercise.patch.files(), read)? {
+                    Some(what) => return Ok(Some(what.into())),
+                    None => continue,
+                }
+            }
             let as_solution = is_as_solution(expectation);
             let with = match expectation.other() {
                 Some(with) => Some((with.to_string(), other(with)?)),

@@ -10,6 +10,7 @@ use manuscript::project::Project;
 
 use super::attempt::{Attempt, Originals};
 use super::exercise::{Exercise, Takes};
+use super::formula::plain;
 use super::progress::Progress;
 use super::solution::Solution;
 use super::variant;
@@ -109,7 +110,7 @@ impl ExerciseArguments {
         let bench = Workbench::new(&programs, exercise, self.folder.as_deref())?;
         let mut progress = Progress::open(project);
         if self.hint {
-            return print(&format!("{}\n", exercise.hint));
+            return print(&format!("{}\n", plain(&exercise.hint)));
         }
         if self.solution {
             return self.solution(exercise, &bench);
@@ -126,7 +127,8 @@ impl ExerciseArguments {
         let takes = exercise.takes();
         let title = &exercise.patch.title;
         let time = exercise.time();
-        let heading = format!("{exercise} · {title} ({takes}, {time})\n\n{}\n\n", exercise.text);
+        let text = plain(&exercise.text);
+        let heading = format!("{exercise} · {title} ({takes}, {time})\n\n{text}\n\n");
         // What is seen once it is done would give the answer away.
         if exercise.takes == Takes::Look {
             bench.set_up()?;
@@ -152,14 +154,14 @@ impl ExerciseArguments {
 
     fn solution(&self, exercise: &Exercise, bench: &Workbench) -> Result<()> {
         if !self.apply {
-            let why =
-                exercise.why.as_ref().map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
-            let answers = exercise.answers.right.join(", or ");
+            let why = exercise.why.as_deref().map(plain);
+            let why = why.map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
+            let check = plain(&exercise.check);
+            // The other alternatives are ways to say the same.
+            let answer = exercise.answers.right.first().map_or("", String::as_str);
             return match exercise.takes {
-                Takes::Look => {
-                    print(&format!("Answer: {answers}\nCheck: {}\n{why}", exercise.check))
-                }
-                _ => print(&format!("{}\nCheck: {}\n{why}", exercise.patch.diff(), exercise.check)),
+                Takes::Look => print(&format!("Answer: {answer}\nCheck: {check}\n{why}")),
+                _ => print(&format!("{}\nCheck: {check}\n{why}", exercise.patch.diff())),
             };
         }
         if exercise.takes == Takes::Look {
@@ -264,7 +266,7 @@ fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Resu
         bail!("'{answer}' is not the answer; --hint helps");
     }
     progress.note(exercise)?;
-    print(&format!("Right: {}\n{}", exercise.check, solved(exercise)))
+    print(&format!("Right: {}\n{}", plain(&exercise.check), solved(exercise)))
 }
 
 fn list(project: &Project, exercises: &[Exercise]) -> Result<()> {

@@ -8,7 +8,7 @@ use crate::programs::command_line::quoted;
 /// The forms of an expectation, as an error tells them to the author.
 pub const FORMS: &str = "write as the solution [but for 9 pixels], differs by 0.01 [to 0.03], differs in 9 [to 12] pixels, same [as ARGUMENTS], \
     pixel X Y is R G B, pixels R G B: N [to M], largest a is N [to M], report KEY N [to M], says TEXT, \
-    refused: TEXT, validation: TEXT, passes, fails [with TEXT]";
+    refused: TEXT, validation: TEXT, gone: CODE, passes, fails [with TEXT]";
 
 /// The book's picture, or the reader's own, with which a run's picture is compared.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,6 +58,8 @@ pub enum Expectation {
     Refused(String),
     /// A validation message holds this.
     Validation(String),
+    /// Code that another way to the same picture leaves is no more in the files that the solution changes.
+    Gone(String),
     /// The tests pass.
     Passes,
     /// A test fails, and what it says holds this.
@@ -91,10 +93,11 @@ impl Expectation {
         type Of = fn(String) -> Expectation;
         let after =
             |start: &str| text.strip_prefix(start).map(str::trim).filter(|rest| !rest.is_empty());
-        let texts: [(&str, Of); 4] = [
+        let texts: [(&str, Of); 5] = [
             ("says ", Self::Says),
             ("refused:", Self::Refused),
             ("validation:", Self::Validation),
+            ("gone:", Self::Gone),
             ("fails with ", Self::Fails),
         ];
         let found = texts.into_iter().find_map(|(start, of)| Some(of(after(start)?.to_owned())));
@@ -205,6 +208,7 @@ mod tests {
             "largest x is 1",
             "says",
             "refused:",
+            "gone:",
             "report",
             "report groups",
             "fails by",

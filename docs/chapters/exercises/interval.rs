@@ -49,6 +49,11 @@ impl fmt::Display for Interval {
 
 /// A number, with commas between thousands or without.
 pub fn number(word: &str) -> Option<f64> {
+    let is_thousands =
+        |group: &str| group.split('.').next().is_some_and(|digits| digits.len() == 3);
+    if !word.split(',').skip(1).all(is_thousands) {
+        return None;
+    }
     let plain = word.replace(',', "").replace('−', "-");
     plain.parse::<f64>().ok().filter(|number| number.is_finite())
 }
@@ -71,7 +76,7 @@ mod tests {
         assert_eq!([2.0, 3.0, 9.0].map(|number| least.holds(number)), [false, true, true]);
         let shown = [one, range, least].map(|amount| amount.to_string());
         assert_eq!(shown, ["1582", "-1 to 2.5", "at least 3"]);
-        for text in ["", "x", "NaN", "1 or 2", "1 to", "2 to 1"] {
+        for text in ["", "x", "NaN", "1 or 2", "1 to", "2 to 1", "0,1,0"] {
             assert_eq!(Interval::exactly(&words(text)), None, "{text}");
         }
     }

@@ -79,10 +79,14 @@ impl Expectation {
                 let (own, other) = pictures()?;
                 let (darker, brighter) = darker_and_brighter(own, other);
                 let (apart, all) = (darker + brighter, own.pixels.len());
-                let what = format!(
-                    "{apart} of {all} pixels differ from the target, {darker} of them darker and {brighter} \
-                     brighter"
-                );
+                let how = match (darker, brighter) {
+                    (0, _) => format!("brighter than the target in {brighter} of {all} pixels"),
+                    (_, 0) => format!("darker than the target in {darker} of {all} pixels"),
+                    _ => format!(
+                        "darker than the target in {darker} of {all} pixels and brighter in {brighter}"
+                    ),
+                };
+                let what = format!("yours is {how}");
                 held(apart <= but_for.unwrap_or(all / ROUNDED), what)
             }
             Self::DiffersBy(amount, _) => {
@@ -163,6 +167,7 @@ impl Expectation {
                 let heard = seen.messages().iter().any(|message| message.contains(text));
                 held(heard, format!("validation does not say '{text}'"))
             }
+            Self::Gone(_) => Err(anyhow!("a run of a program shows no code")),
             Self::Passes | Self::Fails(_) => Err(anyhow!("a run of a program is no test")),
         }
     }

@@ -2,9 +2,12 @@
 
 pub mod answer;
 pub mod attempt;
+pub mod clause;
+pub mod code;
 pub mod command;
 pub mod exercise;
 pub mod expectation;
+pub mod formula;
 pub mod interval;
 pub mod mismatch;
 pub mod progress;

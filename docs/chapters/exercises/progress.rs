@@ -1,11 +1,11 @@
 //! What a reader has solved so far, in a file of the reader's.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::fs::{self, File};
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use common::files::write_whole;
 use common::output;
 use manuscript::project::Project;
@@ -35,16 +35,11 @@ impl Progress {
     /// Reads it. A file that is damaged is told in a line, and counts as none.
     pub fn open(project: &Project) -> Self {
         let file = project.root.join("target/exercises/progress.json");
-        let read = fs::read_to_string(&file);
-        let solved = match read.map(|text| serde_json::from_str(&text)) {
-            Ok(Ok(solved)) => solved,
-            Err(error) if error.kind() == ErrorKind::NotFound => Solved::default(),
-            Ok(Err(_)) | Err(_) => {
-                let line = "is damaged: what was solved is forgotten";
-                output::warn(&[format!("target/exercises/progress.json {line}")]);
-                Solved::default()
-            }
-        };
+        let solved = read(&file).unwrap_or_else(|| {
+            let line = "is damaged: what was solved is forgotten";
+            output::warn(&[format!("target/exercises/progress.json {line}")]);
+            Solved::default()
+        });
         Self { file, solved }
     }
 
@@ -58,10 +53,9 @@ impl Progress {
     /// # Errors
     /// If that cannot be written.
     pub fn note(&mut self, exercise: &Exercise) -> Result<()> {
-        if !self.solved.solved.insert(exercise.to_string()) {
-            return Ok(());
-        }
-        self.write()
+        self.change(|progress| {
+            progress.solved.insert(exercise.to_string());
+        })
     }
 
     /// Whether the target of an exercise may be shown.
@@ -79,12 +73,55 @@ impl Progress {
     /// # Errors
     /// If that cannot be written.
     pub fn count_failure(&mut self, exercise: &Exercise) -> Result<()> {
-        *self.solved.failures.entry(exercise.to_string()).or_default() += 1;
-        self.write()
+        self.change(|progress| *progress.failures.entry(exercise.to_string()).or_default() += 1)
     }
 
-    fn write(&self) -> Result<()> {
-        fs::create_dir_all(self.file.parent().unwrap_or(&self.file))?;
+    /// Changes what the file holds now: another exercise may be worked on beside this one.
+    fn change(&mut self, change: impl FnOnce(&mut Solved)) -> Result<()> {
+        let folder = self.file.parent().unwrap_or(&self.file);
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make '{}'", folder.display()))?;
+        // A file of its own is locked: the other is replaced as a whole. Closing it ends the lock.
+        let lock = File::create(folder.join("lock")).context("cannot make a lock")?;
+        lock.lock().context("cannot wait for a lock")?;
+        self.solved = read(&self.file).unwrap_or_default();
+        change(&mut self.solved);
         write_whole(&self.file, (serde_json::to_string_pretty(&self.solved)? + "\n").as_bytes())
+    }
+}
+
+/// What a file holds, nothing if there is none; `None` if it is damaged.
+fn read(file: &Path) -> Option<Solved> {
+    match fs::read_to_string(file) {
+        Ok(text) => serde_json::from_str(&text).ok(),
+        Err(error) if error.kind() == ErrorKind::NotFound => Some(Solved::default()),
+        Err(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_who_write_at_once_lose_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("exercises/progress.json");
+        std::thread::scope(|scope| {
+            for writer in ["a", "b"] {
+                let mut progress = Progress { file: file.clone(), solved: Solved::default() };
+                scope.spawn(move || {
+                    for count in 0..50 {
+                        let solve = |progress: &mut Solved| {
+                            progress.solved.insert(format!("{writer}{count}"));
+                            *progress.failures.entry("01.1".to_owned()).or_default() += 1;
+                        };
+                        progress.change(solve).unwrap();
+                    }
+                });
+            }
+        });
+        let Solved { solved, failures } = read(&file).unwrap();
+        assert_eq!((solved.len(), failures["01.1"]), (100, 100));
     }
 }

@@ -11,6 +11,7 @@ use common::usage::Usage;
 use super::attempt::{Attempt, Originals, Verdict};
 use super::command::offer;
 use super::exercise::{Exercise, Takes};
+use super::formula::plain;
 use super::progress::Progress;
 use super::proof::Run;
 use super::solution::Solution;
@@ -358,8 +359,9 @@ pub fn solved(exercise: &Exercise) -> String {
     // Who has answered has read it.
     let check = match exercise.takes {
         Takes::Look => String::new(),
-        _ => format!("Check: {}\n", exercise.check),
+        _ => format!("Check: {}\n", plain(&exercise.check)),
     };
-    let why = exercise.why.as_ref().map_or_else(String::new, |why| format!("Why: {why}\n"));
+    let why = exercise.why.as_deref().map(plain);
+    let why = why.map_or_else(String::new, |why| format!("Why: {why}\n"));
     format!("{exercise} is solved.\n{check}{why}")
 }

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 use common::files::NewFolder;
+use common::output::complain;
 use manuscript::project::Project;
 use patience::{ASLEEP, Limit};
 
@@ -59,7 +60,10 @@ impl Patched {
         let copy = project.root.join(COPY);
         fs::create_dir_all(&copy).with_context(|| format!("cannot make '{}'", copy.display()))?;
         let lock = File::create(project.root.join(LOCK)).context("cannot make a lock")?;
-        lock.lock().context("cannot wait for a lock")?;
+        if lock.try_lock().is_err() {
+            complain("waiting: another command builds in the same copy");
+            lock.lock().context("cannot wait for a lock")?;
+        }
         patch.copy_to(project, &copy)?;
         Ok(Self { edition: Edition::Copy(copy), _shaders: None, _lock: Some(lock) })
     }
@@ -121,10 +125,11 @@ impl Edition {
     /// # Errors
     /// If they do not build, or there is none; in one line.
     pub fn test(&self, programs: &Programs, (program, filter): (&str, &str)) -> Result<Tested> {
-        // A build may take as long as it will, and only once.
+        // A build may take as long as it will, and only once. With a test Cargo builds all programs of its package.
         let (mut build, _) = self.cargo("test", programs);
         build.args(["--no-run", "--test", program]);
-        let what = format!("building the tests of {program}, minutes the first time");
+        let what =
+            format!("building all programs and the tests of {program}, minutes the first time");
         let built = child::run_saying(&mut build, Limit::NONE, &what)?;
         ensure!(built.succeeded(), "the tests do not build: {}", first_error(&built.said));
         let tested = self.run_tests(programs, (program, filter), &[])?;
@@ -167,6 +172,19 @@ impl Edition {
         };
         let (passed, failed) = (count("passed"), count("failed"));
         Ok(Tested { passed, failed, said: ended.told })
+    }
+
+    /// What one of its files holds.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn read(&self, project: &Project, file: &str) -> Result<String> {
+        let path = match (self, file.strip_prefix("shaders/")) {
+            (Self::Copy(folder), None) => folder.join(file),
+            (_, Some(shader)) => self.shaders(project).join(shader),
+            _ => project.root.join(file),
+        };
+        fs::read_to_string(path).with_context(|| format!("cannot read '{file}'"))
     }
 
     /// Where its shaders lie.

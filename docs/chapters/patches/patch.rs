@@ -148,6 +148,13 @@ impl Patch {
         self.hunks.iter().any(|hunk| hunk.file.ends_with(".rs"))
     }
 
+    /// The files that it changes, each once and in their order.
+    pub fn files(&self) -> Vec<&str> {
+        let mut files: Vec<&str> = self.hunks.iter().map(|hunk| &*hunk.file).collect();
+        files.dedup();
+        files
+    }
+
     /// The files that it changes, each with the item in which each change stands; a new file has none.
     pub fn places(&self, project: &Project) -> Vec<(String, Vec<String>)> {
         let mut places: Vec<(String, Vec<String>)> = Vec::new();

@@ -15,6 +15,8 @@ use super::interrupt;
 
 /// After which a wait says what it waits for.
 const SILENCE: Duration = Duration::from_secs(1);
+/// How often it says so again: a build takes minutes, and silence looks like a fault.
+const AGAIN: Duration = Duration::from_secs(60);
 
 /// How a program ended.
 pub struct Ended {
@@ -88,7 +90,7 @@ pub fn run(command: &mut Command, limit: Limit) -> Result<Ended> {
 }
 
 /// As [`run`]; if it takes more than a moment, a line on standard error says what is waited for, unless that is
-/// empty.
+/// empty, and then each minute.
 ///
 /// # Errors
 /// As [`run`].
@@ -120,7 +122,7 @@ pub fn wait(child: &mut Child, limit: Limit) -> Result<Option<ExitStatus>> {
 
 fn wait_saying(child: &mut Child, limit: Limit, what: &str) -> Result<Option<ExitStatus>> {
     let (start, work) = (Instant::now(), Work::from(&*child));
-    let mut told = what.is_empty();
+    let mut next = SILENCE;
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
@@ -131,9 +133,12 @@ fn wait_saying(child: &mut Child, limit: Limit, what: &str) -> Result<Option<Exi
             child.wait()?;
             return asked.map(|()| None);
         }
-        if !told && start.elapsed() >= SILENCE {
-            complain(&format!("waiting: {what}"));
-            told = true;
+        if !what.is_empty() && start.elapsed() >= next {
+            complain(&match next.as_secs() / AGAIN.as_secs() {
+                0 => format!("waiting: {what}"),
+                minutes => format!("waiting: {what}; {minutes} min so far"),
+            });
+            next += AGAIN;
         }
         thread::sleep(GLANCE);
     }
