@@ -42,7 +42,7 @@ pub struct Lab {
     #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
     only: Vec<Primitive>,
 
-    /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 20000]
+    /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 100000]
     #[arg(long, value_name = "N", requires = "work", conflicts_with = "cases", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     rays: Option<u32>,
 
@@ -51,7 +51,7 @@ pub struct Lab {
     rounds: u32,
 
     /// With --atlas: rays of each row that rational numbers alone decide, too, as a check of the 64-bit floats
-    #[arg(long, value_name = "N", default_value = "500", requires = "atlas", value_parser = clap::value_parser!(u32).range(..=1_000_000))]
+    #[arg(long, value_name = "N", default_value = "1000", requires = "atlas", value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     exact: u32,
 
     /// With --atlas: whose triangles they are, the device's, or an intersection shader's that is nearly exact,
@@ -68,7 +68,7 @@ fn primitive(name: &str) -> Result<Primitive, String> {
 
 /// Rays of a family, of --measure and of --atlas.
 const RAYS: u32 = 10_000;
-const ATLAS_RAYS: u32 = 20_000;
+const ATLAS_RAYS: u32 = 100_000;
 
 /// What --atlas writes.
 const ATLAS: [&str; 2] = ["atlas.json", "atlas.md"];

@@ -27,7 +27,9 @@ pub struct Hit {
 
 /// How far off a test in floats may be, if each rounding is off by `finer` times 2^-24.
 pub struct Off {
+    /// In lengths of the ray's direction.
     pub t: f64,
+    /// Of the second and the third corner.
     pub weights: [f64; 2],
     /// Whether it may take the ray for a hit, and for a miss.
     pub may_hit: bool,
