@@ -42,7 +42,7 @@ pub struct Lab {
     #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
     only: Vec<Primitive>,
 
-    /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 100000]
+    /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 50000]
     #[arg(long, value_name = "N", requires = "work", conflicts_with = "cases", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     rays: Option<u32>,
 
@@ -68,7 +68,7 @@ fn primitive(name: &str) -> Result<Primitive, String> {
 
 /// Rays of a family, of --measure and of --atlas.
 const RAYS: u32 = 10_000;
-const ATLAS_RAYS: u32 = 100_000;
+const ATLAS_RAYS: u32 = 50_000;
 
 /// What --atlas writes.
 const ATLAS: [&str; 2] = ["atlas.json", "atlas.md"];

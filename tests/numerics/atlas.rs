@@ -1,8 +1,10 @@
 //! The atlas: what must hold of any device, and that it sees an error that is planted.
 
+mod page;
+
 use std::path::Path;
 
-use run::{figures, shaders_with};
+use run::shaders_with;
 use serde_json::{Map, Value, json};
 
 use crate::laboratory;
@@ -155,7 +157,7 @@ fn the_worst_arithmetic_is_seen() {
     let [called, again, most] = of("without the flag");
     assert!(again == called && most == 2.0, "{called} {again} {most}");
     assert_eq!(of("with the flag")[1..], [0.0, 1.0]);
-    let found = case(&worst, "boxes", "from 10");
+    let found = case(&worst, "boxes", "box from 10");
     assert_eq!(number(found, "offered beside it") + number(found, "meet it"), 200.0);
     assert!(number(case(&worst, "triangles", "distance 10"), "t p50") > 4.0);
 }

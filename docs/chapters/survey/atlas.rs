@@ -55,6 +55,7 @@ pub struct Row {
     pub title: String,
     pub section: String,
     pub claim: String,
+    pub met: Option<bool>,
     pub relied: String,
     pub kept: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]

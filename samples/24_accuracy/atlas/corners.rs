@@ -55,7 +55,7 @@ pub fn row(gpu: &Gpu, options: &GpuOptions, rays: usize) -> Result<(Row, Vec<Str
     let case = case(&gpu, rays)?;
     let kept = case.number("other bits") == 0.0 && case.number("missed") == 0.0;
     let messages = gpu.validation().all();
-    Ok((Row { kept: Some(kept), cases: vec![case], ..row }, messages))
+    Ok((Row { met: Some(kept), kept: Some(kept), cases: vec![case], ..row }, messages))
 }
 
 fn case(gpu: &Gpu, count: usize) -> Result<Case> {

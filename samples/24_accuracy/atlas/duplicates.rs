@@ -45,6 +45,7 @@ pub fn row(
                 be executed multiple times for the same intersection candidate unless \
                 VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR was specified for the intersected geometry.",
         relied: "with the flag, one call a triangle (03). Which of two equal triangles is hit, no chapter cares",
+        met: (traversal == Traversal::Device).then_some(kept),
         // The software's boxes have no such flag.
         kept: (traversal == Traversal::Device).then_some(kept),
         unavailable: (traversal == Traversal::Software)

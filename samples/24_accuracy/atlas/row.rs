@@ -18,6 +18,8 @@ pub struct Row {
     /// The section of the Vulkan specification, and its words.
     pub section: &'static str,
     pub claim: &'static str,
+    /// Whether this device does what is claimed; `None` where the words hold it to nothing, or nothing was asked.
+    pub met: Option<bool>,
     /// What chapters rely on.
     pub relied: &'static str,
     /// Whether this device keeps that; `None` where nothing was asked of it.
@@ -90,7 +92,12 @@ impl Row {
             (Some(false), _) => " (**not kept here**)".to_owned(),
             (None, None) => String::new(),
         };
-        let _ = writeln!(text, "> {} (*{}*)\n", self.claim, self.section);
+        let met = match self.met {
+            Some(true) => " Met here.",
+            Some(false) => " **Not met here.**",
+            None => "",
+        };
+        let _ = writeln!(text, "> {} (*{}*){met}\n", self.claim, self.section);
         let _ = writeln!(text, "Chapters rely on: {}{kept}.\n", self.relied);
         let Some(first) = self.cases.first() else { return text };
         let heads: Vec<&str> = first.found.keys().map(String::as_str).collect();

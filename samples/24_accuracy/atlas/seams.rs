@@ -223,6 +223,11 @@ fn places() -> [(&'static str, Rows); 6] {
     ]
 }
 
+/// Whether no ray was lost, and none met two triangles.
+fn is_watertight(cases: &[Case]) -> bool {
+    cases.iter().all(|case| case.number("lost") == 0.0 && case.number("doubled") == 0.0)
+}
+
 /// Whom to ask, and how.
 pub struct Asked<'a> {
     pub gpu: &'a Gpu,
@@ -246,6 +251,7 @@ impl Asked<'_> {
             }
         }
         let row = Row {
+            met: Some(is_watertight(&cases)),
             row: "seams",
             title: "Edges and corners that triangles share",
             section: "Watertightness",
@@ -273,6 +279,7 @@ impl Asked<'_> {
             }
         }
         let row = Row {
+            met: Some(is_watertight(&cases)),
             row: "instances",
             title: "The same under an instance's matrix",
             section: "Watertightness",
