@@ -26,14 +26,17 @@ const uint NOTHING = 0xffffffffu;
 layout(buffer_reference, scalar) readonly buffer Aims { Aim at[]; };
 layout(buffer_reference, scalar) writeonly buffer Founds { Found at[]; };
 layout(buffer_reference, scalar) writeonly buffer Calls { Met at[]; };
-// Three corners a primitive: read by the software's triangles, written where the device hands them out.
-layout(buffer_reference, scalar) buffer Corners { vec3 at[]; };
+// Three corners a primitive, for the software's triangles.
+layout(buffer_reference, scalar) readonly buffer Corners { vec3 at[]; };
+// Three corners a ray, where the device hands them out.
+layout(buffer_reference, scalar) writeonly buffer Fetched { vec3 at[]; };
 
 layout(push_constant, scalar) uniform Push {
     Aims aims;
     Founds founds;
     Calls calls;
     Corners corners;
+    Fetched fetched;
     uint count;
 } push;
 

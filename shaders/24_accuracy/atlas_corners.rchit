@@ -12,7 +12,7 @@ layout(location = 0) rayPayloadInEXT Found payload;
 void main() {
     uint first = 3 * ray_number();
     for (uint k = 0; k < 3; k++) {
-        push.corners.at[first + k] = gl_HitTriangleVertexPositionsEXT[k];
+        push.fetched.at[first + k] = gl_HitTriangleVertexPositionsEXT[k];
     }
     payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, vec2(0.0));
 }

@@ -15,8 +15,8 @@ use crate::query::Ray;
 /// Triangles beside each other, none behind another.
 const TRIANGLES: usize = 512;
 
-/// What a device must offer.
-const EXTENSION: &str = "VK_KHR_ray_tracing_position_fetch";
+/// What a device must offer: the extension, and with it the feature.
+const NEEDED: [&str; 2] = ["VK_KHR_ray_tracing_position_fetch", "rayTracingPositionFetch"];
 
 /// Asks the same device once more, opened with what this takes; the row, and the messages of validation.
 ///
@@ -46,8 +46,8 @@ pub fn row(gpu: &Gpu, options: &GpuOptions, rays: usize) -> Result<(Row, Vec<Str
     });
     let gpu = match opened {
         Ok(gpu) => gpu,
-        Err(error) if format!("{error:#}").contains(EXTENSION) => {
-            let why = format!("the device does not offer {EXTENSION}");
+        Err(error) if NEEDED.iter().any(|needed| format!("{error:#}").contains(needed)) => {
+            let why = format!("the device does not offer {}", NEEDED[0]);
             return Ok((Row { unavailable: Some(why), ..row }, Vec::new()));
         }
         Err(error) => return Err(error),

@@ -54,6 +54,7 @@ common::shader_struct! {
         founds: Address<Found>,
         calls: Address<Met>,
         corners: Address,
+        fetched: Address,
         count: u32,
     }
 }
@@ -175,12 +176,12 @@ impl Tracer {
         let is_fetched = self.what == What::Corners;
         let zeros = vec![[Vec3::ZERO; 3]; if is_fetched { rays.len() } else { 0 }];
         let fetched = Buffer::with_data(gpu, "fetched corners", &zeros, usage)?;
-        let corners = if is_fetched { &fetched } else { &world.corners };
         let push = Push {
             aims: aims.address.into(),
             founds: founds.address.into(),
             calls: calls.address.into(),
-            corners: corners.address.into(),
+            corners: world.corners.address.into(),
+            fetched: fetched.address.into(),
             count: rays.len() as u32,
         };
         let width = push.count.min(WIDTH);
