@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::card::Device;
-use super::command::{read, words};
+use super::command::{VALIDATE, read, words};
 
 /// The schema that 24 writes.
 const SCHEMA: &str = "rt-atlas/1";
@@ -81,7 +81,7 @@ pub struct Case {
 
 /// What 24 is asked.
 pub fn run(folder: &Path, arithmetic: &str) -> Vec<String> {
-    let mut arguments = words(&["--headless", "--validate", "--arithmetic", arithmetic, "--atlas"]);
+    let mut arguments = words(&["--headless", VALIDATE, "--arithmetic", arithmetic, "--atlas"]);
     arguments.push(folder.to_string_lossy().into_owned());
     arguments
 }

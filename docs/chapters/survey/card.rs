@@ -325,4 +325,16 @@ mod tests {
         assert_eq!(card.stem(), "amd-radeon-rx-7900-radv-navi31");
         assert_eq!(Card::default().stem(), "no-device");
     }
+
+    #[test]
+    fn a_card_without_an_atlas_stays_readable_and_one_of_another_arithmetic_says_so() {
+        let old = serde_json::to_value(Card::default()).expect("JSON");
+        assert!(old.get("atlas").is_none());
+        assert_eq!(serde_json::from_value::<Card>(old).expect("a card"), Card::default());
+        let of = |arithmetic: &str| {
+            let atlas = Atlas { arithmetic: arithmetic.to_owned(), ..Atlas::default() };
+            Card { atlas: Some(atlas), ..Card::default() }.stem()
+        };
+        assert_eq!([of("driver"), of("worst")], ["no-device", "no-device-worst"]);
+    }
 }

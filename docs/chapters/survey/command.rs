@@ -30,6 +30,9 @@ use crate::programs::program::Programs;
 /// The size of the picture whose time is taken.
 pub const TIMED: &str = "480x300";
 
+/// What turns validation on.
+pub const VALIDATE: &str = "--validate";
+
 /// What is told of the atlas.
 const ATLAS: &str = "atlas";
 
@@ -152,7 +155,13 @@ impl Survey<'_> {
         }
         let mut drawn = None;
         for (what, arguments) in &laboratory {
-            let failed = self.ask(accuracy::NAME, arguments).err().map(|error| told(&error));
+            let mut result = self.ask(accuracy::NAME, arguments);
+            if lacks_layer(&result) {
+                card.validated = false;
+                let without = arguments.iter().filter(|word| *word != VALIDATE).cloned();
+                result = self.ask(accuracy::NAME, &without.collect::<Vec<_>>());
+            }
+            let failed = result.err().map(|error| told(&error));
             interrupt::asked()?;
             countdown.told(what, failed.as_deref().unwrap_or("done"))?;
             match *what {
@@ -298,7 +307,7 @@ impl Survey<'_> {
         let run = |validate: bool, more: &[&str], size: &str| {
             let mut arguments = words(&["--headless", "--size", size, "--report"]);
             arguments.push(report.to_string_lossy().into_owned());
-            arguments.extend(validate.then(|| "--validate".to_owned()));
+            arguments.extend(validate.then(|| VALIDATE.to_owned()));
             arguments.extend(words(more));
             self.ask(&chapter.name, &arguments)
         };
@@ -308,9 +317,7 @@ impl Survey<'_> {
         let size = format!("{width}x{height}");
         let mut result = run(card.validated, &drawn, &size);
         // A machine without the layer can still show whether its pictures are right.
-        if card.validated
-            && result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
-        {
+        if card.validated && lacks_layer(&result) {
             card.validated = false;
             result = run(false, &drawn, &size);
         }
@@ -349,6 +356,11 @@ impl Survey<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a program did not run because the validation layer is not installed.
+fn lacks_layer(result: &Result<()>) -> bool {
+    result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
 }
 
 /// Makes the folder for the card, and fails if the card could not be written there.

@@ -1,5 +1,6 @@
 //! `--atlas`: what this device's own traversal computes, row by row, against exact arithmetic.
 
+mod ball;
 mod boxes;
 mod corners;
 mod duplicates;
