@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 use common::usage::Usage;
+use instruments::arithmetic::Arithmetic;
 
 use crate::exercises::command::ExerciseArguments;
 
@@ -98,6 +99,18 @@ pub enum Command {
         #[arg(long, value_name = "SECONDS", default_value_t = 180,
             value_parser = clap::value_parser!(u64).range(1..=86400))]
         limit: u64,
+        /// Find out besides what the device's own traversal computes: half a minute on a software driver
+        #[arg(long)]
+        atlas: bool,
+        /// With --atlas: in whose arithmetic; in another than the driver's the card has the atlas alone
+        #[arg(
+            long,
+            value_name = "WHOSE",
+            value_enum,
+            default_value = "driver",
+            requires = "atlas"
+        )]
+        arithmetic: Arithmetic,
         /// Only print what would be run
         #[arg(long)]
         list: bool,

@@ -44,6 +44,7 @@ use std::process::{self, ExitCode};
 use std::time::Duration;
 
 use anyhow::{Result, bail};
+use common::gpu::Emulation as _;
 use common::output::print;
 use common::usage::Usage;
 use manuscript::diff::{self, Parts};
@@ -103,10 +104,11 @@ fn run(arguments: &Arguments) -> Result<()> {
             let list: String = start.write()?.iter().map(|file| format!("{file}\n")).collect();
             print(&format!("{list}\nNext:\n{}", start.next()))
         }
-        Command::Survey { device, out, limit, list } => {
+        Command::Survey { device, out, limit, atlas, arithmetic, list } => {
             let programs = Programs::beside_this(&project)?;
             let limit = Limit::waited(Duration::from_secs(*limit));
-            let survey = Survey { programs: &programs, device: device.as_deref(), limit };
+            let atlas = atlas.then(|| arithmetic.name());
+            let survey = Survey { programs: &programs, device: device.as_deref(), limit, atlas };
             match list {
                 true => print(&survey.list()),
                 false => survey.run(out),

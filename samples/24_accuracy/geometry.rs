@@ -207,7 +207,7 @@ impl Body {
 }
 
 /// An octahedron whose triangles are cut into four again and again, each new corner on the unit sphere.
-fn mesh(cuts: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+pub fn mesh(cuts: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let mut corners = vec![Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z];
     let mut triangles = vec![
         [0, 1, 2],

@@ -1,4 +1,4 @@
-//! What the laboratory does without a picture: hard cases through every rung, and measurements.
+//! What the laboratory does without a picture: hard cases through every rung, measurements, and the atlas.
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +10,7 @@ use common::output;
 use common::usage::Usage;
 use instruments::{Instruments, Options, check_files};
 
+use crate::atlas::{self, Extent, Traversal};
 use crate::disagreement::Disagreement;
 use crate::drawing::Drawing;
 use crate::ladder::Primitive;
@@ -28,21 +29,35 @@ pub struct Lab {
     #[arg(long, value_name = "FOLDER", group = "work")]
     measure: Option<PathBuf>,
 
+    /// Find out what this device's own traversal computes, against exact arithmetic: triangles, edges, boxes;
+    /// write atlas.json and atlas.md to a folder
+    #[arg(long, value_name = "FOLDER", group = "work")]
+    atlas: Option<PathBuf>,
+
     /// With --cases or --measure: only the rungs that must be right
-    #[arg(long, requires = "work")]
+    #[arg(long, requires = "work", conflicts_with = "atlas")]
     tops: bool,
 
     /// With --measure: only this primitive; repeatable
     #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
     only: Vec<Primitive>,
 
-    /// With --measure: rays of each family
-    #[arg(long, value_name = "N", default_value = "10000", requires = "measure", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    rays: u32,
+    /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 50000]
+    #[arg(long, value_name = "N", requires = "work", conflicts_with = "cases", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    rays: Option<u32>,
 
     /// With --measure: rounds of timing; 0 measures errors alone
     #[arg(long, value_name = "N", default_value = "30", requires = "measure", value_parser = clap::value_parser!(u32).range(..=1000))]
     rounds: u32,
+
+    /// With --atlas: rays of each row that rational numbers alone decide, too, as a check of the 64-bit floats
+    #[arg(long, value_name = "N", default_value = "1000", requires = "atlas", value_parser = clap::value_parser!(u32).range(..=1_000_000))]
+    exact: u32,
+
+    /// With --atlas: whose triangles they are, the device's, or an intersection shader's that is nearly exact,
+    /// which shows what the atlas can tell
+    #[arg(long, value_name = "WHOSE", value_enum, default_value = "device", requires = "atlas")]
+    traversal: Traversal,
 }
 
 fn primitive(name: &str) -> Result<Primitive, String> {
@@ -50,6 +65,13 @@ fn primitive(name: &str) -> Result<Primitive, String> {
     let names = Primitive::ALL.map(Primitive::name).join(", ");
     found.ok_or_else(|| format!("there is {names}"))
 }
+
+/// Rays of a family, of --measure and of --atlas.
+const RAYS: u32 = 10_000;
+const ATLAS_RAYS: u32 = 50_000;
+
+/// What --atlas writes.
+const ATLAS: [&str; 2] = ["atlas.json", "atlas.md"];
 
 /// What --measure writes.
 const FILES: [&str; 6] = [
@@ -62,10 +84,10 @@ const FILES: [&str; 6] = [
 ];
 
 /// Makes the folder, and finds out whether all files can be written, before a minute's work.
-fn prepare(folder: &Path) -> Result<()> {
+fn prepare(folder: &Path, files: &[&str]) -> Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder '{}'", folder.display()))?;
-    FILES.iter().try_for_each(|file| files::check_writable(&folder.join(file)))
+    files.iter().try_for_each(|file| files::check_writable(&folder.join(file)))
 }
 
 impl Lab {
@@ -74,14 +96,17 @@ impl Lab {
     /// # Errors
     /// Whatever went wrong.
     pub fn start(&self, args: &Args, options: Options) -> Result<()> {
-        let is_asked = self.cases.is_some() || self.measure.is_some();
+        let is_asked = self.cases.is_some() || self.measure.is_some() || self.atlas.is_some();
         if !is_asked || args.list_controls {
             return instruments::start::<Demo>(env!("CARGO_BIN_NAME"), args, options);
         }
         self.check(args, &options)?;
         check_files(args, &options)?;
         if let Some(folder) = &self.measure {
-            prepare(folder)?;
+            prepare(folder, &FILES)?;
+        }
+        if let Some(folder) = &self.atlas {
+            prepare(folder, &ATLAS)?;
         }
         // A rung that the device cannot do is told of, and the others are asked.
         let mut device = args.device(Requirements::ray_tracing().float64_where_offered());
@@ -95,6 +120,16 @@ impl Lab {
         if let Some(folder) = &self.measure {
             self.measure(&gpu, folder)?;
         }
+        if let Some(folder) = &self.atlas {
+            let extent = Extent {
+                rays: self.rays.unwrap_or(ATLAS_RAYS) as usize,
+                exact: self.exact as usize,
+            };
+            let atlas = atlas::draw(&gpu, &device, self.traversal, extent)?;
+            let save = |name: &str, text: &str| write_whole(&folder.join(name), text.as_bytes());
+            save("atlas.json", &(serde_json::to_string_pretty(&atlas)? + "\n"))?;
+            save("atlas.md", &atlas.markdown())?;
+        }
         drop(gpu);
         check_validation(&validation)
     }
@@ -102,24 +137,25 @@ impl Lab {
     /// Refuses what goes with a picture alone.
     fn check(&self, args: &Args, options: &Options) -> Result<(), Usage> {
         if options.compare.compare.is_some() || args.list_devices || !args.sets.is_empty() {
-            let line = "--cases and --measure take no controls, and list no devices";
+            let line = "--cases, --measure and --atlas take no controls, and list no devices";
             return Err(Usage(line.to_owned()));
         }
         if args.out.is_some() || args.frames_given {
-            let line = "--cases and --measure make no picture for --out or --frames";
+            let line = "--cases, --measure and --atlas make no picture for --out or --frames";
             return Err(Usage(line.to_owned()));
         }
         if args.scene.is_some() {
-            let line = "--cases and --measure bring their own shapes and take no --scene";
+            let line = "--cases, --measure and --atlas bring their own shapes and take no --scene";
             return Err(Usage(line.to_owned()));
         }
         if options.compile_for.compile_for.is_some() {
             let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
             return Err(Usage(line.to_owned()));
         }
-        if self.measure.is_some() && options.report.report.is_some() {
-            let line = "--measure writes its report to the folder and takes no --report";
-            return Err(Usage(line.to_owned()));
+        if self.cases.is_none() && options.report.report.is_some() {
+            let work = if self.measure.is_some() { "--measure" } else { "--atlas" };
+            let line = format!("{work} writes its report to the folder and takes no --report");
+            return Err(Usage(line));
         }
         if let (Some(cases), Some(report)) = (&self.cases, &options.report.report)
             && files::same(cases, report)
@@ -132,7 +168,8 @@ impl Lab {
 
     fn measure(&self, gpu: &Gpu, folder: &Path) -> Result<()> {
         let Self { only, tops, rays, rounds, .. } = self;
-        let measured = measure::measure(gpu, only, *tops, *rays as usize, *rounds)?;
+        let rays = rays.unwrap_or(RAYS) as usize;
+        let measured = measure::measure(gpu, only, *tops, rays, *rounds)?;
         let save = |name: &str, bytes: &[u8]| write_whole(&folder.join(name), bytes);
         save("accuracy.json", (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
         save("accuracy.md", measured.markdown().as_bytes())?;

@@ -3,6 +3,7 @@
 //! New since 08_intersection: the full ladders, hard cases whose answers are known to 50 digits, a
 //! picture of each rung's errors, and what they cost in time.
 
+mod atlas;
 mod batch;
 mod cases;
 mod compiled;

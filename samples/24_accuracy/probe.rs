@@ -26,7 +26,7 @@ common::shader_struct! {
 }
 
 /// How many samples one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
-const SAMPLES_AT_ONCE: u32 = 1 << 22;
+const SAMPLES_AT_ONCE: u32 = 1 << 19;
 
 /// By which way a rung is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

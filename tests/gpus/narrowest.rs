@@ -158,6 +158,29 @@ fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
     assert!(measured.contains("does not offer shaderRoundingModeRTEFloat32"), "{measured:.1000}");
 }
 
+/// So does its atlas of a row; and it needs no more than the promised limits for all others.
+#[test]
+fn the_atlas_asks_what_the_narrowest_device_can_do() {
+    let narrow = Layer::narrow("");
+    let folder = tempfile::tempdir().unwrap();
+    let draw = |arguments: &[&str]| {
+        let mut command = narrow.command("24_accuracy");
+        command.args(["--headless", "--validate", "--rays", "8"]).args(arguments);
+        command.arg("--atlas").arg(folder.path()).output().expect("it starts")
+    };
+    quiet("the atlas", draw(&[]));
+    let atlas = std::fs::read_to_string(folder.path().join("atlas.json")).unwrap();
+    let atlas: serde_json::Value = serde_json::from_str(&atlas).unwrap();
+    let unasked = |row: &&serde_json::Value| !row["unavailable"].is_null();
+    let unasked: Vec<_> = atlas["rows"].as_array().unwrap().iter().filter(unasked).collect();
+    assert_eq!(unasked.len(), 1, "{unasked:?}");
+    let why = "the device does not offer VK_KHR_ray_tracing_position_fetch";
+    assert_eq!((&unasked[0]["row"], &unasked[0]["unavailable"]), (&"corners".into(), &why.into()));
+    let (code, line) = run::refusal(draw(&["--traversal", "software"]));
+    let why = "--traversal software cannot be had: ";
+    assert!(code == 1 && line.contains(why) && line.contains("shaderRounding"), "{line}");
+}
+
 #[test]
 fn a_card_without_graphics_traces_without_a_window() {
     let narrow = Layer::narrow("compute-only");

@@ -1,6 +1,7 @@
 //! Every rung of every ladder on the device: hard cases with known answers, and random rays by the ten
 //! thousand, held to the bars that 24_accuracy states.
 
+mod atlas;
 mod bars;
 mod compiled;
 mod files;

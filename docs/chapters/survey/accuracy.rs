@@ -12,6 +12,10 @@ use super::command::{read, rows, told, words};
 /// The chapter.
 pub const NAME: &str = "24_accuracy";
 
+/// What is told of its two runs.
+pub const HARD_CASES: &str = "hard cases";
+pub const RANDOM_RAYS: &str = "random rays";
+
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
 
@@ -25,7 +29,7 @@ pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)
     let mut measure = words(&["--headless", "--rays", "256", "--rounds", "5"]);
     measure.extend(words(&["--only", "sphere", "--only", "triangle", "--measure"]));
     measure.push(folder.to_string_lossy().into_owned());
-    vec![("hard cases", cases), ("random rays", measure)]
+    vec![(HARD_CASES, cases), (RANDOM_RAYS, measure)]
 }
 
 /// What the answers to the hard cases are called.

@@ -9,6 +9,8 @@ use manuscript::fault::Fault;
 use manuscript::project::Project;
 use serde::{Deserialize, Serialize};
 
+use super::atlas::{self, Atlas};
+
 /// Where the cards lie.
 pub const FOLDER: &str = "docs/devices";
 
@@ -35,6 +37,10 @@ pub struct Card {
     pub hard_cases: Table<HardCases>,
     /// A short measurement of chapter 24.
     pub measured: Table<Measured>,
+    /// What its traversal computes, if that was asked for. In another arithmetic than the driver's it is all that
+    /// the card has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub atlas: Option<Atlas>,
 }
 
 /// The device that ran them.
@@ -139,12 +145,20 @@ pub struct Measured {
 }
 
 impl Card {
-    /// The name of its files, without extension: the device's, in small letters.
+    /// The name of its files, without extension: the device's, in small letters, and the arithmetic's if that is
+    /// not the driver's.
     pub fn stem(&self) -> String {
         let name = self.device.as_ref().map_or("no device", |device| &device.name);
         let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { ' ' };
         let words: String = name.chars().map(letter).collect();
-        words.split_whitespace().collect::<Vec<_>>().join("-")
+        let words = words.split_whitespace().chain(self.arithmetic());
+        words.collect::<Vec<_>>().join("-")
+    }
+
+    /// The arithmetic of its atlas, if that is not the driver's: then the card has nothing else.
+    fn arithmetic(&self) -> Option<&str> {
+        let arithmetic = self.atlas.as_ref()?.arithmetic.as_str();
+        (!["", atlas::DRIVER].contains(&arithmetic)).then_some(arithmetic)
     }
 
     /// How many of the chapters pass.
@@ -160,8 +174,9 @@ impl Card {
 
     /// Whether anything fails.
     pub fn fails(&self) -> bool {
-        let tables = [&self.hard_cases.failed, &self.measured.failed];
-        self.passed() < self.offered() || tables.into_iter().any(Option::is_some)
+        let atlas = self.atlas.as_ref().and_then(|atlas| atlas.failed.as_ref());
+        let tables = [self.hard_cases.failed.as_ref(), self.measured.failed.as_ref(), atlas];
+        self.passed() < self.offered() || tables.into_iter().any(|failed| failed.is_some())
     }
 
     /// What it must not say, or says wrongly; nothing if it is a card.
@@ -177,7 +192,8 @@ impl Card {
         if self.tolerance != flip::TOLERANCE {
             wrong.push(format!("its tolerance is {}, not {}", self.tolerance, flip::TOLERANCE));
         }
-        if self.chapters.is_empty() {
+        wrong.extend(self.atlas.as_ref().and_then(Atlas::wrong));
+        if self.chapters.is_empty() && self.arithmetic().is_none() {
             wrong.push("it has no chapters".to_owned());
         }
         for (index, chapter) in self.chapters.iter().enumerate() {
@@ -308,5 +324,17 @@ mod tests {
         let card = Card { device: Some(device), ..Card::default() };
         assert_eq!(card.stem(), "amd-radeon-rx-7900-radv-navi31");
         assert_eq!(Card::default().stem(), "no-device");
+    }
+
+    #[test]
+    fn a_card_without_an_atlas_stays_readable_and_one_of_another_arithmetic_says_so() {
+        let old = serde_json::to_value(Card::default()).expect("JSON");
+        assert!(old.get("atlas").is_none());
+        assert_eq!(serde_json::from_value::<Card>(old).expect("a card"), Card::default());
+        let of = |arithmetic: &str| {
+            let atlas = Atlas { arithmetic: arithmetic.to_owned(), ..Atlas::default() };
+            Card { atlas: Some(atlas), ..Card::default() }.stem()
+        };
+        assert_eq!([of("driver"), of("worst")], ["no-device", "no-device-worst"]);
     }
 }

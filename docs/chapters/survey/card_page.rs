@@ -66,6 +66,9 @@ pub fn card(card: &Card) -> String {
         (_, false) => "not installed",
     };
     line("validation", validation);
+    if card.chapters.is_empty() {
+        return text;
+    }
     line("chapters that pass", &format!("{} of {}", card.passed(), card.offered()));
     line("hard cases", &top(&card.hard_cases));
     let _ = writeln!(
@@ -96,6 +99,12 @@ pub fn card(card: &Card) -> String {
     text.push_str(&hard_cases(&card.hard_cases));
     text.push_str(&measured(card));
     text
+}
+
+/// The atlas as Markdown, below a card's other sections.
+pub fn atlas(text: &str) -> String {
+    // Its title becomes a section, and its sections follow.
+    format!("\n#{}", text.replace("\n## ", "\n### "))
 }
 
 /// What the device's compiler counts, summed over a chapter's programs.
@@ -186,7 +195,7 @@ pub fn devices(cards: &[Card]) -> String {
     let mut text = "| device | driver | Vulkan | system | chapters that pass | hard cases | validation | date |\n\
                     |---|---|---|---|---|---|---|---|\n"
         .to_owned();
-    for card in cards {
+    for card in cards.iter().filter(|card| !card.chapters.is_empty()) {
         let Some(device) = &card.device else { continue };
         let failing = card.chapters.iter().filter(|chapter| chapter.failed.is_some());
         let failing: Vec<String> =

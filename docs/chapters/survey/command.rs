@@ -19,9 +19,9 @@ use manuscript::project::Chapter;
 use patience::Limit;
 use serde_json::Value;
 
-use super::accuracy;
 use super::card::{self, Card, Device};
 use super::card_page;
+use super::{accuracy, atlas};
 use crate::patches::copy::file_on_the_way;
 use crate::programs::child::{self, Ended};
 use crate::programs::interrupt;
@@ -29,6 +29,12 @@ use crate::programs::program::Programs;
 
 /// The size of the picture whose time is taken.
 pub const TIMED: &str = "480x300";
+
+/// What turns validation on.
+pub const VALIDATE: &str = "--validate";
+
+/// What is told of the atlas.
+const ATLAS: &str = "atlas";
 
 /// How a program says that there is no device at all.
 const NO_DRIVER: &str = "no Vulkan driver";
@@ -65,6 +71,8 @@ pub struct Survey<'a> {
     pub device: Option<&'a str>,
     /// How long a program may take.
     pub limit: Limit,
+    /// In which arithmetic an atlas is drawn, if it is; in another than the driver's it is drawn alone.
+    pub atlas: Option<&'a str>,
 }
 
 impl Survey<'_> {
@@ -81,10 +89,30 @@ impl Survey<'_> {
             )
         };
         let mut text: String = project.chapters.iter().map(line).collect();
-        for (what, arguments) in accuracy::runs(project, Path::new("FOLDER")) {
+        if self.is_alone() {
+            text.clear();
+        }
+        for (what, arguments) in self.laboratory(Path::new("FOLDER")) {
             text.push_str(&format!("{}: {} ({what})\n", accuracy::NAME, arguments.join(" ")));
         }
         text
+    }
+
+    /// Whether the card has an atlas alone.
+    fn is_alone(&self) -> bool {
+        self.atlas.is_some_and(|arithmetic| arithmetic != atlas::DRIVER)
+    }
+
+    /// What 24 is asked.
+    fn laboratory(&self, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
+        let project = self.programs.project;
+        let mut runs = accuracy::runs(project, folder);
+        if self.is_alone() {
+            runs.clear();
+        }
+        let arithmetic = self.atlas.filter(|_| project.named(accuracy::NAME).is_some());
+        runs.extend(arithmetic.map(|arithmetic| (ATLAS, atlas::run(folder, arithmetic))));
+        runs
     }
 
     /// Runs everything, says so a line a chapter, and writes the card to a folder.
@@ -99,8 +127,9 @@ impl Survey<'_> {
         self.build()?;
         self.check_device()?;
         let folder = NewFolder::temporary()?;
-        let laboratory = accuracy::runs(project, folder.path());
-        let mut countdown = Countdown::new(project.chapters.len() + laboratory.len());
+        let laboratory = self.laboratory(folder.path());
+        let chapters = if self.is_alone() { &[] } else { &project.chapters[..] };
+        let mut countdown = Countdown::new(chapters.len() + laboratory.len());
         let limit = self.limit;
         print(&format!("{} lines to come; a program is stopped after {limit}\n", countdown.all))?;
         let mut card = Card {
@@ -111,7 +140,7 @@ impl Survey<'_> {
             tolerance: flip::TOLERANCE,
             ..Card::default()
         };
-        for chapter in &project.chapters {
+        for chapter in chapters {
             let line = self.chapter(chapter, folder.path(), &mut card)?;
             interrupt::asked()?;
             let told = match (&line.failed, &line.lacks, line.milliseconds) {
@@ -124,22 +153,35 @@ impl Survey<'_> {
             countdown.told(&chapter.name, &told)?;
             card.chapters.push(line);
         }
-        for (index, (what, arguments)) in laboratory.iter().enumerate() {
-            let failed = self.ask(accuracy::NAME, arguments).err().map(|error| told(&error));
+        let mut drawn = None;
+        for (what, arguments) in &laboratory {
+            let mut result = self.ask(accuracy::NAME, arguments);
+            if lacks_layer(&result) {
+                card.validated = false;
+                let without = arguments.iter().filter(|word| *word != VALIDATE).cloned();
+                result = self.ask(accuracy::NAME, &without.collect::<Vec<_>>());
+            }
+            let failed = result.err().map(|error| told(&error));
             interrupt::asked()?;
             countdown.told(what, failed.as_deref().unwrap_or("done"))?;
-            match index {
-                0 => card.hard_cases = accuracy::hard_cases(failed, folder.path()),
-                _ => card.measured = accuracy::measured(failed, folder.path()),
+            match *what {
+                accuracy::HARD_CASES => {
+                    card.hard_cases = accuracy::hard_cases(failed, folder.path());
+                }
+                accuracy::RANDOM_RAYS => card.measured = accuracy::measured(failed, folder.path()),
+                _ => {
+                    let (atlas, text) = atlas::found(failed, folder.path());
+                    drawn = Some(card_page::atlas(&text));
+                    card.device = card.device.or_else(|| atlas.of_device());
+                    card.atlas = Some(atlas);
+                }
             }
         }
         let stem = card.stem();
         let json = serde_json::to_string_pretty(&card)? + "\n";
         common::files::write_whole(&out.join(format!("{stem}.json")), json.as_bytes())?;
-        common::files::write_whole(
-            &out.join(format!("{stem}.md")),
-            card_page::card(&card).as_bytes(),
-        )?;
+        let text = card_page::card(&card) + drawn.as_deref().unwrap_or_default();
+        common::files::write_whole(&out.join(format!("{stem}.md")), text.as_bytes())?;
         let files = format!("{stem}.md and {stem}.json in {}", out.display());
         let (passed, all) = (card.passed(), card.offered());
         if card.fails() {
@@ -147,7 +189,9 @@ impl Survey<'_> {
                 "{passed} of {all} chapters pass, hard cases and measurements apart; the card is {files}"
             );
         }
-        print(&format!("{all} chapters pass; the card is {files}\n"))
+        let passed =
+            if self.is_alone() { "done".to_owned() } else { format!("{all} chapters pass") };
+        print(&format!("{passed}; the card is {files}\n"))
     }
 
     /// What is surveyed: the commit, and whether code or shaders differ from it.
@@ -263,7 +307,7 @@ impl Survey<'_> {
         let run = |validate: bool, more: &[&str], size: &str| {
             let mut arguments = words(&["--headless", "--size", size, "--report"]);
             arguments.push(report.to_string_lossy().into_owned());
-            arguments.extend(validate.then(|| "--validate".to_owned()));
+            arguments.extend(validate.then(|| VALIDATE.to_owned()));
             arguments.extend(words(more));
             self.ask(&chapter.name, &arguments)
         };
@@ -273,9 +317,7 @@ impl Survey<'_> {
         let size = format!("{width}x{height}");
         let mut result = run(card.validated, &drawn, &size);
         // A machine without the layer can still show whether its pictures are right.
-        if card.validated
-            && result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
-        {
+        if card.validated && lacks_layer(&result) {
             card.validated = false;
             result = run(false, &drawn, &size);
         }
@@ -314,6 +356,11 @@ impl Survey<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a program did not run because the validation layer is not installed.
+fn lacks_layer(result: &Result<()>) -> bool {
+    result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
 }
 
 /// Makes the folder for the card, and fails if the card could not be written there.

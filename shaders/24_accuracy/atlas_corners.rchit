@@ -1,0 +1,18 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_ray_tracing_position_fetch : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "atlas.glsl"
+
+layout(location = 0) rayPayloadInEXT Found payload;
+
+// The corners of the triangle, as the acceleration structure has them.
+void main() {
+    uint first = 3 * ray_number();
+    for (uint k = 0; k < 3; k++) {
+        push.fetched.at[first + k] = gl_HitTriangleVertexPositionsEXT[k];
+    }
+    payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, vec2(0.0));
+}
