@@ -335,7 +335,7 @@ fn a_ray_names_a_miss_shader_that_is_there() {
     let file = "02_basic/camera.rgen";
     let (from, to) = ("0,                          // missIndex", "1,      // missIndex");
     let folder = folder(file, |text| text.replace(from, to));
-    let words = "a ray has the missIndex 1, and the pipeline has 1 miss shaders, counted from 0 in the order";
+    let words = "a ray has the missIndex 1, and the pipeline has 1 miss shader, counted from 0 in the order";
     shaders_refused(folder.path(), &[&format!("{file}: {words}")]);
 }
 
@@ -344,7 +344,7 @@ fn what_is_seldom_meant_is_a_warning() {
     let hidden = "02_basic/camera.rgen: a ray has the cull mask 0, which every instance's mask hides from it";
     let opaque =
         "03_any_hit/decide.rahit is never asked: every ray has the flag gl_RayFlagsOpaqueEXT";
-    let beyond = "02_basic/camera.rgen: a ray has the sbtRecordOffset 1, and the pipeline has 1 hit groups: such \
+    let beyond = "02_basic/camera.rgen: a ray has the sbtRecordOffset 1, and the pipeline has 1 hit group: such \
                   a record is there only if ShaderBindingTable::with_hit_records makes it";
     for (program, from, to, line) in [
         ("02_basic", "        0xff,  ", "        0x00,  ", hidden),
@@ -396,4 +396,59 @@ fn a_name_of_a_file_that_is_not_included_names_the_file() {
     command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
     let words = "Hit stands in common/hit.glsl, which is not included before this line";
     refused_by(command, 1, &[words]);
+}
+
+/// Each was a crash or a wrong picture in silence.
+#[test]
+fn what_a_pipeline_does_not_go_with_is_refused() {
+    let head = "hitAttributeEXT vec3 outward;";
+    for (program, shader, edits, line) in [
+        (
+            "02_basic",
+            "camera.rgen",
+            &[
+                ("binding = 0", "binding = 9"),
+                ("binding = 1", "binding = 0"),
+                ("binding = 9", "binding = 1"),
+            ][..],
+            "set 0, binding 0 is an image, where the program binds an acceleration structure; bindings are counted",
+        ),
+        (
+            "02_basic",
+            "shade.rchit",
+            &[(
+                "void main() {",
+                "layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;\n\
+                  layout(location = 1) rayPayloadEXT vec4 next;\nvoid main() {\n\
+                  traceRayEXT(tlas, 0, 0xff, 0, 1, 0, vec3(0.0), 0.0, vec3(0.0, 1.0, 0.0), 1.0, 1);",
+            )],
+            "a ray from this shader takes .recursion(2) at least, and the pipeline '02_basic' has 1",
+        ),
+        (
+            "02_basic",
+            "sky.rmiss",
+            &[("rayPayloadInEXT", "rayPayloadEXT")],
+            "it traces no ray, and has a rayPayloadEXT",
+        ),
+        (
+            "08_intersection",
+            "box.rint",
+            &[(head, ""), ("outward = ", "vec3 outward = ")],
+            "it reads a hitAttributeEXT, and 08_intersection/box.rint writes none",
+        ),
+        (
+            "02_basic",
+            "sky.rmiss",
+            &[("#extension GL_EXT_ray_tracing : require\n", "")],
+            "the shader lacks the line `#extension GL_EXT_ray_tracing : require`",
+        ),
+    ] {
+        let file = format!("{program}/{shader}");
+        let edit =
+            |text: String| edits.iter().fold(text, |text, (from, to)| text.replace(from, to));
+        let folder = folder(&file, edit);
+        let mut command = run::command(program);
+        command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
+        refused_by(command, 1, &[line]);
+    }
 }

@@ -38,7 +38,9 @@ impl Setup {
     /// # Errors
     /// If a file is missing or wrong; on a scene file of chapter 25, [`Usage`].
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
-        let Some(path) = self.scene() else { return own() };
+        let Some(path) = self.scene() else {
+            return own().inspect(|scene| output::warn(&scene.model.warnings));
+        };
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
             let what =
                 "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";

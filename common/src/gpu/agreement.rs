@@ -4,7 +4,7 @@
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use ash::vk;
 
 use super::blueprint::{Binding, Blueprint, Group};
@@ -50,9 +50,14 @@ pub fn check(
     for Shader { path, spirv, text, .. } in shaders {
         let reflection = Reflection::of(spirv)?;
         reflection.check_memory(path)?;
+        ensure!(
+            blueprint.push_size > 0 || !reflection.has_push_constants(),
+            "{path}: the shader has push constants, and the pipeline none: the line .push_constants::<Push>() \
+             declares them"
+        );
         reflection.check(path, &known.structs)?;
         reflection.check_addresses(path, &known.structs)?;
-        reflection.check_bindings(path, bindings.len(), textures.is_some())?;
+        reflection.check_bindings(path, bindings, textures.is_some())?;
         constants.extend(enumeration::constants(path, text));
         reflections.push((&**path, reflection));
     }
@@ -67,6 +72,7 @@ pub fn check(
     let miss_groups = blueprint.groups.iter().skip(raygens).take(misses);
     let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
     check_payloads(&reflections, &miss_shaders)?;
+    check_stages(blueprint, shaders, &reflections)?;
     check_hit_attributes(&reflections, &blueprint.groups)?;
     let warnings = warnings(shaders, &reflections, hits);
     // A note that cannot be written costs time at the next start, nothing else.
@@ -106,6 +112,47 @@ fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()
     Ok(())
 }
 
+/// Holds that each shader of a hit group is of its stage, that only shaders trace which the recursion lets, and that
+/// none takes a payload of its own for that of who called it.
+fn check_stages(
+    blueprint: &Blueprint,
+    shaders: &[Shader],
+    reflections: &[(&str, Reflection)],
+) -> Result<()> {
+    use vk::ShaderStageFlags as Flags;
+    for group in &blueprint.groups {
+        for (number, stage, kind) in [
+            (group.intersection, Flags::INTERSECTION_KHR, "an intersection shader, .rint"),
+            (group.any_hit, Flags::ANY_HIT_KHR, "an any-hit shader, .rahit"),
+            (group.closest_hit, Flags::CLOSEST_HIT_KHR, "a closest hit shader, .rchit"),
+        ] {
+            if let Some(Shader { path, .. }) =
+                shaders.get(number as usize).filter(|shader| shader.stage != stage)
+            {
+                bail!("{path}: it stands in a hit group where {kind}, belongs");
+            }
+        }
+    }
+    for (Shader { path, stage, .. }, (_, shader)) in shaders.iter().zip(reflections) {
+        let is_called = (Flags::CLOSEST_HIT_KHR | Flags::MISS_KHR).contains(*stage);
+        ensure!(
+            !is_called || !shader.traces_rays() || blueprint.recursion > 1,
+            "{path}: a ray from this shader takes .recursion(2) at least, and the pipeline '{}' has {}; a loop in \
+             the raygen shader needs 1",
+            blueprint.name,
+            blueprint.recursion
+        );
+        ensure!(
+            !(is_called || *stage == Flags::ANY_HIT_KHR)
+                || shader.traces_rays()
+                || !shader.has_own_payload(),
+            "{path}: it traces no ray, and has a rayPayloadEXT; that of the ray that has called it is \
+             rayPayloadInEXT"
+        );
+    }
+    Ok(())
+}
+
 /// The type of the attribute that a triangle's hit has: a vec2.
 const WEIGHTS: &str = "TypeVector(TypeFloat(32) 2)";
 
@@ -118,11 +165,16 @@ fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Res
         {
             let Some(taken) = taker.hit_attribute() else { continue };
             match shader(group.intersection) {
-                Some((of, intersection)) => ensure!(
-                    intersection.hit_attribute() == Some(taken),
-                    "{path}: its hitAttributeEXT is not of the type of that of {of}, which writes it; both \
-                     declare the same"
-                ),
+                Some((of, intersection)) => match intersection.hit_attribute() {
+                    Some(given) => ensure!(
+                        given == taken,
+                        "{path}: its hitAttributeEXT is not of the type of that of {of}, which writes it; \
+                         declare the same type in both"
+                    ),
+                    None => bail!(
+                        "{path}: it reads a hitAttributeEXT, and {of} writes none before it reports a hit"
+                    ),
+                },
                 None => ensure!(
                     taken == WEIGHTS,
                     "{path}: its hitAttributeEXT is no vec2, and a triangle's are two weights, those of its \

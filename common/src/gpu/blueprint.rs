@@ -36,6 +36,15 @@ pub enum Binding {
 }
 
 impl Binding {
+    /// What is there, in words.
+    pub(super) fn kind(self) -> &'static str {
+        match self {
+            Self::AccelerationStructure => "an acceleration structure",
+            Self::StorageImage => "an image",
+            Self::StorageBuffer => "a buffer",
+        }
+    }
+
     pub(super) fn descriptor_type(self) -> vk::DescriptorType {
         match self {
             Self::AccelerationStructure => vk::DescriptorType::ACCELERATION_STRUCTURE_KHR,

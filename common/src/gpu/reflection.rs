@@ -9,6 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 use rspirv::dr::{Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 
+use super::blueprint::Binding;
 use super::layout::StructLayout;
 pub use rays::{Passed, Payloads};
 
@@ -152,10 +153,10 @@ impl Reflection {
     ///
     /// # Errors
     /// On a descriptor in another place, for which drivers have no answer.
-    pub fn check_bindings(&self, path: &str, count: usize, has_textures: bool) -> Result<()> {
+    pub fn check_bindings(&self, path: &str, bound: &[Binding], has_textures: bool) -> Result<()> {
         for Bound { set, binding, kind } in self.descriptors() {
             let is_bound = match set {
-                0 => (binding as usize) < count,
+                0 => (binding as usize) < bound.len(),
                 1 => has_textures && binding == 0,
                 _ => false,
             };
@@ -163,6 +164,15 @@ impl Reflection {
                 is_bound,
                 "{path}: set {set}, binding {binding} is {kind}, where the program binds nothing"
             );
+            let other =
+                bound.get(binding as usize).filter(|other| set == 0 && other.kind() != kind);
+            if let Some(other) = other {
+                bail!(
+                    "{path}: set {set}, binding {binding} is {kind}, where the program binds {}; bindings are \
+                     counted from 0 in the order of the .binding lines",
+                    other.kind()
+                );
+            }
         }
         Ok(())
     }

@@ -77,6 +77,21 @@ impl Reflection {
         Payloads { passed: passed.collect(), taken }
     }
 
+    /// Whether the shader traces rays.
+    pub fn traces_rays(&self) -> bool {
+        self.traces().next().is_some()
+    }
+
+    /// Whether the shader uses a payload to pass, by `rayPayloadEXT`.
+    pub fn has_own_payload(&self) -> bool {
+        !self.used(StorageClass::RayPayloadKHR).is_empty()
+    }
+
+    /// Whether the shader reads push constants.
+    pub fn has_push_constants(&self) -> bool {
+        !self.variables(StorageClass::PushConstant).is_empty()
+    }
+
     /// The type of the hit attribute that the shader uses, if it uses one.
     pub fn hit_attribute(&self) -> Option<String> {
         self.used(StorageClass::HitAttributeKHR).into_iter().next()
@@ -91,8 +106,9 @@ impl Reflection {
         for index in self.operands(MISS_INDEX) {
             ensure!(
                 (index as usize) < count,
-                "{path}: a ray has the missIndex {index}, and the pipeline has {count} miss shaders, counted \
-                 from 0 in the order of its .miss lines"
+                "{path}: a ray has the missIndex {index}, and the pipeline has {count} miss shader{}, counted \
+                 from 0 in the order of its .miss lines",
+                if count == 1 { "" } else { "s" }
             );
         }
         Ok(())
@@ -107,8 +123,9 @@ impl Reflection {
         let beyond = self.operands(RECORD_OFFSET).find(|offset| *offset as usize >= hit_groups);
         let beyond = beyond.filter(|_| hit_groups > 0).map(|offset| {
             format!(
-                "{path}: a ray has the sbtRecordOffset {offset}, and the pipeline has {hit_groups} hit groups: \
-                 such a record is there only if ShaderBindingTable::with_hit_records makes it"
+                "{path}: a ray has the sbtRecordOffset {offset}, and the pipeline has {hit_groups} hit group{}: \
+                 such a record is there only if ShaderBindingTable::with_hit_records makes it",
+                if hit_groups == 1 { "" } else { "s" }
             )
         });
         blind.into_iter().chain(beyond).collect()

@@ -4,9 +4,12 @@ use std::fs;
 
 use super::folders;
 
-/// Where a compiler's message is about a name that a file of `common/` declares, and the shader's whole text does not
-/// have that file: says so. `message` begins with `file:line: `, and `path` is the
-/// shader's own.
+/// What lets a shader trace rays, and know what a ray has met.
+const RAY_TRACING: &str = "GL_EXT_ray_tracing";
+
+/// Where a compiler's message is about a name that is not known, what the shader lacks: the extension, or a file
+/// beside it or in `common/` that declares the name and is not part of the shader's whole text. `message` begins
+/// with `file:line: `, and `path` is the shader's own.
 pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     let (place, what) = message.split_once(": ")?;
     let named = what.split('\'').nth(1).filter(|name| !name.is_empty());
@@ -15,25 +18,36 @@ pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
         // "syntax error, unexpected IDENTIFIER" does not say which.
         None => words(line(path, place, text)?).collect(),
     };
-    let mut files: Vec<_> = folders()
-        .iter()
-        .filter_map(|folder| fs::read_dir(folder.join("common")).ok())
-        .flatten()
-        .filter_map(|entry| {
-            let entry = entry.ok()?;
-            let file = format!("common/{}", entry.file_name().to_str()?);
-            let is_new = file.ends_with(".glsl") && !text.contains(&format!("#line 1 \"{file}\""));
-            is_new.then_some(())?;
-            Some((file, fs::read_to_string(entry.path()).ok()?))
-        })
-        .collect();
-    files.sort();
-    let mut found = names.into_iter().flat_map(|name| {
-        let declares = |(_, text): &&(String, String)| declares(text, name);
+    if !text.contains(RAY_TRACING) && names.iter().any(|name| name.ends_with("EXT")) {
+        return Some(format!("the shader lacks the line `#extension {RAY_TRACING} : require`"));
+    }
+    let own = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let files: Vec<_> = [own, "common"].into_iter().flat_map(files_in).collect();
+    // What the shader has declared before is not what it lacks.
+    let unknown = names.into_iter().filter(|name| !declares(text, name));
+    let mut found = unknown.flat_map(|name| {
+        let is_new = |file: &str| !text.contains(&format!("#line 1 \"{file}\""));
+        let declares = |(file, text): &&(String, String)| is_new(file) && declares(text, name);
         files.iter().find(declares).map(|(file, _)| (name, file))
     });
     let (name, file) = found.next()?;
     Some(format!("{name} stands in {file}, which is not included before this line"))
+}
+
+/// The files of a folder below `shaders/` that others include, by path, and what they hold.
+fn files_in(folder: &str) -> Vec<(String, String)> {
+    let entries = folders().into_iter().filter_map(|above| fs::read_dir(above.join(folder)).ok());
+    let mut files: Vec<_> = entries
+        .flatten()
+        .filter_map(|entry| {
+            let entry = entry.ok()?;
+            let file = format!("{folder}/{}", entry.file_name().to_str()?);
+            file.ends_with(".glsl").then_some(())?;
+            Some((file, fs::read_to_string(entry.path()).ok()?))
+        })
+        .collect();
+    files.sort();
+    files
 }
 
 /// The line of a shader's whole text that `file:line` names.
