@@ -179,7 +179,10 @@ pub fn build_top(
     let asked = |i: &vk::AccelerationStructureInstanceKHR| {
         // SAFETY: the instances of a build on the device name bottom levels by address.
         let level = unsafe { i.acceleration_structure_reference.device_handle };
-        (i.instance_shader_binding_table_record_offset_and_flags.low_24(), gpu.level_at(level))
+        // One that not every ray sees may be hidden just because there is no hit group for it.
+        let is_seen = i.instance_custom_index_and_mask.high_8() == 0xff;
+        let kind = gpu.level_at(level).filter(|_| is_seen);
+        (i.instance_shader_binding_table_record_offset_and_flags.low_24(), kind)
     };
     top.asked = instances.iter().map(asked).collect();
     Ok(top)

@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 use ash::vk;
 
 /// What instances ask for: the record of each one's first geometry for a ray with `sbtRecordOffset` 0, and what the
-/// geometry is, as far as that is known.
+/// geometry is, as far as that is known and every ray sees it.
 pub type Asked = BTreeSet<(u32, Option<vk::GeometryTypeKHR>)>;
 
 /// Holds that a table has each record that is asked for, of the geometry's kind. `table` says of which kind of hit
