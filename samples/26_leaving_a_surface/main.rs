@@ -1,4 +1,4 @@
-//! 26 · Leaving a surface: where a shadow ray or a mirrored ray starts, by seven rules.
+//! 26 · Leaving a surface: where a shadow ray or a mirrored ray starts, by eight rules.
 //!
 //! New since 06_reflection: a start for each direction, in three sizes of the scene and far from the
 //! origin. The hit shader reports what the strictest rule needs: the weights and the matrix.
@@ -44,7 +44,7 @@ common::shader_enum! {
         RayOrigin,
     }
     /// The rule for a ray's start.
-    enum Origin: ORIGIN { Nothing, Tmin, Normal, Integers, Reprojected, Bound, Height }
+    enum Origin: ORIGIN { Nothing, Tmin, Normal, Integers, Reprojected, Bound, Height, Magnitudes }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.

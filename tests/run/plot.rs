@@ -228,7 +228,8 @@ fn beside(dots: &[(i32, i32)], names: &[&str], area: (Range<i32>, Range<i32>)) -
                 && !taken.iter().any(|b| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom)
         };
         let corner = places.clone().find(free).unwrap_or((x + 7, y - height / 2));
-        taken.push([corner.0, corner.1, corner.0 + width, corner.1 + height]);
+        // A little more, lest two names read as one.
+        taken.push([corner.0 - 6, corner.1, corner.0 + width + 6, corner.1 + height]);
         corners.push(corner);
     }
     corners

@@ -243,19 +243,63 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
     assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
 }
 
+/// Where `origin.glsl` goes up by the step of a rule.
+const STEPS: [(&str, &str); 3] = [
+    ("bound", "return Start(from.position + step * from.normal, 0.0);"),
+    ("height", "return Start(from.position + from.height * from.normal, 0.0);"),
+    ("magnitudes", "return Start(from.position + height * from.normal, 0.0);"),
+];
+
+impl Setting<'_> {
+    /// Judges reflected rays where a rule's step is multiplied by `factor`.
+    fn scaled(&mut self, (rule, line): (&str, &str), factor: f64) -> Tally {
+        let scaled = line.replace("* from.normal", &format!("* {factor:?} * from.normal"));
+        self.shaders = flat_shaders();
+        replace_line(self.shaders.path(), "26_leaving_a_surface/origin.glsl", line, &scaled);
+        self.reflected(rule, 1)
+    }
+}
+
+/// By bisection, to a hundredth: with the factor that is told no ray of the setting hits
+/// the surface that it leaves, and with a little less one does.
+#[test]
+#[ignore = "by hand: takes a table of the page"]
+fn the_least_step_that_never_fails() {
+    let mut table = Map::new();
+    for number in 0..SETTINGS.len() {
+        let mut setting = Setting::new(number, SIZE, HIGH);
+        for rule in STEPS {
+            let place = format!("{}, {}", SETTINGS[number].0.join(", "), rule.0);
+            let (mut fails, mut serves) = (0.0, 1.0);
+            while setting.scaled(rule, serves).self_hits > 0 && serves < 1e3 {
+                (fails, serves) = (serves, 8.0 * serves);
+            }
+            // In a plane through the origin Mitsuba's rule goes up by 0.
+            if serves > 1e3 {
+                assert_eq!(rule.0, "magnitudes", "{place}: none is enough");
+                println!("{place}: none is enough");
+                continue;
+            }
+            while serves - fails > 0.01 * serves {
+                let between = (fails + serves) / 2.0;
+                let tally = setting.scaled(rule, between);
+                *(if tally.self_hits > 0 { &mut fails } else { &mut serves }) = between;
+            }
+            println!("{place}: {serves:.2}");
+            table.insert(format!("{}.{number}", rule.0), serves.into());
+        }
+    }
+    figures::hold("26_leaving_a_surface/least", table.into());
+}
+
 #[test]
 #[ignore = "by hand: takes a table of the page"]
 fn a_smaller_step_ends_in_self_hits() {
-    const STEP: &str = "return Start(from.position + step * from.normal, 0.0);";
     let mut settings = [0, 1, 2, 3].map(|number| Setting::new(number, SIZE, HIGH));
     let (mut table, mut all) = (Map::new(), 0);
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01"] {
-        let smaller = STEP.replace("step", &format!("{factor} * step"));
         for (number, setting) in settings.iter_mut().enumerate() {
-            setting.shaders = flat_shaders();
-            let folder = setting.shaders.path();
-            replace_line(folder, "26_leaving_a_surface/origin.glsl", STEP, &smaller);
-            let tally = setting.reflected("bound", 1);
+            let tally = setting.scaled(STEPS[0], factor.parse().unwrap());
             println!("{factor}, {}: {tally}", SETTINGS[number].0.join(", "));
             assert!(factor != "1.0" || tally.self_hits == 0, "{:?}", tally.first);
             assert!(all == 0 || all == tally.rays, "where a ray starts, the camera does not see");

@@ -137,8 +137,9 @@ fn seams(atlas: &Value) {
             logarithmic: false,
         },
         series: vec![
-            series("edges", edges, Vec::new()),
+            // The first colour is the darkest: names are small, and must stand out.
             series("corners", corners, names.iter().map(String::as_str).collect()),
+            series("edges", edges, Vec::new()),
         ],
     };
     plot::draw("what-hardware-computes_seams.svg", (620, 380), &[chart]);

@@ -47,7 +47,7 @@ fn table_of_origins() {
     let (mut table, mut height) = (Map::new(), Map::new());
     for (number, (place, _)) in SETTINGS.iter().enumerate() {
         let setting = Setting::new(number, "240x150", HIGH);
-        for rule in RULES.into_iter().chain(["height"]) {
+        for rule in RULES.into_iter().chain(["height", "magnitudes"]) {
             let tallies = [setting.reflected(rule, 1), setting.shadow(rule)];
             let percent = |count: fn(&Tally) -> usize| {
                 tallies.each_ref().map(|tally| 100.0 * count(tally) as f64 / tally.rays as f64)
