@@ -177,7 +177,7 @@ impl Findings {
         };
         if row.unavailable.is_none() {
             let instrument = probe.instrument(primitive, rung, way)?;
-            let (answers, _) = probe.ask(&instrument, batch, 1)?;
+            let answers = probe.ask(&instrument, batch)?;
             for (case, answer) in cases.iter().zip(&answers) {
                 let Case { shape, ray, expected, tolerance, .. } = case;
                 let judgement = judge(shape, ray, expected, tolerance, way, answer);

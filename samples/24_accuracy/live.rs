@@ -13,13 +13,13 @@ use crate::families::Family;
 use crate::ladder::{Primitive, Rung};
 use crate::measure::tally;
 use crate::measurement::Errors;
-use crate::probe::{Probe, Way};
+use crate::probe::{Load, Probe, Way};
 use crate::specimen::{SUN, Specimen};
 
 /// Rays across the view, and down.
 const SIDE: u32 = 48;
 /// How often each ray is asked while time is taken, and how many such times are taken.
-const REPEAT: u32 = 16;
+const LOAD: Load = Load { repeat: 16, copies: 1 };
 const TIMES: u32 = 5;
 
 /// One specimen, and the rungs that it was seen by.
@@ -75,13 +75,13 @@ impl Live {
             return Ok(());
         }
         let instrument = probe.instrument(primitive, rung, Way::Direct)?;
-        let (answers, _) = probe.ask(&instrument, &self.batch, 1)?;
-        let times = (0..TIMES).map(|_| probe.time(&instrument, &self.batch, REPEAT));
+        let answers = probe.ask(&instrument, &self.batch)?;
+        let times = (0..TIMES).map(|_| probe.time(&instrument, &self.batch, LOAD));
         let times = times.collect::<Result<Vec<_>>>()?;
         let best = times.into_iter().min_by(f64::total_cmp).context("a time was taken")?;
         self.found.push(LiveFigures {
             rung: rung.label,
-            nanoseconds_a_ray: 1e6 * best / f64::from(REPEAT * self.batch.count()),
+            nanoseconds_a_ray: 1e6 * best / f64::from(LOAD.times() * self.batch.count()),
             errors: tally(&self.family, Way::Direct, &answers),
         });
         Ok(())

@@ -15,14 +15,21 @@ use crate::geometry;
 use crate::judge::ExpectedHit;
 use crate::ladder::{Code, Primitive, Rung};
 use crate::measurement::{Errors, March, MeasuredRung, Measurement, Time};
-use crate::probe::{Instrument, Probe, Way};
+use crate::probe::{Instrument, Load, Probe, Way};
 use crate::query::Answer;
 
 // ANCHOR: timed
-/// A dispatch shorter than this, in milliseconds, is repeated within the shader until it is as long.
-const LONG_ENOUGH: f64 = 2.0;
-/// The most repetitions of a query by one invocation.
+/// How many milliseconds a launch has to take to be worth timing; a software driver begins at once.
+const LEAST: f64 = 5.0;
+const LEAST_ON_SOFTWARE: f64 = 2.0;
+/// And how many the dearest rung may take: a system takes a device that is silent for two seconds for lost.
+const MOST: f64 = 500.0;
+/// The most queries that an invocation answers, so that the launch does not count.
 const MOST_REPEATS: u32 = 256;
+const MOST_REPEATS_ON_A_GPU: u32 = 16;
+/// The most invocations for each query, and in all.
+const MOST_COPIES: u32 = 1024;
+const MOST_ASKED: u32 = 1 << 24;
 // ANCHOR_END: timed
 
 /// Measures every rung of these primitives (of all if there are none), or those that must be right, on
@@ -137,7 +144,7 @@ fn errors(
         }
         for (family, batch) in families.iter().zip(batches) {
             if way == Way::Direct || family.is_traced {
-                let (answers, _) = probe.ask(&instrument, batch, 1)?;
+                let answers = probe.ask(&instrument, batch)?;
                 measured.errors.push(tally(family, way, &answers));
             }
         }
@@ -175,6 +182,49 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
     Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), ..errors }
 }
 
+// ANCHOR: enough
+/// How often to ask each query for a launch that is worth timing, and which rung is the cheapest.
+fn enough(
+    probe: &Probe,
+    instruments: &[(&Rung, Instrument)],
+    batch: &Batch,
+) -> Result<(Load, usize)> {
+    // The first time goes to the driver's compiler. Of the others the best, as whatever disturbs a launch
+    // makes it slower.
+    let best = |load: Load| {
+        let least = |(_, instrument): &(&Rung, Instrument)| {
+            let times = (0..=20).map(|_| probe.time(instrument, batch, load));
+            let times = times.collect::<Result<Vec<_>>>()?;
+            Ok(times.into_iter().skip(1).fold(f64::INFINITY, f64::min))
+        };
+        instruments.iter().map(least).collect::<Result<Vec<_>>>()
+    };
+    let mut load = Load::ONCE;
+    let mut times = best(load)?;
+    let least = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
+    let times_more = |from: f64, to: f64| (to / from.max(1e-3)).ceil();
+    if probe.is_software() {
+        let more = times_more(least(&times), LEAST_ON_SOFTWARE);
+        load.repeat = more.clamp(1.0, MOST_REPEATS.into()) as u32;
+    } else if batch.samples == 1 {
+        // A sum is long, and goes on from its last launch: it cannot be asked twice at once.
+        load.repeat = MOST_REPEATS_ON_A_GPU;
+        let most = (MOST_ASKED / batch.count()).min(MOST_COPIES);
+        // A launch twice as wide takes as long while the device is not full: so it is tried.
+        while 2 * load.copies <= most {
+            times = best(load)?;
+            let dearest = times.iter().copied().fold(0.0, f64::max);
+            if least(&times) >= LEAST || 2.0 * dearest > MOST {
+                break;
+            }
+            load.copies *= 2;
+        }
+    }
+    let cheapest = (0..times.len()).min_by(|&a, &b| times[a].total_cmp(&times[b])).unwrap_or(0);
+    Ok((load, cheapest))
+}
+// ANCHOR_END: enough
+
 // ANCHOR: times
 /// The time of every rung, one after the other in every round; `None` for what cannot be timed.
 fn times(
@@ -194,34 +244,24 @@ fn times(
     if instruments.is_empty() {
         return Ok(vec![None; measured.len()]);
     }
-    // The first time goes to the driver's compiler. The others say how often to repeat, and which rung is
-    // the cheapest: the best of many, as whatever disturbs a dispatch makes it slower.
-    let mut best = Vec::new();
-    for (_, instrument) in &instruments {
-        probe.time(instrument, batch, 1)?;
-        let mut least = f64::INFINITY;
-        for _ in 0..20 {
-            least = least.min(probe.time(instrument, batch, 1)?);
-        }
-        best.push(least);
-    }
-    let cheapest = (0..best.len()).min_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
-    let repeat = (LONG_ENOUGH / best[cheapest].max(1e-3)).ceil().clamp(1.0, MOST_REPEATS.into());
-    let repeat = repeat as u32;
+    let (load, cheapest) = enough(probe, &instruments, batch)?;
     instruments.swap(0, cheapest);
     let labels: Vec<String> = instruments.iter().map(|(rung, _)| rung.label.to_owned()).collect();
     let comparison = compare::compare("rung", &labels, rounds, |label| {
         let found = instruments.iter().find(|(rung, _)| rung.label == label);
         let (_, instrument) = found.expect("the labels are those of the instruments");
-        probe.time(instrument, batch, repeat)
+        probe.time(instrument, batch, load)
     })?;
     // ANCHOR_END: times
     let time = |row: &MeasuredRung| {
         let value = comparison.values.iter().find(|value| value.value == row.rung)?;
         Some(Time {
-            millions_a_second: f64::from(batch.count() * repeat) / value.milliseconds / 1e3,
+            millions_a_second: f64::from(batch.count()) * f64::from(load.times())
+                / value.milliseconds
+                / 1e3,
             ratio: value.ratio,
             noise: comparison.noise,
+            copies: load.copies,
         })
     };
     Ok(measured.iter().map(time).collect())

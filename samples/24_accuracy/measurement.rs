@@ -84,6 +84,8 @@ pub struct Time {
     pub ratio: Ratio,
     /// The cheapest rung against itself: no smaller difference can be seen.
     pub noise: Ratio,
+    /// How many invocations began with each ray, so that the device was full.
+    pub copies: u32,
 }
 
 /// What a march costs on a family, over the rung that is cheapest there.

@@ -19,14 +19,35 @@ common::shader_struct! {
         answers: Address<Answer>,
         numbers: Address,
         count: u32,
+        asked: u32,
         repeat: u32,
         from: u32,
         until: u32,
+        never: f32,
     }
 }
 
 /// How many samples one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
 const SAMPLES_AT_ONCE: u32 = 1 << 19;
+
+/// How much a launch asks of its queries, where it is timed.
+#[derive(Clone, Copy, Debug)]
+pub struct Load {
+    /// How many an invocation answers, one after the other.
+    pub repeat: u32,
+    /// How many invocations begin with each. One keeps its answer; the others fill a device that takes more at once.
+    pub copies: u32,
+}
+
+impl Load {
+    /// Every query once.
+    pub const ONCE: Self = Self { repeat: 1, copies: 1 };
+
+    /// How often a query is answered.
+    pub const fn times(self) -> u32 {
+        self.repeat * self.copies
+    }
+}
 
 /// By which way a rung is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,9 +107,14 @@ impl Probe {
         let ray = Ray { origin: Vec3::ZERO, direction: Vec3::X, tmin: 0.0, tmax: 1.0 };
         let shape = Shape::Triangles(vec![[numbers[0]; 3]]);
         let batch = Batch::new(gpu, &[shape], &[(0, ray)], false)?;
-        let (answers, _) = probe.ask(&instrument, &batch, 1)?;
+        let answers = probe.ask(&instrument, &batch)?;
         probe.fused = answers[0].t == 2f32.powi(-24);
         Ok(probe)
+    }
+
+    /// Whether the device is a software driver.
+    pub fn is_software(&self) -> bool {
+        self.gpu.software
     }
 
     fn pipeline(
@@ -140,25 +166,20 @@ impl Probe {
         Ok(Instrument { way, device, pipeline, sbt })
     }
 
-    /// Asks every query of the batch `repeat` times; the answers, and the device's milliseconds.
+    /// Asks every query of the batch.
     ///
     /// # Errors
     /// If the device fails.
-    pub fn ask(
-        &self,
-        instrument: &Instrument,
-        batch: &Batch,
-        repeat: u32,
-    ) -> Result<(Vec<Answer>, f64)> {
-        let milliseconds = self.time(instrument, batch, repeat)?;
-        Ok((batch.answers.read()?, milliseconds))
+    pub fn ask(&self, instrument: &Instrument, batch: &Batch) -> Result<Vec<Answer>> {
+        self.time(instrument, batch, Load::ONCE)?;
+        batch.answers.read()
     }
 
-    /// As [`Probe::ask`], but leaves the answers on the device.
+    /// Asks every query as often as the load says, and leaves the answers on the device: its milliseconds.
     ///
     /// # Errors
     /// If the device fails.
-    pub fn time(&self, instrument: &Instrument, batch: &Batch, repeat: u32) -> Result<f64> {
+    pub fn time(&self, instrument: &Instrument, batch: &Batch, load: Load) -> Result<f64> {
         let level = if instrument.device { &batch.triangles } else { &batch.boxes };
         let descriptors = match (instrument.way, level) {
             (Way::Direct, _) => Vec::new(),
@@ -166,8 +187,9 @@ impl Probe {
             (Way::Traced, None) => anyhow::bail!("{} is not traced", batch.primitive.name()),
         };
         // Rows of rays, as some devices take no more than 2^16 in one direction.
-        let width = batch.count.min(1024);
-        let extent = vk::Extent2D { width, height: batch.count.div_ceil(width) };
+        let asked = batch.count * load.copies;
+        let width = asked.min(1024);
+        let extent = vk::Extent2D { width, height: asked.div_ceil(width) };
         let mut milliseconds = 0.0;
         for from in (0..batch.samples).step_by(SAMPLES_AT_ONCE as usize) {
             let push = Push {
@@ -175,9 +197,11 @@ impl Probe {
                 answers: batch.answers.address.into(),
                 numbers: batch.numbers.address.into(),
                 count: batch.count,
-                repeat,
+                asked,
+                repeat: load.repeat,
                 from,
                 until: from + SAMPLES_AT_ONCE,
+                never: f32::MIN,
             };
             self.gpu.submit(|cmd| {
                 self.timer.start(cmd);

@@ -31,9 +31,11 @@ layout(push_constant, scalar) uniform Push {
     Answers answers;
     Numbers numbers;
     uint count;
-    uint repeat;   // how many queries an invocation answers; 1 unless time is measured
+    uint asked;    // how often one is asked: count, or where time is measured a multiple of it
+    uint repeat;   // how many an invocation answers; 1 unless time is measured
     uint from;     // of a sum: which samples this dispatch adds, from the first until before the last
     uint until;
+    float never;   // a t that no ray has
 } push;
 #endif
 

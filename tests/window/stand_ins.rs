@@ -1,10 +1,12 @@
 //! Displays and cards that a software driver on an X server is not, by the layer `moods`.
 
+use std::fs;
 use std::path::Path;
 use std::process::{Child, Output};
 use std::time::Duration;
 
 use run::layer::Layer;
+use serde_json::Value;
 
 use super::desk::{Desk, KEY_ESCAPE, wait};
 use super::{alone, desk, ended_well, same};
@@ -106,6 +108,22 @@ fn launches_are_widened_where_a_card_is_too_fast_to_be_timed() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table = String::from_utf8(output.stdout).expect("text");
     assert!(table.contains("\n> Launches were widened to "), "{table}");
+}
+
+/// A few rays keep no card busy: more invocations ask the same.
+#[test]
+fn rungs_are_timed_on_a_card_that_is_full() {
+    let moods = Layer::moods("fast=30");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = moods.command("24_accuracy");
+    command.args(["--headless", "--rays", "16", "--rounds", "1", "--only", "plane", "--measure"]);
+    let output = command.arg(folder.path()).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = fs::read_to_string(folder.path().join("accuracy.json")).expect("it has measured");
+    let measured: Value = serde_json::from_str(&text).expect("JSON");
+    let times = measured["rungs"].as_array().expect("rungs").iter().map(|rung| &rung["time"]);
+    let copies: Vec<_> = times.filter_map(|time| time["copies"].as_u64()).collect();
+    assert!(!copies.is_empty() && copies.iter().all(|&copies| copies >= 64), "{measured}");
 }
 
 /// Whatever the display says of an image: a window that shows what there is to be seen does nothing.

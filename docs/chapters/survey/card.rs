@@ -31,6 +31,9 @@ pub struct Card {
     pub validated: bool,
     /// The largest mean FLIP error that passes on the software driver, which made the golden pictures.
     pub tolerance: f32,
+    /// The size of the pictures whose time was taken.
+    #[serde(default = "small")]
+    pub timed: String,
     /// Every chapter, by number.
     pub chapters: Vec<ChapterResult>,
     /// The hard cases of chapter 24.
@@ -41,6 +44,11 @@ pub struct Card {
     /// the card has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atlas: Option<Atlas>,
+}
+
+/// The size that the first cards do not name.
+fn small() -> String {
+    "480x300".to_owned()
 }
 
 /// The device that ran them.
@@ -72,7 +80,7 @@ pub struct ChapterResult {
     /// own errors.
     #[serde(default)]
     pub tolerance: Option<f32>,
-    /// The device's time for a frame of [`TIMED`](super::command::TIMED) pixels, the median.
+    /// The device's time for a frame of the card's size, the median.
     pub milliseconds: Option<f64>,
     /// How many messages validation had.
     pub validation_messages: usize,

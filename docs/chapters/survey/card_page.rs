@@ -74,10 +74,10 @@ pub fn card(card: &Card) -> String {
     let _ = writeln!(
         text,
         "\nA picture passes if its mean FLIP error against the golden one is at most what Vulkan lets the device \
-         round; on the software driver, which made it, at most {}. Times are of 480x300 pixels.\n\n\
+         round; on the software driver, which made it, at most {}. Times are of {} pixels.\n\n\
          | chapter | result | mean FLIP | at most | GPU ms | messages | device's compiler | RADV, RDNA 3: \
          instructions, registers, spilled |\n|---|---|--:|--:|--:|--:|---|---|",
-        card.tolerance
+        card.tolerance, card.timed
     );
     for chapter in &card.chapters {
         let number = |value: Option<f64>, digits: usize| {

@@ -27,8 +27,10 @@ use crate::programs::child::{self, Ended};
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 
-/// The size of the picture whose time is taken.
-pub const TIMED: &str = "480x300";
+/// The size of the picture whose time is taken, and how many. A GPU needs rays enough to be full, and some time for
+/// its clocks to rise.
+const TIMED_ON_SOFTWARE: (&str, &str) = ("480x300", "9");
+const TIMED_ON_A_GPU: (&str, &str) = ("1920x1200", "61");
 
 /// What turns validation on.
 pub const VALIDATE: &str = "--validate";
@@ -342,8 +344,10 @@ impl Survey<'_> {
             }
         };
         (line.mean_flip, line.tolerance) = (Some(mean), Some(tolerance));
-        run(false, &["--frames", "9", "--compiler-figures"], TIMED)
+        let (size, frames) = if is_software { TIMED_ON_SOFTWARE } else { TIMED_ON_A_GPU };
+        run(false, &["--frames", frames, "--compiler-figures"], size)
             .context("without validation")?;
+        card.timed = size.to_owned();
         let said = read(&report)?;
         line.milliseconds = said["gpu_milliseconds"]["median"].as_f64();
         line.compiler = rows(&said["executables"]);
