@@ -63,7 +63,7 @@ fn times(ladder: &[MeasuredRung]) -> String {
         "| rung | time / cheapest | middle half | million a second | p50, ULP | p99, ULP | wrong |\n\
          |---|---|---|---|---|---|---|\n",
     );
-    let mut noise = None;
+    let (mut noise, mut asked) = (None, 1);
     for row in ladder {
         let MeasuredRung { rung, name, unavailable, errors, time, .. } = row;
         if let Some(why) = unavailable {
@@ -73,8 +73,8 @@ fn times(ladder: &[MeasuredRung]) -> String {
         let Some(error) = errors.iter().find(|error| error.family == home) else { continue };
         let (p50, p99, wrong) = (short(error.p50), short(error.p99), error.wrong());
         let timed = match time {
-            Some(Time { millions_a_second, ratio, noise: floor }) => {
-                noise = Some(*floor);
+            Some(Time { millions_a_second, ratio, noise: floor, copies }) => {
+                (noise, asked) = (Some(*floor), *copies);
                 let (low, high) = (ratio.low, ratio.high);
                 let rate = short(*millions_a_second);
                 format!("{:.2} | {low:.2} to {high:.2} | {rate}", ratio.median)
@@ -92,6 +92,12 @@ fn times(ladder: &[MeasuredRung]) -> String {
         );
     }
     let _ = writeln!(text, "\nThe errors above are those of the family *{home}*.");
+    if asked > 1 {
+        let _ = writeln!(
+            text,
+            "{asked} invocations at once asked each ray, so that the device was full."
+        );
+    }
     text
 }
 
