@@ -39,7 +39,7 @@ pub struct Lab {
     tops: bool,
 
     /// With --measure: only this primitive; repeatable
-    #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure")]
+    #[arg(long, value_name = "NAME", value_parser = primitive, requires = "measure", conflicts_with_all = ["atlas", "cases"])]
     only: Vec<Primitive>,
 
     /// With --measure or --atlas: rays of each family [default: 10000; of the atlas 50000]
@@ -47,7 +47,7 @@ pub struct Lab {
     rays: Option<u32>,
 
     /// With --measure: rounds of timing; 0 measures errors alone
-    #[arg(long, value_name = "N", default_value = "30", requires = "measure", value_parser = clap::value_parser!(u32).range(..=1000))]
+    #[arg(long, value_name = "N", default_value = "30", requires = "measure", conflicts_with_all = ["atlas", "cases"], value_parser = clap::value_parser!(u32).range(..=1000))]
     rounds: u32,
 
     /// With --atlas: rays of each row that rational numbers alone decide, too, as a check of the 64-bit floats

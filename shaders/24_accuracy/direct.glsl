@@ -23,8 +23,7 @@ void main() {
         answer.hit += more.hit;
     }
     answer.offered = 1;
-    // What is asked again keeps a large device busy. As the compiler cannot know what is never, it leaves
-    // nothing out.
+    // Asked again, a ray keeps the device busy: no compiler knows what is never.
     if (asked < push.count || answer.t == push.never) {
         push.answers.at[i] = answer;
     }
