@@ -1,6 +1,7 @@
 //! 05_shadow_miss: shadows held to the reference, and what each choice must not change.
 
 mod offsets;
+mod price;
 
 use common::app::Picture;
 use common::scene::Sun;

@@ -1,0 +1,103 @@
+//! What a ray of 05_shadow_miss pays for: each part taken out in turn, on the clock and for GPUs' compilers.
+
+use run::{command, figures, shaders_with};
+use serde_json::{Map, Value};
+use tempfile::TempDir;
+
+use super::NAME;
+
+/// A part, the file and the line that it stands in, and what stands there without it. The picture is another then, or
+/// none: it is not looked at.
+const PARTS: [(&str, &str, &str, &str); 6] = [
+    (
+        "shadow ray",
+        "05_shadow_miss/camera.rgen",
+        "visible = visibility(start, push.light.direction, 1e30);",
+        "visible = 1.0;",
+    ),
+    (
+        "height",
+        "common/above.glsl",
+        "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);",
+        "hit.height = 1e-4;",
+    ),
+    (
+        "lift",
+        "common/above.glsl",
+        "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);",
+        "hit.lift = vec3(0.0);",
+    ),
+    ("texture", "05_shadow_miss/shade.rchit", "if (material.base_texture >= 0) {", "if (false) {"),
+    (
+        "original",
+        "05_shadow_miss/shade.rchit",
+        "uint triangle = instance.original.at[gl_PrimitiveID];",
+        "uint triangle = gl_PrimitiveID;",
+    ),
+    (
+        "store",
+        "05_shadow_miss/camera.rgen",
+        "imageStore(picture, ivec2(id), pixel);",
+        "if (pixel.x == -7.0) imageStore(picture, ivec2(id), pixel);",
+    ),
+];
+
+/// What navi21, navi31 and gfx1201 are.
+const GENERATIONS: &str = "RDNA2, RDNA3, RDNA4";
+
+/// What a run reports, by a copy of the shaders if there is one.
+fn report(shaders: Option<&TempDir>, arguments: &[&str]) -> Value {
+    let mut command = command(NAME);
+    if let Some(folder) = shaders {
+        command.env("SHADERS", folder.path());
+    }
+    let output = command.args(arguments).args(["--report", "-"]).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("a report")
+}
+
+#[test]
+#[ignore = "by hand: takes times"]
+fn what_a_ray_pays_for() {
+    let copies = PARTS.map(|(_, file, line, without)| Some(shaders_with(file, line, without)));
+    let ways: Vec<Option<&TempDir>> =
+        std::iter::once(None).chain(copies.iter().map(Option::as_ref)).collect();
+    let time = |shaders| {
+        // As the model has them, triangles are the same with and without `original`.
+        let arguments = ["--headless", "--size", "480x300", "--frames", "5", "--unordered"];
+        report(shaders, &arguments)["gpu_milliseconds"]["min"].as_f64().expect("a time")
+    };
+    let mut ratios = vec![Vec::new(); ways.len()];
+    for round in 0..15 {
+        let mut times = vec![0.0; ways.len()];
+        for turn in 0..ways.len() {
+            let way = (turn + round) % ways.len();
+            times[way] = time(ways[way]);
+        }
+        ratios.iter_mut().zip(&times).for_each(|(all, time)| all.push(time / times[0]));
+    }
+    let names = std::iter::once("all").chain(PARTS.map(|(name, ..)| name));
+    let (mut taken, mut compiled, mut compiler) = (Map::new(), Map::new(), String::new());
+    for ((name, way), mut ratios) in names.zip(&ways).zip(ratios) {
+        let name = name.replace(' ', "-");
+        ratios.sort_by(f64::total_cmp);
+        let ratio = ratios[ratios.len() / 2];
+        println!("{name}: {ratio:.3} of the time");
+        taken.insert(format!("{name}.ratio"), ratio.into());
+        let rows = report(*way, &["--compile-for", "all"])["compiled_for"].take();
+        for row in rows.as_array().expect("rows") {
+            let family = row["family"].as_str().expect("a family");
+            for of in ["instructions", "registers", "latency"] {
+                compiled.insert(format!("{name}.{family}.{of}"), row[of].clone());
+            }
+            compiler = row["compiler"].as_str().expect("a compiler").to_owned();
+        }
+    }
+    figures::give_timed("prices/parts", taken.into());
+    figures::hold_compiled(
+        "prices/compiled_parts",
+        &compiler,
+        GENERATIONS,
+        compiled.into(),
+    );
+}
