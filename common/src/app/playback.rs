@@ -71,6 +71,15 @@ impl Clock {
         frames as u32
     }
 
+    /// Lets an animation that plays go on as time does; whether another frame is shown now.
+    pub fn advance(&mut self, playback: Option<&mut Playback>, now: Instant) -> bool {
+        let Some(playback) = playback.filter(|playback| playback.playing) else {
+            self.stop();
+            return false;
+        };
+        playback.advance(self.frames(now))
+    }
+
     /// Time stands still until it is asked again.
     pub fn stop(&mut self) {
         *self = Self::default();

@@ -7,8 +7,9 @@ use serde_json::{Map, Value};
 use super::{case, cases, number, row};
 
 /// The cards of the page, by the names of its measurements.
-const CARDS: [(&str, &str); 2] = [
+const CARDS: [(&str, &str); 3] = [
     ("llvmpipe", "llvmpipe-llvm-15-0-6-256-bits"),
+    ("newer", "llvmpipe-llvm-22-1-8-256-bits"),
     ("worst", "llvmpipe-llvm-15-0-6-256-bits-worst"),
 ];
 
@@ -177,7 +178,7 @@ fn boxes(atlas: &Value) {
 #[ignore = "by hand: draws the charts of docs/what-hardware-computes.md from the cards"]
 fn charts() {
     let cards = CARDS.map(|(_, file)| card(file));
-    let both = cards.each_ref();
+    let [llvmpipe, _, worst] = cards.each_ref();
     let t = Shown {
         file: "what-hardware-computes_t.svg",
         of: "t",
@@ -192,10 +193,10 @@ fn charts() {
         label: "error of a weight, thousandths",
         ticks: &[0.00001, 0.001, 0.1, 10.0, 1000.0],
     };
-    triangles(&t, both);
-    triangles(&weights, both);
-    seams(both[0]);
-    boxes(both[0]);
-    let worst = case(both[1], "duplicates", "without the flag");
+    triangles(&t, [llvmpipe, worst]);
+    triangles(&weights, [llvmpipe, worst]);
+    seams(llvmpipe);
+    boxes(llvmpipe);
+    let worst = case(worst, "duplicates", "without the flag");
     assert!(number(worst, "called again") > 0.0, "the second card is the worst arithmetic's");
 }

@@ -94,10 +94,5 @@ fn what_a_ray_pays_for() {
         }
     }
     figures::give_timed("prices/parts", taken.into());
-    figures::hold_compiled(
-        "prices/compiled_parts",
-        &compiler,
-        GENERATIONS,
-        compiled.into(),
-    );
+    figures::hold_compiled("prices/compiled_parts", &compiler, GENERATIONS, compiled.into());
 }

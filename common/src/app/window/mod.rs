@@ -18,6 +18,8 @@ mod panel;
 mod reload;
 mod rows;
 mod session;
+mod shot;
+mod stepped;
 mod style;
 mod transport;
 mod view;

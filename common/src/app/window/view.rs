@@ -1,18 +1,20 @@
 //! A sample's picture in a window: rendered at the size that the moment allows.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::Result;
 use ash::vk;
 
 use super::facts::Facts;
 use super::lost;
 use super::pace::{Pace, Step};
+use super::shot::Shot;
+use super::stepped::Stepped;
 use crate::app::playback::Clock;
 use crate::app::variants::Background;
-use crate::app::{Bands, Clicked, Picture, Sample, bands};
+use crate::app::{Bands, Clicked, Sample, bands};
 use crate::gpu::{Gpu, Image, Timer};
 
 /// For how long bands are traced before the window looks for input again.
@@ -46,28 +48,11 @@ pub struct View {
     changed: bool,
     milliseconds: f64,
     full: vk::Extent2D,
-    picture_due: bool,
+    shot: Shot,
     background: Arc<Background>,
     /// Why the sample could not be changed as its controls ask.
     refused: Option<String>,
     gpu: Gpu,
-}
-
-/// What came of a step of the view.
-pub enum Stepped {
-    /// A new picture, and what the device took for it.
-    New {
-        /// Device time.
-        milliseconds: f64,
-        /// Whether it is full size.
-        full: bool,
-        /// Whether that was the time of tracing alone: the first picture also compiles.
-        telling: bool,
-    },
-    /// Bands of the next picture; the last one stays until it is whole.
-    Part,
-    /// The last picture still shows how things stand; something may be due then.
-    Kept(Option<Instant>),
 }
 
 impl View {
@@ -92,7 +77,7 @@ impl View {
             changed: true,
             milliseconds: 0.0,
             full: nothing,
-            picture_due: false,
+            shot: Shot::default(),
             background: Arc::default(),
             refused: None,
             gpu: gpu.clone(),
@@ -142,7 +127,7 @@ impl View {
 
     /// Writes the next full picture, which will be rendered at once.
     pub fn ask_picture(&mut self) {
-        self.picture_due = true;
+        self.shot.is_due = true;
     }
 
     /// Renders some of the next picture for a window of size `full`, if one is due. A window may be larger
@@ -169,7 +154,7 @@ impl View {
         let busy = self.background.is_building();
         let improves = self.sample.accumulates() || busy;
         let now = Instant::now();
-        let step = if self.picture_due && !self.pace.is_sharp() && self.pace.is_still(now) {
+        let step = if self.shot.is_due && !self.pace.is_sharp() && self.pace.is_still(now) {
             self.pace.full(full)
         } else {
             self.pace.step(now, full, improves)
@@ -246,11 +231,7 @@ impl View {
     /// moment.
     fn go_on_in_time(&mut self) {
         let now = Instant::now();
-        if !self.plays() {
-            return self.clock.stop();
-        }
-        let frames = self.clock.frames(now);
-        if self.sample.playback().is_some_and(|playback| playback.advance(frames)) {
+        if self.clock.advance(self.sample.playback(), now) {
             self.pace.change(now);
         }
     }
@@ -321,39 +302,7 @@ impl View {
     /// # Errors
     /// If the current folder cannot be written.
     pub fn take_picture(&mut self, name: &str) -> Option<Result<PathBuf>> {
-        let ready = self.picture_due && self.pace.is_sharp() && self.bands.next().is_none();
-        self.picture_due &= !ready;
-        ready.then(|| {
-            let path = free_name(Path::new("."), name)?;
-            let vk::Extent2D { width, height } = self.image.extent;
-            Picture { width, height, pixels: self.image.read()? }.save(&path)?;
-            Ok(path)
-        })
-    }
-}
-
-/// The first of `NAME-001.png`, `NAME-002.png`, … that there is not.
-fn free_name(folder: &Path, name: &str) -> Result<PathBuf> {
-    for number in 1..1000 {
-        let path = folder.join(format!("{name}-{number:03}.png"));
-        if !path.try_exists().with_context(|| format!("cannot look for '{}'", path.display()))? {
-            return Ok(path);
-        }
-    }
-    bail!("there are 999 pictures of {name} here already")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_picture_never_takes_the_name_of_another() {
-        let folder = tempfile::tempdir().unwrap();
-        for number in 1..=3 {
-            let path = free_name(folder.path(), "02_basic").unwrap();
-            assert_eq!(path, folder.path().join(format!("02_basic-00{number}.png")));
-            std::fs::write(path, b"").unwrap();
-        }
+        let ready = self.pace.is_sharp() && self.bands.next().is_none();
+        self.shot.take(ready, &self.image, name)
     }
 }

@@ -10,7 +10,7 @@ use super::Session;
 use crate::app::Watch;
 use crate::app::window::keys::Ask;
 use crate::app::window::panel::Outcome;
-use crate::app::window::view::Stepped;
+use crate::app::window::stepped::Stepped;
 use crate::app::window::window_on_gpu::Presented;
 
 /// How often the title is written anew while pictures come.
