@@ -1,21 +1,25 @@
-//! 15 · Opacity micromaps: what it teaches, in a line.
+//! 15 · Opacity micromaps: opacity known for parts of a triangle, so that few any-hit calls read a texture.
 //!
-//! New since 03_any_hit: what is new.
+//! New since 03_any_hit: each triangle is cut into micro-triangles, whose states the any-hit shader reads before
+//! any texture. Of 03 only the cut-outs stay.
 
-mod hits;
+mod alpha;
+mod classify;
+mod curve;
+mod micromaps;
 
 use std::process::ExitCode;
 
 use anyhow::Result;
-use ash::vk;
+use classify::Rule;
 use common::gpu::{
-    Address, Binding, Buffer, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements,
-    TextureTable, barrier,
+    Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
+use micromaps::{Build, Micromap, Micromaps};
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -24,30 +28,37 @@ fn main() -> ExitCode {
 struct Demo {
     source: Scene,
     scene: SceneOnGpu,
+    micromaps: Micromaps,
     pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
-    constants: Constants,
-    opacity: f32,
-    samples: u32,
-    invocations: u32,
-    layer: u32,
-    options: SceneOptions,
-    hits: Buffer,
+    show: Show,
+    build: Build,
 }
 
 common::shader_enum! {
     /// What a pixel shows.
-    enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
-    /// What the any-hit shader decides by.
-    enum Mode: MODE { Opaque, Cutout = "cut-out", Random, Naive = "naive random", AllHits }
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", States, Calls, Reads,
+    }
+    /// How finely triangles are cut.
+    enum Level {
+        None, Zero = "0", One = "1", Two = "2", Three = "3", Four = "4", Five = "5", Six = "6",
+    }
+}
+
+impl Level {
+    fn number(self) -> Option<u32> {
+        u32::from(self).checked_sub(1)
+    }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    mode: Mode,
+    /// Whether the any-hit shader reads states at all.
+    known: bool,
 }
 
 common::shader_struct! {
@@ -56,11 +67,7 @@ common::shader_struct! {
         camera: CameraBasis,
         scene: SceneAddresses,
         light: DirectionalLight,
-        opacity: f32,
-        samples: u32,
-        invocations: u32,
-        layer: u32,
-        hits: Address<hits::ListedHit>,
+        micromaps: Address<Micromap>,
     }
 }
 
@@ -70,42 +77,29 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(Scene::chess)?;
-        // ANCHOR: pieces
-        // Less than opaque, so that the build leaves the pieces to the any-hit shader.
-        for material in &mut source.model.materials {
-            if ["white", "black"].contains(&material.name.as_str()) {
-                material.opacity = 0.5;
-            }
-        }
-        // ANCHOR_END: pieces
+        let source = setup.scene_or(Scene::chess)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
+        let none = Build { level: Level::None, rule: Rule::Conservative };
         Ok(Self {
+            micromaps: Micromaps::new(gpu, &source, none)?,
             source,
             scene,
             pipelines: Variants::default(),
             camera,
             sun: Sun::default(),
-            constants: Constants { show: Show::Picture, mode: Mode::Cutout },
-            opacity: 0.4,
-            samples: 16,
-            invocations: 1,
-            layer: 0,
-            options: setup.options,
-            hits: hits::list(gpu, 0)?,
+            show: Show::Picture,
+            build: Build { level: Level::Four, ..none },
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        c.choice("show", &mut self.constants.show);
-        c.choice("mode", &mut self.constants.mode);
-        c.slider("opacity", &mut self.opacity, 0.0..=1.0);
-        c.integer("samples", &mut self.samples, 1..=256);
-        c.integer("invocations", &mut self.invocations, 1..=4);
-        c.integer("layer", &mut self.layer, 0..=hits::MAX_HITS - 1);
-        c.checkbox("no duplicates", &mut self.options.no_duplicate_any_hit);
+        c.choice("show", &mut self.show);
+        c.choice("level", &mut self.build.level);
+        c.choice("rule", &mut self.build.rule);
+        let unknown = 100.0 * self.micromaps.unknown();
+        c.note("states", &format!("{} bytes, {unknown:.1} % unknown", self.micromaps.bytes));
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
@@ -113,45 +107,36 @@ impl Sample for Demo {
 
     // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
-        if self.options != self.scene.options {
-            self.scene.rebuild(gpu, &self.source, self.options)?;
+        if self.build != self.micromaps.build {
+            self.micromaps = Micromaps::new(gpu, &self.source, self.build)?;
         }
         Ok(())
     }
     // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: hits
-        let vk::Extent2D { width, height } = frame.image.extent;
-        let is_listed = self.constants.mode == Mode::AllHits;
-        let rays = if is_listed { u64::from(width) * u64::from(height) } else { 0 };
-        if self.hits.size < hits::size(rays) {
-            self.hits = hits::list(frame.gpu, rays)?;
-        }
-        // The frame before may still write the list when this one begins.
-        barrier::trace_to_trace(frame.gpu, frame.cmd);
-        // ANCHOR_END: hits
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             light: self.sun.light(),
-            opacity: self.opacity,
-            samples: self.samples,
-            invocations: self.invocations,
-            layer: self.layer,
-            hits: self.hits.address.into(),
+            micromaps: self.micromaps.records.address.into(),
         };
         let descriptors = [
             Descriptor::AccelerationStructure(&self.scene.tlas),
             Descriptor::StorageImage(frame.image),
         ];
+        let constants = Constants { show: self.show, known: self.build.level != Level::None };
         let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
+            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
         Ok(())
+    }
+
+    fn report(&self) -> Result<serde_json::Value> {
+        Ok(self.micromaps.report())
     }
 }
 
@@ -167,7 +152,7 @@ fn pipeline(
         .miss("sky.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit").any_hit("decide.rahit"))
         .constant(0, constants.show)
-        .constant(1, constants.mode)
+        .constant(1, constants.known)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)
