@@ -2,8 +2,8 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::alpha::{Alpha, THRESHOLD};
-use crate::curve::{self, State};
+use super::alpha::{Alpha, THRESHOLD};
+use super::curve::{self, State};
 
 common::shader_enum! {
     /// How a state is found.
@@ -21,11 +21,11 @@ common::shader_enum! {
 pub const SLACK: f64 = 1.0 / 16384.0;
 
 /// What the search for a micro-triangle rounds, as a part of the triangle: below 2^-22 in 32 bits.
-const SEARCH: f64 = 1.0 / 1_048_576.0;
+pub const SEARCH: f64 = 1.0 / 1_048_576.0;
 
 /// What the shader rounds where it interpolates texture coordinates and multiplies them by the texture's size,
 /// as a part of the largest coordinate. A dozen roundings of 2^-24 each are less.
-const ROUNDING: f64 = 1.0 / 1_048_576.0;
+pub const ROUNDING: f64 = 1.0 / 1_048_576.0;
 // ANCHOR_END: slack
 
 /// The state of each micro-triangle of a triangle, in the order of the curve. Corners are texture coordinates.

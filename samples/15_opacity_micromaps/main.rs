@@ -19,6 +19,7 @@ use common::scene::{
     Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
+use glam::DVec3;
 use micromaps::{Build, Micromap, Micromaps};
 
 fn main() -> ExitCode {
@@ -77,7 +78,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let source = setup.scene_or(Scene::chess)?;
+        let source = setup.scene_or(behind_the_screen)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         let none = Build { level: Level::None, rule: Rule::Conservative };
@@ -89,7 +90,7 @@ impl Sample for Demo {
             camera,
             sun: Sun::default(),
             show: Show::Picture,
-            build: Build { level: Level::Four, ..none },
+            build: Build { level: Level::Five, ..none },
         })
     }
 
@@ -138,6 +139,14 @@ impl Sample for Demo {
     fn report(&self) -> Result<serde_json::Value> {
         Ok(self.micromaps.report())
     }
+}
+
+/// The chess set, seen through the screen behind Black: every ray meets it.
+fn behind_the_screen() -> Result<Scene> {
+    let mut scene = Scene::chess()?;
+    let (eye, target) = (DVec3::new(2.4, 2.1, -7.4), DVec3::new(0.3, 1.2, -2.0));
+    scene.camera = Camera::new(eye, target, 40.0);
+    Ok(scene)
 }
 
 // ANCHOR: pipeline
