@@ -34,11 +34,8 @@ pub fn order() -> String {
     for (k, level) in [1, 2, 3].into_iter().enumerate() {
         let left = 36.0 + 272.0 * k as f64;
         let (bottom, side) = (290.0, 224.0);
-        let corners = [
-            [left, bottom],
-            [left + side, bottom],
-            [left + side / 2.0, bottom - side * 0.866],
-        ];
+        let corners =
+            [[left, bottom], [left + side, bottom], [left + side / 2.0, bottom - side * 0.866]];
         let parts = cut(corners, level);
         for (i, &part) in parts.iter().enumerate() {
             s.polygon(&part, PARTS[4 * i / parts.len()], LINE);
@@ -88,7 +85,8 @@ pub fn bound() -> String {
             s.polygon(&square, if is_wood(x, y) { YOURS } else { WHITE }, FAINT);
         }
     }
-    let frame = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [at(a, b), at(c, b), at(c, d), at(a, d), at(a, b)];
+    let frame =
+        |[a, b]: [f64; 2], [c, d]: [f64; 2]| [at(a, b), at(c, b), at(c, d), at(a, d), at(a, b)];
     s.line(&frame(first.map(f64::from), last.map(|x| f64::from(x) + 1.0)), RED, 2.6);
     s.dashes(&frame(low, high), SEA, 1.8);
     let [a, b, c] = corners.map(|[x, y]| at(x, y));
@@ -107,7 +105,12 @@ pub fn bound() -> String {
     };
     row(&mut s, 92.0, BROWN, ["the micro-triangle, in texels", ""]);
     row(&mut s, 124.0, SEA, ["the box around it,", "and around all that rounding can add"]);
-    row(&mut s, 178.0, RED, ["the texels that a lookup in the box can read:", "the middles on both sides of it"]);
+    row(
+        &mut s,
+        178.0,
+        RED,
+        ["the texels that a lookup in the box can read:", "the middles on both sides of it"],
+    );
     let square = |s: &mut Sheet, y: f64, fill: &str| {
         s.polygon(&[[x, y], [x + 24.0, y], [x + 24.0, y + 18.0], [x, y + 18.0]], fill, LINE);
     };

@@ -54,10 +54,8 @@ impl Alpha {
     /// nothing certain. A lookup lies between the least and the largest of the texels that it reads, whatever
     /// their shares.
     pub fn certain(&self, low: DVec2, high: DVec2) -> Option<bool> {
-        let (columns, rows) = (
-            texels(low.x, high.x, self.size[0])?,
-            texels(low.y, high.y, self.size[1])?,
-        );
+        let (columns, rows) =
+            (texels(low.x, high.x, self.size[0])?, texels(low.y, high.y, self.size[1])?);
         let mut found = [0; 3];
         for &(left, right) in &columns {
             for &(top, bottom) in &rows {

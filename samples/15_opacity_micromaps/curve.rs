@@ -57,9 +57,7 @@ fn middle(a: Weights, b: Weights) -> Weights {
 // ANCHOR: pack
 /// Two bits a state, from the lowest of each byte.
 pub fn pack(states: &[State]) -> Vec<u8> {
-    let byte = |four: &[State]| {
-        four.iter().rev().fold(0, |byte, &state| byte << 2 | state as u8)
-    };
+    let byte = |four: &[State]| four.iter().rev().fold(0, |byte, &state| byte << 2 | state as u8);
     states.chunks(4).map(byte).collect()
 }
 // ANCHOR_END: pack

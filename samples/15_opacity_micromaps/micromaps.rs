@@ -68,9 +68,8 @@ impl Micromaps {
         let mut arrays = Vec::new();
         for &(mesh, texture) in &pairs {
             let of = &scene.model.textures[texture];
-            let alpha = alphas
-                .entry(texture)
-                .or_insert_with(|| Alpha::new(of.width, of.height, &of.rgba));
+            let alpha =
+                alphas.entry(texture).or_insert_with(|| Alpha::new(of.width, of.height, &of.rgba));
             // ANCHOR: states
             let mesh = &scene.model.meshes[mesh];
             let mut bytes = Vec::new();

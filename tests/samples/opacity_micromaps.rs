@@ -204,7 +204,15 @@ fn the_shader_finds_each_micro_triangle_and_never_leaves_the_triangle() {
         let [u, v] = [x as f32 / 37.0 * 1.2 - 0.1, y as f32 / 23.0 * 1.2 - 0.1];
         // Away from the edges of the finest, whose sides are a 64th.
         let near = |w: f32| (64.0 * w - (64.0 * w).round()).abs() < 1e-3;
-        if x == 0 || y == 0 || u < 0.0 || v < 0.0 || u + v > 1.0 || near(u) || near(v) || near(u + v) {
+        if x == 0
+            || y == 0
+            || u < 0.0
+            || v < 0.0
+            || u + v > 1.0
+            || near(u)
+            || near(v)
+            || near(u + v)
+        {
             continue;
         }
         for (k, &index) in pixel.iter().enumerate() {
@@ -362,7 +370,11 @@ fn the_margins_hold_all_roundings() {
         }
         let level = case as u32 % (FINEST + 1);
         let index = micro_triangle(u, v, level);
-        let exact = [rational(1.0) - rational(u.into()) - rational(v.into()), rational(u.into()), rational(v.into())];
+        let exact = [
+            rational(1.0) - rational(u.into()) - rational(v.into()),
+            rational(u.into()),
+            rational(v.into()),
+        ];
         let at = interpolated(corners, u, v);
         for axis in 0..2 {
             let corner = corners.map(|corner| rational(f64::from(corner[axis])));
@@ -374,8 +386,8 @@ fn the_margins_hold_all_roundings() {
             assert!(off <= rounding && -off <= rounding, "{corners:?} {u} {v}");
 
             let part = rational(1.0 / f64::from(1 << level));
-            let small = curve::corners(index, level)
-                .map(|w| blend(&w.map(|w| rational(w.into()) * &part)));
+            let small =
+                curve::corners(index, level).map(|w| blend(&w.map(|w| rational(w.into()) * &part)));
             let low = small.iter().min().unwrap();
             let high = small.iter().max().unwrap();
             let whole = corner.iter().max().unwrap() - corner.iter().min().unwrap();
@@ -400,10 +412,8 @@ fn a_scene_with_too_many_states_is_refused_in_one_line() {
     fs::copy(texture, folder.path().join("fretwork.png")).unwrap();
     let scene = folder.path().join("m.obj");
     let scene = scene.to_str().unwrap();
-    let (code, line) = refused(
-        NAME,
-        &["--headless", "--size", "8x8", "--scene", scene, "--set", "level=6"],
-    );
+    let (code, line) =
+        refused(NAME, &["--headless", "--size", "8x8", "--scene", scene, "--set", "level=6"]);
     assert_eq!(code, 1);
     let words = "micromaps of level 6 for 65537 triangles take 67109888 bytes, and at most 67108864 are made: \
                  level 5 fits";
