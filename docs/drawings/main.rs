@@ -9,6 +9,7 @@ mod lens;
 mod lights;
 mod map;
 mod march;
+mod micro;
 mod orders;
 mod rays;
 mod shadows;
@@ -35,6 +36,8 @@ const DRAWINGS: &[Drawing] = &[
     ("footprint", rays::footprint),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),
+    ("micro_bound", micro::bound),
+    ("micro_order", micro::order),
     ("owen_scrambling", squares::scrambling),
     ("map", map::chapters),
     ("penumbra", shadows::penumbra),

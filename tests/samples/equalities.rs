@@ -24,7 +24,7 @@ struct Equality {
     is_quick: bool,
 }
 
-const EQUALITIES: [Equality; 10] = [
+const EQUALITIES: [Equality; 11] = [
     Equality {
         what: "04 through pixels' centres = 02",
         one: ("04_jitter_camera", &["jitter=off"]),
@@ -58,6 +58,16 @@ const EQUALITIES: [Equality; 10] = [
         ),
         shows_answers: false,
         is_quick: true,
+    },
+    Equality {
+        what: "15 = 03",
+        one: (
+            "15_opacity_micromaps",
+            &["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"],
+        ),
+        other: ("03_any_hit", &[]),
+        shows_answers: false,
+        is_quick: false,
     },
     Equality {
         what: "16 = 05",

@@ -20,6 +20,7 @@ mod leaving_a_surface;
 mod lights;
 mod long_renders;
 mod multi_closest_hit;
+mod opacity_micromaps;
 mod path_tracing;
 mod pixel;
 mod position_fetch;

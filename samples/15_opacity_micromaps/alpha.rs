@@ -1,0 +1,113 @@
+//! A texture's alpha: what a lookup gives, and what lookups can give over a part of it.
+
+use glam::DVec2;
+
+/// Alpha from here on counts as opaque.
+pub const THRESHOLD: f64 = 0.5;
+
+// ANCHOR: guard
+/// How far from the threshold a texel has to be. A device's filter has few bits, and two devices may answer
+/// differently where alpha is this near.
+pub const GUARD: f64 = 0.02;
+
+/// How far a device's filter may look beside the place it is asked for, in texels: it knows a place to at least
+/// four binary digits of a texel (`subTexelPrecisionBits`).
+pub const SUBTEXEL: f64 = 1.0 / 16.0;
+// ANCHOR_END: guard
+
+/// The alpha channel of a texture, repeated beyond its edges.
+pub struct Alpha {
+    size: [usize; 2],
+    alpha: Vec<u8>,
+    /// How many texels above and left of a corner are surely opaque, and how many surely transparent.
+    sums: Vec<[u32; 2]>,
+}
+
+impl Alpha {
+    /// Of texels of four bytes, row by row.
+    pub fn new(width: u32, height: u32, rgba: &[u8]) -> Self {
+        let size @ [width, height] = [width as usize, height as usize];
+        let alpha: Vec<u8> = rgba.iter().skip(3).step_by(4).copied().collect();
+        // ANCHOR: sums
+        let mut sums = vec![[0; 2]; (width + 1) * (height + 1)];
+        for y in 0..height {
+            let mut row = [0; 2];
+            for x in 0..width {
+                let texel = f64::from(alpha[y * width + x]) / 255.0;
+                row[0] += u32::from(texel >= THRESHOLD + GUARD);
+                row[1] += u32::from(texel <= THRESHOLD - GUARD);
+                let above = sums[y * (width + 1) + x + 1];
+                sums[(y + 1) * (width + 1) + x + 1] = [above[0] + row[0], above[1] + row[1]];
+            }
+        }
+        // ANCHOR_END: sums
+        Self { size, alpha, sums }
+    }
+
+    /// Texels in a row, and rows.
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(self.size[0] as f64, self.size[1] as f64)
+    }
+
+    // ANCHOR: range
+    /// What every lookup between two corners of a box answers, in texture coordinates: opaque, transparent, or
+    /// nothing certain. A lookup lies between the least and the largest of the texels that it reads, whatever
+    /// their shares.
+    pub fn certain(&self, low: DVec2, high: DVec2) -> Option<bool> {
+        let (columns, rows) =
+            (texels(low.x, high.x, self.size[0])?, texels(low.y, high.y, self.size[1])?);
+        let mut found = [0; 3];
+        for &(left, right) in &columns {
+            for &(top, bottom) in &rows {
+                found[0] += ((right - left) * (bottom - top)) as u32;
+                let [opaque, transparent] = self.count([left, right], [top, bottom]);
+                found[1] += opaque;
+                found[2] += transparent;
+            }
+        }
+        let [all, opaque, transparent] = found;
+        if opaque == all { Some(true) } else { (transparent == all).then_some(false) }
+    }
+    // ANCHOR_END: range
+
+    /// How many texels of a rectangle are surely opaque, and how many surely transparent.
+    fn count(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> [u32; 2] {
+        let at = |x: usize, y: usize| self.sums[y * (self.size[0] + 1) + x];
+        let corners = [at(right, bottom), at(left, bottom), at(right, top), at(left, top)];
+        [0, 1].map(|i| corners[0][i] + corners[3][i] - corners[1][i] - corners[2][i])
+    }
+
+    /// A lookup: the four texels around a place by their shares.
+    pub fn lookup(&self, uv: DVec2) -> f64 {
+        let place = uv * self.size() - 0.5;
+        let (first, share) = (place.floor(), place - place.floor());
+        let texel = |dx: f64, dy: f64| {
+            let x = (first.x + dx).rem_euclid(self.size[0] as f64) as usize;
+            let y = (first.y + dy).rem_euclid(self.size[1] as f64) as usize;
+            f64::from(self.alpha[y * self.size[0] + x]) / 255.0
+        };
+        let mix = |a: f64, b: f64, share: f64| a + (b - a) * share;
+        let upper = mix(texel(0.0, 0.0), texel(1.0, 0.0), share.x);
+        mix(upper, mix(texel(0.0, 1.0), texel(1.0, 1.0), share.x), share.y)
+    }
+}
+
+// ANCHOR: texels
+/// The columns, or rows, that lookups between two coordinates can read, as ranges within the texture: two where
+/// they go over its edge. None if a coordinate is not finite.
+fn texels(low: f64, high: f64, size: usize) -> Option<Vec<(usize, usize)>> {
+    let length = size as f64;
+    // A lookup reads the two texels whose middles are on either side of it.
+    let first = (low * length - 0.5 - SUBTEXEL).floor();
+    let behind = (high * length - 0.5 + SUBTEXEL).floor() + 2.0;
+    if !(behind - first).is_finite() {
+        return None;
+    }
+    if behind - first >= length {
+        return Some(vec![(0, size)]);
+    }
+    let start = first.rem_euclid(length) as usize;
+    let end = start + (behind - first) as usize;
+    Some(if end <= size { vec![(start, end)] } else { vec![(start, size), (0, end - size)] })
+}
+// ANCHOR_END: texels

@@ -1,0 +1,172 @@
+//! 15 · Opacity micromaps: opacity known for parts of a triangle, so that few any-hit calls read a texture.
+//!
+//! New since 03_any_hit: each triangle is cut into micro-triangles, whose states the any-hit shader reads before
+//! any texture. Of 03 only the cut-outs stay.
+
+mod alpha;
+mod classify;
+mod curve;
+mod micromaps;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use classify::Rule;
+use common::gpu::{
+    Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
+};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
+use glam::DVec3;
+use micromaps::{Build, Micromap, Micromaps};
+
+fn main() -> ExitCode {
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    source: Scene,
+    scene: SceneOnGpu,
+    micromaps: Micromaps,
+    pipelines: Variants<Constants>,
+    camera: Camera,
+    sun: Sun,
+    show: Show,
+    build: Build,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", States, Calls, Reads,
+    }
+    /// How finely triangles are cut.
+    enum Level {
+        None, Zero = "0", One = "1", Two = "2", Three = "3", Four = "4", Five = "5", Six = "6",
+    }
+}
+
+impl Level {
+    fn number(self) -> Option<u32> {
+        u32::from(self).checked_sub(1)
+    }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    /// Whether the any-hit shader reads states at all.
+    known: bool,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DirectionalLight,
+        micromaps: Address<Micromap>,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let source = setup.scene_or(behind_the_screen)?;
+        let camera = source.camera;
+        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
+        let none = Build { level: Level::None, rule: Rule::Conservative };
+        Ok(Self {
+            micromaps: Micromaps::new(gpu, &source, none)?,
+            source,
+            scene,
+            pipelines: Variants::default(),
+            camera,
+            sun: Sun::default(),
+            show: Show::Picture,
+            build: Build { level: Level::Five, ..none },
+        })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.choice("show", &mut self.show);
+        c.choice("level", &mut self.build.level);
+        c.choice("rule", &mut self.build.rule);
+        let unknown = 100.0 * self.micromaps.unknown();
+        c.note("states", &format!("{} bytes, {unknown:.1} % unknown", self.micromaps.bytes));
+        c.sun(&mut self.sun);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    // ANCHOR: rebuild
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        if self.build != self.micromaps.build {
+            self.micromaps = Micromaps::new(gpu, &self.source, self.build)?;
+        }
+        Ok(())
+    }
+    // ANCHOR_END: rebuild
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: self.sun.light(),
+            micromaps: self.micromaps.records.address.into(),
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        let constants = Constants { show: self.show, known: self.build.level != Level::None };
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+
+    fn report(&self) -> Result<serde_json::Value> {
+        Ok(self.micromaps.report())
+    }
+}
+
+/// The chess set, seen through the screen behind Black: every ray meets it.
+fn behind_the_screen() -> Result<Scene> {
+    let mut scene = Scene::chess()?;
+    let (eye, target) = (DVec3::new(2.4, 2.1, -7.4), DVec3::new(0.3, 1.2, -2.0));
+    scene.camera = Camera::new(eye, target, 40.0);
+    Ok(scene)
+}
+
+// ANCHOR: pipeline
+/// The pipeline for the shaders' constants.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit").any_hit("decide.rahit"))
+        .constant(0, constants.show)
+        .constant(1, constants.known)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

@@ -1,0 +1,57 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+layout(location = 0) rayPayloadInEXT Payload payload;
+hitAttributeEXT vec2 weights;
+
+// The nearest hit: normal, material and light give the colour.
+void main() {
+    // ANCHOR: fetch
+    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
+    uint triangle = instance.original.at[gl_PrimitiveID];
+    Surface surface = surface_at(instance, triangle, weights);
+    MaterialRecord material = push.scene.materials.at[instance.material];
+    // ANCHOR_END: fetch
+    // ANCHOR: normal
+    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
+    vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
+    vec3 view = -gl_WorldRayDirectionEXT;
+    // The flat triangle decides which side the ray sees: near an outline the smooth normal may look away.
+    vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
+    normal = faceforward(normal, -faceforward(face, -view, face), normal);
+    // ANCHOR_END: normal
+
+    vec3 base = material.base_color;
+    if (material.base_texture >= 0) {
+        base *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+    }
+    vec3 light = push.light.direction;
+    vec3 color = material.emission + base * ambient(normal);
+    color += push.light.radiance
+        * reflect_light(base, material.specular, material.shininess, normal, view, light);
+
+    payload.color = vec4(color, 1.0);
+    if (SHOW == SHOW_STATES && material.opacity_texture >= 0) {
+        uint state = state_at(push.micromaps.at[gl_InstanceCustomIndexEXT], triangle, weights);
+        payload.color = vec4(color_of(state), state);
+    }
+    if (SHOW == SHOW_NORMAL) {
+        payload.color.rgb = 0.5 + 0.5 * normal;
+    }
+    if (SHOW == SHOW_TRIANGLE) {
+        payload.color.rgb = false_color(triangle);
+    }
+    if (SHOW == SHOW_HIT) {
+        payload.color = vec4(gl_InstanceCustomIndexEXT, triangle, gl_HitTEXT, gl_InstanceID);
+    }
+    if (SHOW == SHOW_DIRECTION) {
+        payload.color = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
+    }
+}
