@@ -1,0 +1,266 @@
+//! The scenes of this chapter: spheres and boxes, and where they are.
+
+use common::gpu::Address;
+use common::gpu::order::Bounds;
+use common::scene::{Camera, Instance, Material, Model};
+use glam::{DVec3, Vec3};
+
+common::shader_struct! {
+    /// A sphere.
+    pub struct Sphere {
+        pub center: Vec3,
+        pub radius: f32,
+        pub material: u32,
+    }
+}
+
+common::shader_struct! {
+    /// A box with sides along the axes.
+    pub struct Box {
+        pub low: Vec3,
+        pub high: Vec3,
+        pub material: u32,
+    }
+}
+
+common::shader_struct! {
+    /// Where shaders find them, and which of them a primitive of the build is.
+    pub struct ShapeAddresses {
+        pub spheres: Address<Sphere>,
+        pub boxes: Address<Box>,
+        pub sphere_ids: Address,
+        pub box_ids: Address,
+    }
+}
+
+impl Sphere {
+    /// Corners of the box around it, never inside it by rounding.
+    pub fn bounds(&self) -> Bounds {
+        let grown = |sign: f32| {
+            Vec3::from_array(self.center.to_array().map(|c| {
+                let exact = f64::from(c) + f64::from(sign * self.radius);
+                let rounded = exact as f32;
+                match f64::from(sign) * (exact - f64::from(rounded)) > 0.0 {
+                    true if sign > 0.0 => rounded.next_up(),
+                    true => rounded.next_down(),
+                    false => rounded,
+                }
+            }))
+        };
+        (grown(-1.0), grown(1.0))
+    }
+}
+
+common::shader_enum! {
+    /// The scenes.
+    pub enum SceneKind { Chess, Grid, RandomBall, Planet, OneSphere, Dust }
+}
+
+/// What there is besides triangles.
+#[derive(Default)]
+pub struct Shapes {
+    pub spheres: Vec<Sphere>,
+    pub boxes: Vec<Box>,
+}
+
+/// How many primitives a scene has if nobody says; 0 where that is not free.
+pub fn default_count(scene: SceneKind) -> u32 {
+    match scene {
+        SceneKind::RandomBall => 1024,
+        _ => 10_000,
+    }
+}
+
+/// A view that shows a scene; `distance` is that of *one sphere*, in radii from its surface.
+pub fn camera(scene: SceneKind, chess: Camera, count: u32, distance: f32) -> Camera {
+    match scene {
+        SceneKind::Chess => chess,
+        SceneKind::Grid => {
+            let side = f64::from(grid_side(count));
+            Camera::new(
+                DVec3::new(0.85, 0.62, 1.2) * side,
+                DVec3::new(0.0, -0.06, 0.0) * side,
+                44.0,
+            )
+        }
+        SceneKind::RandomBall => Camera::new(DVec3::new(0.0, 0.0, 60.0), DVec3::ZERO, 60.0),
+        SceneKind::Planet => Camera::new(DVec3::Y, DVec3::new(0.0, 0.55, -3.0), 40.0),
+        SceneKind::OneSphere => {
+            let distance = 1.0 + f64::from(distance);
+            let eye = DVec3::new(2.0, 1.4, 3.0).normalize() * distance;
+            // A tenth more than the sphere fills.
+            Camera::new(eye, DVec3::ZERO, (2.2 * (1.0 / distance).asin()).to_degrees())
+        }
+        SceneKind::Dust => {
+            let eye = DVec3::new(2.0, 1.4, 3.0).normalize() * 1e4;
+            Camera::new(eye, DVec3::ZERO, (2.0 * DUST_CLOUD / 1e4).to_degrees())
+        }
+    }
+}
+
+/// Radius of the cloud of *dust*, and of its grains.
+const DUST_CLOUD: f64 = 0.05;
+const DUST_GRAIN: f32 = 1e-4;
+
+/// The least cube that holds `count` cells.
+fn grid_side(count: u32) -> u32 {
+    (1..).find(|side: &u32| side.pow(3) >= count).expect("a million is the cube of a hundred")
+}
+
+impl Shapes {
+    /// The shapes of a scene, at most `count` where that is free. For *chess* they stand in for
+    /// pawns and rooks; the other scenes have no triangles. Materials are those of [`materials`],
+    /// which follow the model's.
+    pub fn new(scene: SceneKind, count: u32, model: &Model, pieces: &[Instance]) -> Self {
+        let first = (model.materials.len() - MATERIALS.len()) as u32;
+        let mut shapes = Self::default();
+        match scene {
+            SceneKind::Chess => shapes.replace(model, pieces),
+            SceneKind::Grid => shapes.grid(count, first),
+            SceneKind::RandomBall => {
+                // As many as there are, they fill the same part of the ball.
+                let scale = (1024.0 / f64::from(count)).cbrt() as f32;
+                for i in 0..count {
+                    let center = (in_ball(i) * 25.0).as_vec3();
+                    let radius = (1.0 + unit(i, 64)[0] as f32) * scale;
+                    shapes.spheres.push(Sphere { center, radius, material: first + i % 6 });
+                }
+            }
+            SceneKind::Planet => shapes.planet(first),
+            SceneKind::OneSphere => {
+                shapes.spheres.push(Sphere { center: Vec3::ZERO, radius: 1.0, material: first });
+            }
+            SceneKind::Dust => shapes.spheres.extend((0..count).map(|i| Sphere {
+                center: (in_ball(i) * DUST_CLOUD).as_vec3(),
+                radius: DUST_GRAIN,
+                material: first + i % 6,
+            })),
+        }
+        shapes
+    }
+
+    fn ball(&mut self, center: Vec3, radius: f32, material: u32) {
+        self.spheres.push(Sphere { center, radius, material });
+    }
+
+    /// A box that stands on a point, `half` wide to each side.
+    fn block(&mut self, foot: Vec3, half: f32, height: f32, material: u32) {
+        let side = Vec3::new(half, 0.0, half);
+        let (low, high) = (foot - side, foot + side + Vec3::Y * height);
+        self.boxes.push(Box { low, high, material });
+    }
+
+    /// Pawns become balls on plinths, rooks become towers: geometry for geometry's sake, as in
+    /// Josef Hartwig's set of 1923.
+    fn replace(&mut self, model: &Model, pieces: &[Instance]) {
+        for piece in pieces {
+            let at: Vec3 = piece.transform.translation.into();
+            let up = |height: f32| at + Vec3::Y * height;
+            let material = piece.material as u32;
+            match model.meshes[piece.mesh].name.as_str() {
+                "pawn" => {
+                    self.block(at, 0.27, 0.15, material);
+                    self.ball(up(0.39), 0.24, material);
+                }
+                "rook" => {
+                    self.block(at, 0.32, 0.13, material);
+                    self.block(up(0.13), 0.22, 0.6, material);
+                    self.block(up(0.73), 0.29, 0.13, material);
+                    for corner in 0..4 {
+                        let side = |bit| if corner & bit == 0 { -0.19 } else { 0.19 };
+                        let foot = up(0.86) + Vec3::new(side(1), 0.0, side(2));
+                        self.block(foot, 0.1, 0.14, material);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Spheres and boxes by turns, a unit apart, the lowest layer first.
+    fn grid(&mut self, count: u32, first: u32) {
+        let side = grid_side(count);
+        for i in 0..count {
+            let place = [i % side, i / side / side, i / side % side];
+            let middle = (side - 1) as f32 / 2.0;
+            let center = Vec3::from_array(place.map(|p| p as f32 - middle));
+            let material = first + (unit(i, 0)[0] * 6.0) as u32;
+            if place.iter().sum::<u32>() % 2 == 0 {
+                self.ball(center, 0.375, material);
+            } else {
+                // 9/32, so that the walls are numbers that a camera can stand on.
+                let half = Vec3::splat(0.28125);
+                self.boxes.push(Box { low: center - half, high: center + half, material });
+            }
+        }
+    }
+
+    /// A ball of a million units' radius, seen from 1 above it, and things that stand there.
+    fn planet(&mut self, first: u32) {
+        const RADIUS: f32 = 1e6;
+        self.ball(Vec3::NEG_Y * RADIUS, RADIUS, first + 5);
+        for i in 0..24 {
+            let [x, z, size, kind] = unit(i, 0).map(|number| number as f32);
+            let size = 0.08 + 0.17 * size;
+            let depth = -2.4 - 9.0 * z;
+            let foot = Vec3::new((x - 0.5) * -0.9 * depth, 0.0, depth);
+            let material = first + i % 5;
+            match kind < 0.5 {
+                true => self.ball(foot + Vec3::Y * size, size, material),
+                false => self.block(foot, size, 2.0 * size, material),
+            }
+        }
+    }
+}
+
+/// Whether *chess* puts shapes in a piece's place.
+pub fn is_replaced(model: &Model, piece: &Instance) -> bool {
+    ["pawn", "rook"].contains(&model.meshes[piece.mesh].name.as_str())
+}
+
+/// Colours of the shapes: red, ochre, green, blue, violet, and pale ground.
+const MATERIALS: [[f32; 3]; 6] = [
+    [0.55, 0.06, 0.035],
+    [0.75, 0.36, 0.05],
+    [0.10, 0.30, 0.12],
+    [0.04, 0.13, 0.42],
+    [0.26, 0.09, 0.30],
+    [0.66, 0.60, 0.50],
+];
+
+/// The shapes' materials, to be added to a model's.
+pub fn materials() -> impl Iterator<Item = Material> {
+    MATERIALS.into_iter().map(|color| Material {
+        name: "shape".to_owned(),
+        base_color: Vec3::from_array(color),
+        specular: Vec3::splat(0.04),
+        shininess: 120.0,
+        ..Material::default()
+    })
+}
+
+/// Four numbers in [0, 1) that belong to a shape and a purpose: the hash of
+/// `shaders/common/random.glsl`.
+fn unit(shape: u32, purpose: u32) -> [f64; 4] {
+    let mut v = [shape, purpose, 0, 0]
+        .map(|word: u32| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    // One component after the other: each takes what the ones before it have become.
+    let stir = |v: &mut [u32; 4]| {
+        for (i, (a, b)) in [(1, 3), (2, 0), (0, 1), (1, 2)].into_iter().enumerate() {
+            v[i] = v[i].wrapping_add(v[a].wrapping_mul(v[b]));
+        }
+    };
+    stir(&mut v);
+    v = v.map(|word| word ^ word >> 16);
+    stir(&mut v);
+    v.map(|word| f64::from(word >> 8) / f64::from(1 << 24))
+}
+
+/// A point that is uniform in the unit ball: the first in a cube that falls into it.
+fn in_ball(shape: u32) -> DVec3 {
+    let points = (0..).map(|attempt| {
+        let [x, y, z, _] = unit(shape, attempt).map(|number| 2.0 * number - 1.0);
+        DVec3::new(x, y, z)
+    });
+    points.into_iter().find(|point| point.length_squared() <= 1.0).expect("most points do")
+}
