@@ -1,10 +1,12 @@
-//! 18 · Swept spheres: what it teaches, in a line.
+//! 18 · Swept spheres: spheres swept along segments, their radius changing, and chains of them.
 //!
-//! New since 08_intersection: what is new.
+//! New since 08_intersection: `swept.rint` with three rungs, chains whose segments share their ends, the
+//! normal of a cone, and the same strands as triangles.
 
 mod boxes;
-mod shapes;
-mod shapes_on_gpu;
+mod strands;
+mod strands_on_gpu;
+mod tubes;
 
 use std::process::ExitCode;
 
@@ -13,12 +15,12 @@ use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, SceneOptions, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
-use shapes::{SceneKind, ShapeAddresses};
-use shapes_on_gpu::{Build, ShapesOnGpu};
+use strands::{SceneKind, StrandAddresses};
+use strands_on_gpu::{Build, Shape, StrandsOnGpu};
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -26,8 +28,8 @@ fn main() -> ExitCode {
 
 struct Demo {
     source: Scene,
-    scene: SceneOnGpu,
-    shapes: ShapesOnGpu,
+    options: SceneOptions,
+    strands: StrandsOnGpu,
     pipelines: Variants<Constants>,
     camera: Camera,
     sun: Sun,
@@ -38,23 +40,19 @@ struct Demo {
 
 common::shader_enum! {
     /// What a pixel shows.
-    enum Show: SHOW {
-        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
-        Kind = "hit kind",
-    }
-    /// Which way spheres are intersected.
-    enum SphereRung: SPHERE { Textbook, Projection, Stable, HostC, Offered }
-    /// Which way boxes are.
-    enum BoxRung: BOX { Reciprocal, Division }
+    enum Show: SHOW { Picture, Normal, Segment, Hit, Direction = "ray direction", Along }
+    /// What strands are shaded by: the normal of their surface, or that of a cylinder around their axis.
+    enum Normal: NORMAL { Surface, Axis }
+    /// Which way swept spheres are intersected.
+    enum Rung: SWEPT { Textbook, Stable, TwoFloat }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    shadows: bool,
-    sphere_rung: SphereRung,
-    box_rung: BoxRung,
+    normal: Normal,
+    rung: Rung,
 }
 
 common::shader_struct! {
@@ -62,8 +60,7 @@ common::shader_struct! {
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
-        shapes: Address<ShapeAddresses>,
-        host_c: Address,
+        strands: Address<StrandAddresses>,
         light: DirectionalLight,
     }
 }
@@ -75,49 +72,40 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut source = setup.scene_or(Scene::chess)?;
-        source.model.materials.extend(shapes::materials());
-        let camera = source.camera;
-        let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let build = Build { scene: SceneKind::Chess, count: 10_000, margin: true };
-        let shapes = ShapesOnGpu::new(gpu, &source, &scene, build, camera.eye.as_vec3())?;
-        let constants = Constants {
-            show: Show::Picture,
-            shadows: true,
-            sphere_rung: SphereRung::Stable,
-            box_rung: BoxRung::Division,
-        };
-        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
+        source.model.materials.extend(strands::materials());
+        let (options, camera) = (setup.options, strands::camera(SceneKind::Board, 1.0));
+        let build = Build { scene: SceneKind::Board, hairs: 10_000, shape: Shape::Swept, sides: 8 };
+        let strands = StrandsOnGpu::new(gpu, &source, build, options, camera.eye.as_vec3(), None)?;
+        let constants =
+            Constants { show: Show::Picture, normal: Normal::Surface, rung: Rung::Stable };
+        let sun = Sun { azimuth: 62.0, elevation: 33.0, radiance: Vec3::new(4.4, 3.7, 2.8) };
         Ok(Self {
             source,
-            scene,
-            shapes,
+            options,
+            strands,
             pipelines: Variants::default(),
             camera,
             sun,
             build,
-            distance: 100.0,
+            distance: 4.0,
             constants,
         })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
-        // A scene brings its size, its view, and whether its shadows are worth their time.
+        // A scene brings its view.
         if c.choice("scene", &mut self.build.scene) {
-            self.build.count = shapes::default_count(self.build.scene);
-            self.constants.shadows =
-                [SceneKind::Chess, SceneKind::Grid].contains(&self.build.scene);
-            self.camera = self.scene_camera();
+            self.camera = strands::camera(self.build.scene, self.distance);
         }
-        if c.integer("count", &mut self.build.count, 1..=1_000_000) {
-            self.camera = self.scene_camera();
+        if c.slider("distance", &mut self.distance, 1.0..=1e6) {
+            self.camera = strands::camera(self.build.scene, self.distance);
         }
-        if c.slider("distance", &mut self.distance, 1e-3..=1e6) {
-            self.camera = self.scene_camera();
-        }
-        c.choice("sphere rung", &mut self.constants.sphere_rung);
-        c.choice("box rung", &mut self.constants.box_rung);
-        c.checkbox("margin", &mut self.build.margin);
+        c.integer("hairs", &mut self.build.hairs, 0..=100_000);
+        c.choice("rung", &mut self.constants.rung);
+        c.choice("normal", &mut self.constants.normal);
+        c.choice("shape", &mut self.build.shape);
+        c.integer("sides", &mut self.build.sides, 3..=64);
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
@@ -126,30 +114,28 @@ impl Sample for Demo {
 
     // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
-        let eye = self.camera.eye.as_vec3();
-        if self.shapes.is_outdated(self.build, eye) {
-            self.shapes = ShapesOnGpu::new(gpu, &self.source, &self.scene, self.build, eye)?;
+        let (eye, old) = (self.camera.eye.as_vec3(), &self.strands);
+        if old.is_outdated(self.build, eye) {
+            self.strands =
+                StrandsOnGpu::new(gpu, &self.source, self.build, self.options, eye, Some(old))?;
         }
         Ok(())
     }
     // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        let Variant { key, pipeline, sbt } =
-            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
-        if key.sphere_rung == SphereRung::HostC {
-            self.shapes.compute_host_c(frame, self.camera.eye.as_vec3())?;
-        }
+        let scene = &self.strands.scene;
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &scene.textures, self.constants, pipeline)?;
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
-            scene: self.scene.addresses,
-            shapes: self.shapes.addresses.address.into(),
-            host_c: self.shapes.host_c_address(),
+            scene: scene.addresses,
+            strands: self.strands.addresses.address.into(),
             light: self.sun.light(),
         };
         let descriptors = [
-            Descriptor::AccelerationStructure(&self.shapes.tlas),
+            Descriptor::AccelerationStructure(&self.strands.tlas),
             Descriptor::StorageImage(frame.image),
         ];
         pipeline.bind(frame.cmd, &descriptors, &push)?;
@@ -159,14 +145,8 @@ impl Sample for Demo {
     }
 }
 
-impl Demo {
-    fn scene_camera(&self) -> Camera {
-        shapes::camera(self.build.scene, self.source.camera, self.build.count, self.distance)
-    }
-}
-
 // ANCHOR: pipeline
-/// A hit group for each kind of surface: triangles, spheres, boxes.
+/// A hit group for each kind of surface: triangles, and swept spheres.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(
@@ -179,12 +159,11 @@ fn pipeline(
         .miss("sky.rmiss")
         .miss("shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
-        .hit(HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"))
-        .hit(HitGroup::procedural("box.rint").closest_hit("shape.rchit"))
+        .hit(HitGroup::procedural("swept.rint").closest_hit("strand.rchit"))
         .constant(0, constants.show)
-        .constant(1, constants.shadows)
-        .constant(2, constants.sphere_rung)
-        .constant(3, constants.box_rung)
+        .constant(1, constants.normal)
+        .constant(2, constants.rung)
+        .rounding_to_nearest_even(gpu)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

@@ -36,6 +36,6 @@ void main() {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.kind = gl_HitKindEXT;
+    hit.along = -1.0;
     // ANCHOR_END: report
 }
