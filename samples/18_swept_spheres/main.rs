@@ -44,7 +44,7 @@ common::shader_enum! {
     /// What strands are shaded by: the normal of their surface, or that of a cylinder around their axis.
     enum Normal: NORMAL { Surface, Axis }
     /// Which way swept spheres are intersected.
-    enum Rung: SWEPT { Textbook, Stable, TwoFloat }
+    enum Rung: SWEPT { Textbook, Stable, TwoFloat = "two-float" }
 }
 
 /// What a pipeline is made for: the specialization constants of its shaders.

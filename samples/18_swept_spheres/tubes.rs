@@ -34,26 +34,40 @@ fn chains(segments: &[Segment]) -> impl Iterator<Item = &[Segment]> {
     segments.chunk_by(|a, b| a.first + 1 == b.first && a.material == b.material)
 }
 
-/// Rings around each node, across the strand; a ring of no radius closes an end.
+/// Rings around each node, across the strand; at both ends, rings over the cap as far as its pole.
 fn tube(mesh: &mut Mesh, nodes: &[Node], sides: u32) {
-    let mut side = Vec3::ZERO;
-    let directions =
-        nodes.windows(2).map(|pair| (pair[1].center - pair[0].center).normalize_or_zero());
-    let directions: Vec<Vec3> = directions.collect();
+    let direction = |pair: &[Node]| (pair[1].center - pair[0].center).normalize_or_zero();
+    let directions: Vec<Vec3> = nodes.windows(2).map(direction).collect();
+    let last = directions.len() - 1;
+    let mut side = directions[0].any_orthonormal_vector();
     let mut rings = Vec::new();
     for (i, node) in nodes.iter().enumerate() {
         let before = directions[i.saturating_sub(1)];
-        let along = (before + directions[i.min(directions.len() - 1)]).normalize_or(before);
+        let along = (before + directions[i.min(last)]).normalize_or(before);
         let kept = side - side.dot(along) * along;
         side = kept.try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
-        rings.push((node.center, node.radius, side, along.cross(side)));
+        // How far from the middle of the cap it ends, as an angle: the body leans, and touches the ball there.
+        let steps = match i == 0 || i > last {
+            true => sides.div_ceil(4),
+            false => 0,
+        };
+        let pair = &nodes[i.min(last)..][..2];
+        let lean = (pair[1].radius - pair[0].radius) / (pair[1].center - pair[0].center).length();
+        let edge = lean.clamp(-1.0, 1.0).acos();
+        for step in 0..=steps {
+            let part = step as f32 / steps.max(1) as f32;
+            let angle = match i {
+                0 => part * edge,
+                _ if i > last => edge + part * (PI - edge),
+                _ => 0.5 * PI,
+            };
+            let (sine, height) = (angle.sin(), -angle.cos());
+            rings.push((*node, sine, height * along, side, along.cross(side)));
+        }
     }
-    let (first, last) = (rings[0], rings[rings.len() - 1]);
-    rings.insert(0, (first.0, 0.0, first.2, first.3));
-    rings.push((last.0, 0.0, last.2, last.3));
     skin(mesh, sides, rings.len() as u32, |ring, turn| {
-        let (center, radius, x, y) = rings[ring as usize];
-        let normal = turn.cos() * x + turn.sin() * y;
+        let (Node { center, radius }, sine, height, x, y) = rings[ring as usize];
+        let normal = sine * (turn.cos() * x + turn.sin() * y) + height;
         (center + radius * normal, normal)
     });
 }

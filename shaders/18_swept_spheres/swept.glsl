@@ -9,7 +9,7 @@
 // Where k <= 0, one end holds the other, and is all there is.
 //
 // Roots are for the direction as given. swept_textbook() wants lengths whose fourth power is a float, the others
-// any between 1e-15 and 1e15.
+// any between 1e-9 and 1e15.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
 const uint SWEPT_TEXTBOOK = 0;
@@ -81,7 +81,8 @@ bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root n
 // ANCHOR_END: textbook
 
 // ANCHOR: unit
-// The power of two by which a length becomes one from 1 to 2. A product with it rounds nothing.
+// The power of two by which a length becomes one from 1 to 2. A product with it rounds nothing; of a power of
+// two it is the inverse.
 float unit_of(float size) {
     return intBitsToFloat((254 << 23) - (floatBitsToInt(size) & 0x7f800000));
 }
@@ -119,13 +120,22 @@ float half_chord(Foot foot, vec3 d, float r) {
 // ANCHOR: stable
 // Where the line enters (side -1) and leaves (side 1).
 //
-// The end spheres are computed from their own centre and radius alone. So two segments that share an end
-// compute its sphere alike, to the bit.
+// The end spheres are computed first, from their own centre and radius alone. So two segments that share an
+// end compute its sphere alike, to the bit.
 bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root near, out Root far) {
-    // In units of the shape's size, and of the direction's length.
-    float unit = unit_of(max(largest(b - a), max(r, q)));
     float speed = unit_of(largest(d));
     d *= speed;
+    Foot at_a = foot_of(o - a, d);
+    Foot at_b = foot_of(o - b, d);
+    float half_a = half_chord(at_a, d, r);
+    float half_b = half_chord(at_b, d, q);
+
+    // From here on in units of the shape's size.
+    float unit = unit_of(max(largest(b - a), max(r, q)));
+    at_a = Foot(unit * at_a.p, unit * at_a.t);
+    at_b = Foot(unit * at_b.p, unit * at_b.t);
+    half_a *= unit;
+    half_b *= unit;
     r *= unit;
     q *= unit;
     precise vec3 u = unit * (b - a);
@@ -133,10 +143,6 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
     precise float k = dot(u, u) - delta * delta;
     precise float n = dot(d, u);
     precise float dd = dot(d, d);
-    Foot at_a = foot_of(unit * (o - a), d);
-    Foot at_b = foot_of(unit * (o - b), d);
-    float half_a = half_chord(at_a, d, r);
-    float half_b = half_chord(at_b, d, q);
 
     // Of all balls, the one that the line passes nearest by, or enters deepest: |p|² - radius² is least. If one
     // end holds the other, it is that end.
@@ -190,7 +196,7 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
             precise vec3 across = p - (dot(p, u) / dot(u, u)) * u;
             found[i] = Root(t, clamp(along, 0.0, 1.0), body_normal(across, u, delta));
         }
-        found[i].t *= speed / unit;
+        found[i].t *= speed * unit_of(unit);
     }
     near = found[0];
     far = found[1];

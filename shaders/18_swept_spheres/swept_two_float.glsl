@@ -29,6 +29,12 @@ ExactFoot ff_foot(TwoFloat3 f, TwoFloat3 d, vec2 dd) {
     return ExactFoot(ff_moved(p, vec2(rest, 0.0), d), two_sum(t, rest));
 }
 
+// A power of two changes no bit of a number but its exponent.
+ExactFoot in_unit(ExactFoot foot, float unit) {
+    TwoFloat3 p = foot.p;
+    return ExactFoot(TwoFloat3(unit * p.x, unit * p.y, unit * p.z), unit * foot.t);
+}
+
 // r² - |p|²: 0 or more if the line meets the ball.
 vec2 ff_inside(ExactFoot foot, vec2 r) {
     return ff_sub(ff_mul(r, r), ff_dot(foot.p, foot.p));
@@ -37,21 +43,30 @@ vec2 ff_inside(ExactFoot foot, vec2 r) {
 
 // ANCHOR: two_float
 bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root near, out Root far) {
-    float unit = unit_of(max(largest(b - a), max(r, q)));
     float speed = unit_of(largest(d));
+    TwoFloat3 dir = ff_vector(speed * d);
+    vec2 dd = ff_dot(dir, dir);
+    ExactFoot at_a = ff_foot(ff_difference(o, a), dir, dd);
+    ExactFoot at_b = ff_foot(ff_difference(o, b), dir, dd);
+    vec2 inside_a = ff_inside(at_a, vec2(r, 0.0));
+    vec2 inside_b = ff_inside(at_b, vec2(q, 0.0));
+    vec2 half_a = ff_sqrt(ff_div(inside_a, dd));
+    vec2 half_b = ff_sqrt(ff_div(inside_b, dd));
+
+    float unit = unit_of(max(largest(b - a), max(r, q)));
+    at_a = in_unit(at_a, unit);
+    at_b = in_unit(at_b, unit);
+    half_a *= unit;
+    half_b *= unit;
+    inside_a *= unit * unit;
+    inside_b *= unit * unit;
     r *= unit;
     q *= unit;
-    TwoFloat3 dir = ff_vector(speed * d);
     TwoFloat3 u = ff_difference(unit * b, unit * a);
     vec2 delta = two_sum(q, -r);
     vec2 uu = ff_dot(u, u);
     vec2 k = ff_sub(uu, ff_mul(delta, delta));
     vec2 n = ff_dot(dir, u);
-    vec2 dd = ff_dot(dir, dir);
-    ExactFoot at_a = ff_foot(ff_difference(unit * o, unit * a), dir, dd);
-    ExactFoot at_b = ff_foot(ff_difference(unit * o, unit * b), dir, dd);
-    vec2 inside_a = ff_inside(at_a, vec2(r, 0.0));
-    vec2 inside_b = ff_inside(at_b, vec2(q, 0.0));
 
     // Which ball is the nearest is a float: what follows is right for any, and loses least for this one.
     TwoFloat3 cross_du = ff_cross(dir, u);
@@ -87,8 +102,6 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
     vec2 root = ff_sqrt(square);
     vec2 c = -ff_add(ff_mul(k, inside), mm);
     vec2 mn = ff_mul(m, n);
-    vec2 half_a = ff_sqrt(ff_div(inside_a, dd));
-    vec2 half_b = ff_sqrt(ff_div(inside_b, dd));
     Root found[2];
     for (int i = 0; i < 2; i++) {
         float side = i == 0 ? -1.0 : 1.0;
@@ -114,7 +127,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
             vec3 outward = normalize(sqrt(k.x / uu.x) * across - (delta.x / uu.x) * rounded(u));
             found[i] = Root(0.0, clamp(along, 0.0, 1.0), outward);
         }
-        found[i].t = ff_add(start, way).x * (speed / unit);
+        found[i].t = ff_add(start, way).x * (speed * unit_of(unit));
     }
     near = found[0];
     far = found[1];
