@@ -44,7 +44,11 @@ impl Tally {
                 (Some(hit), Some(found)) => {
                     tally.hits += 1;
                     tally.ulp.push(ulp_error(found.t, hit.t));
-                    tally.normals.push((found.normal - hit.normal).length());
+                    // A normal turns by how far the point is off over the radius there: near a tip, by anything.
+                    let [r, q] = case.swept.radii;
+                    if r + f64::from(found.s) * (q - r) > 1e-4 * r.max(q) {
+                        tally.normals.push((found.normal - hit.normal).length());
+                    }
                 }
                 _ => {
                     let grown = |factor| case.swept.intersect_grown(&case.ray, factor).is_some();
