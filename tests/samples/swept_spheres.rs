@@ -66,7 +66,9 @@ fn hold_top(family: &str, tally: &Tally, roundings: f64) {
     assert_eq!(tally.wrong(), 0, "{what}");
     assert!(tally.hits > 150 && tally.tangents < 10, "{family}: {} hits", tally.hits);
     assert!(tally.ulp_at(1.0) <= 1.0, "{family}: t is off by {} ULP", tally.ulp_at(1.0));
-    let most = roundings / 16_777_216.0;
+    // Near a tip the radius is down to a ten-thousandth, and the normal turns by the point's error over it.
+    let turns = if family == "tips" { 256.0 } else { 1.0 };
+    let most = turns * roundings / 16_777_216.0;
     assert!(tally.normal_at(1.0) <= most, "{family}: a normal is off by {}", tally.normal_at(1.0));
 }
 
