@@ -147,16 +147,20 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
     // Of all balls, the one that the line passes nearest by, or enters deepest: |p|² - radius² is least. If one
     // end holds the other, it is that end.
     precise float bend = dot(cross(d, u), cross(d, u)) - delta * delta * dd;
-    precise float most = (dot(at_a.p, u) + delta * r) * dd / bend;
-    float s = k <= 0.0 ? (q > r ? 1.0 : 0.0)
-        : bend > 0.0 ? clamp(most, 0.0, 1.0)
-        : dot(at_a.p, at_a.p) - r * r <= dot(at_b.p, at_b.p) - q * q ? 0.0 : 1.0;
-    Foot mid = s == 1.0 ? at_b : at_a;
-    precise float ball = s == 1.0 ? q : r + s * delta;
-    if (s > 0.0 && s < 1.0) {
-        precise vec3 from = at_a.p - s * u;
+    // It is found from the nearer end, so that near a tip no term is larger than what is left of the radius.
+    precise float from_a = (dot(at_a.p, u) + delta * r) * dd / bend;
+    precise float from_b = (dot(at_b.p, u) + delta * q) * dd / bend;
+    bool by_b = k <= 0.0 ? q > r
+        : bend > 0.0 ? from_a > 0.5
+        : dot(at_a.p, at_a.p) - r * r > dot(at_b.p, at_b.p) - q * q;
+    float off = k > 0.0 && bend > 0.0 ? (by_b ? min(from_b, 0.0) : max(from_a, 0.0)) : 0.0;
+    Foot end = by_b ? at_b : at_a;
+    Foot mid = end;
+    precise float ball = (by_b ? q : r) + off * delta;
+    if (off != 0.0) {
+        precise vec3 from = end.p - off * u;
         mid = foot_of(from, d);
-        precise float t = at_a.t + mid.t;
+        precise float t = end.t + mid.t;
         mid.t = t;
     }
     bool met = half_chord(mid, d, ball) >= 0.0;
@@ -178,13 +182,13 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
         // On which part? The surface is an end's where s(p) <= 0, or s(p) >= 1.
         precise float beyond_a = dot(at_a.p, u) + side * half_a * n + delta * r;
         precise float beyond_b = dot(at_b.p, u) + side * half_b * n + delta * q;
-        bool is_a = k > 0.0 ? half_a >= 0.0 && beyond_a <= 0.0 : s == 0.0;
-        bool is_b = k > 0.0 ? half_b >= 0.0 && beyond_b >= 0.0 : s == 1.0;
+        bool is_a = k > 0.0 ? half_a >= 0.0 && beyond_a <= 0.0 : !by_b;
+        bool is_b = k > 0.0 ? half_b >= 0.0 && beyond_b >= 0.0 : by_b;
         if (is_a || is_b) {
-            Foot end = is_a ? at_a : at_b;
+            Foot own = is_a ? at_a : at_b;
             float way = side * (is_a ? half_a : half_b);
-            precise float t = end.t + way;
-            found[i] = Root(t, is_a ? 0.0 : 1.0, normalize(end.p + way * d));
+            precise float t = own.t + way;
+            found[i] = Root(t, is_a ? 0.0 : 1.0, normalize(own.p + way * d));
         } else {
             // The root whose terms have one sign, and the other from the product of both, c / bend.
             precise float sum = mn + side * root;
@@ -192,7 +196,7 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
             float way = side * mn < 0.0 ? c / other : bend != 0.0 ? sum / bend : 0.0;
             precise float t = mid.t + way;
             precise vec3 p = mid.p + way * d;
-            precise float along = s + (dot(p, u) + delta * ball) / k;
+            precise float along = (by_b ? 1.0 : 0.0) + (off + (dot(p, u) + delta * ball) / k);
             precise vec3 across = p - (dot(p, u) / dot(u, u)) * u;
             found[i] = Root(t, clamp(along, 0.0, 1.0), body_normal(across, u, delta));
         }

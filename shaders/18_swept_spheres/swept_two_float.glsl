@@ -73,17 +73,20 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
     vec2 bend = ff_sub(ff_dot(cross_du, cross_du), ff_mul(ff_mul(delta, delta), dd));
     vec2 start_a = ff_add(ff_dot(at_a.p, u), ff_mul(delta, r));
     vec2 start_b = ff_add(ff_dot(at_b.p, u), ff_mul(delta, q));
-    float s = k.x <= 0.0 ? (q > r ? 1.0 : 0.0)
-        : bend.x > 0.0 ? clamp(start_a.x * dd.x / bend.x, 0.0, 1.0)
-        : inside_a.x >= inside_b.x ? 0.0 : 1.0;
-    ExactFoot mid = at_a;
-    if (s == 1.0) {
-        mid = at_b;
-    } else if (s > 0.0) {
-        mid = ff_foot(ff_moved(at_a.p, vec2(-s, 0.0), u), dir, dd);
-        mid.t = ff_add(mid.t, at_a.t);
+    bool by_b = k.x <= 0.0 ? q > r
+        : bend.x > 0.0 ? start_a.x * dd.x / bend.x > 0.5
+        : inside_b.x > inside_a.x;
+    float off = 0.0;
+    if (k.x > 0.0 && bend.x > 0.0) {
+        off = by_b ? min(start_b.x * dd.x / bend.x, 0.0) : max(start_a.x * dd.x / bend.x, 0.0);
     }
-    vec2 ball = s == 1.0 ? vec2(q, 0.0) : ff_add(vec2(r, 0.0), ff_mul(delta, s));
+    ExactFoot end = by_b ? at_b : at_a;
+    ExactFoot mid = end;
+    vec2 ball = ff_add(vec2(by_b ? q : r, 0.0), ff_mul(delta, off));
+    if (off != 0.0) {
+        mid = ff_foot(ff_moved(end.p, vec2(-off, 0.0), u), dir, dd);
+        mid.t = ff_add(mid.t, end.t);
+    }
     vec2 inside = ff_inside(mid, ball);
     vec2 m = ff_add(ff_dot(mid.p, u), ff_mul(delta, ball));
     vec2 mm = ff_mul(m, m);
@@ -91,7 +94,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
     bool met = inside.x >= 0.0;
     if (k.x > 0.0) {
         // Of the body's roots only those between the ends count; that they are real decides where the ball does not.
-        met = inside_a.x >= 0.0 || inside_b.x >= 0.0 || (s > 0.0 && s < 1.0 ? square.x >= 0.0 : met);
+        met = inside_a.x >= 0.0 || inside_b.x >= 0.0 || (off != 0.0 ? square.x >= 0.0 : met);
     }
     if (!met) {
         near = Root(0.0, 0.0, vec3(0.0));
@@ -107,8 +110,8 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
         float side = i == 0 ? -1.0 : 1.0;
         vec2 beyond_a = ff_add(start_a, side * ff_mul(half_a, n));
         vec2 beyond_b = ff_add(start_b, side * ff_mul(half_b, n));
-        bool is_a = k.x > 0.0 ? inside_a.x >= 0.0 && beyond_a.x <= 0.0 : s == 0.0;
-        bool is_b = k.x > 0.0 ? inside_b.x >= 0.0 && beyond_b.x >= 0.0 : s == 1.0;
+        bool is_a = k.x > 0.0 ? inside_a.x >= 0.0 && beyond_a.x <= 0.0 : !by_b;
+        bool is_b = k.x > 0.0 ? inside_b.x >= 0.0 && beyond_b.x >= 0.0 : by_b;
         vec2 start = mid.t;
         vec2 way;
         if (is_a || is_b) {
@@ -122,7 +125,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
             way = side * mn.x < 0.0 ? ff_div(c, other) : bend.x != 0.0 ? ff_div(sum, bend) : vec2(0.0);
             TwoFloat3 p = ff_moved(mid.p, way, dir);
             vec2 height = ff_dot(p, u);
-            precise float along = s + ff_div(ff_add(height, ff_mul(delta, ball)), k).x;
+            precise float along = (by_b ? 1.0 : 0.0) + (off + ff_div(ff_add(height, ff_mul(delta, ball)), k).x);
             vec3 across = ff_normalize(ff_moved(p, -ff_div(height, uu), u));
             vec3 outward = normalize(sqrt(k.x / uu.x) * across - (delta.x / uu.x) * rounded(u));
             found[i] = Root(0.0, clamp(along, 0.0, 1.0), outward);

@@ -102,7 +102,6 @@ fn all_rungs_by_the_driver() {
 }
 
 #[test]
-#[ignore = "nightly: compiles for long; quick: swept_spheres::the_top_rung_is_right_where_the_others_fail"]
 fn in_the_worst_arithmetic_the_top_rung_is_right_and_ends_are_shared() {
     if has_worst_arithmetic() {
         direct::run_alone("swept_spheres::two_rungs_in_the_worst_arithmetic");
