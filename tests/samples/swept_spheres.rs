@@ -212,7 +212,10 @@ fn chains_have_no_seams() {
                         - 1.0;
                     let own = all[answer.primitive as usize].normal(ray.at(answer.t.into()));
                     // t is off by few units, and a normal turns by that over the radius.
-                    assert!((shown - own).length() < 1e-4, "a normal is off: {ray:?}: {shown} {own}");
+                    assert!(
+                        (shown - own).length() < 1e-4,
+                        "a normal is off: {ray:?}: {shown} {own}"
+                    );
                 }
                 (exact, answer) => panic!("{ray:?}: {answer:?}, exact {exact:?}"),
             }
