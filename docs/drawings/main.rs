@@ -47,6 +47,7 @@ const DRAWINGS: &[Drawing] = &[
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),
     ("slabs", shapes::slabs),
+    ("swept", shapes::swept),
     ("solid_angles", lights::solid_angles),
     ("sobol_boxes", squares::boxes),
     ("solid_intervals", shapes::intervals),

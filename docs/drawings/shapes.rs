@@ -5,7 +5,7 @@ use reference::Ray;
 use reference::solid::Solid;
 use reference::sphere::Sphere;
 
-use crate::sheet::Anchor::{Middle, Start};
+use crate::sheet::Anchor::{self, Middle, Start};
 use crate::sheet::{BLUE, BROWN, FAINT, GREEN, LINE, Sheet, WHITE, YOURS};
 
 /// A box in the plane as two slabs.
@@ -92,6 +92,60 @@ pub fn intervals() -> String {
             s.card([left + scale * from, top], [scale * (to - from), 18.0], fill, "", &[]);
         }
         s.say([596.0, top + 13.0], Start, name);
+    }
+    s.svg()
+}
+
+/// A swept sphere in the plane: its balls, where body and caps meet, its normal and that of its axis.
+pub fn swept() -> String {
+    let mut s = Sheet::new([840, 330], "A swept sphere");
+    let (a, b, r, q) = ([170.0, 178.0], [470.0, 178.0], 96.0, 34.0);
+    let along = (b[0] - a[0], q - r);
+    // The body touches each ball where the normal leans by δ/|u|.
+    let lean: f64 = -along.1 / along.0;
+    let cosine = (1.0 - lean * lean).sqrt();
+    let ball = |part: f64| ([a[0] + part * along.0, a[1]], r + part * along.1);
+    let edge = |part: f64, side: f64| {
+        let (center, radius) = ball(part);
+        [center[0] + radius * lean, center[1] - side * radius * cosine]
+    };
+    s.circle(a, r, YOURS, LINE);
+    s.circle(b, q, YOURS, LINE);
+    let corners = [edge(0.0, 1.0), edge(1.0, 1.0), edge(1.0, -1.0), edge(0.0, -1.0)];
+    s.polygon(&corners, YOURS, "none");
+    for side in [1.0, -1.0] {
+        s.line(&[edge(0.0, side), edge(1.0, side)], LINE, 1.5);
+    }
+    for part in [0.25, 0.5, 0.75] {
+        let (center, radius) = ball(part);
+        s.circle(center, radius, "none", FAINT);
+    }
+    s.line(&[a, b], BROWN, 1.5);
+    for part in [0.0, 1.0] {
+        s.dashes(&[edge(part, 1.0), edge(part, -1.0)], BROWN, 1.5);
+    }
+    s.dot(a, 4.0, BROWN);
+    s.dot(b, 4.0, BROWN);
+    s.note([a[0] - 14.0, a[1] + 20.0], Middle, "a");
+    s.note([b[0] + 16.0, b[1] + 18.0], Middle, "b");
+    let hit = edge(0.5, 1.0);
+    s.arrow(&[hit, [hit[0] + 74.0 * lean, hit[1] - 74.0 * cosine]]);
+    s.dashed_arrow(&[hit, [hit[0], hit[1] - 74.0]]);
+    s.dot(hit, 5.0, LINE);
+    s.note([hit[0] + 24.0, hit[1] - 62.0], Start, "normal of the surface");
+    s.note([hit[0] - 8.0, hit[1] - 62.0], Anchor::End, "of the axis: wrong");
+    s.note([a[0] - 62.0, a[1] - 22.0], Middle, "cap");
+    s.note([a[0] + 0.42 * along.0, a[1] + 34.0], Middle, "body");
+    let lines = [
+        "The balls from a to b fill the shape.",
+        "Each touches the body along a circle,",
+        "and the normal there goes through the",
+        "ball's centre. The body begins and ends",
+        "at the dashed circles; beyond them are",
+        "the caps, parts of the two end spheres.",
+    ];
+    for (row, line) in lines.into_iter().enumerate() {
+        s.say([556.0, 118.0 + 21.0 * row as f64], Start, line);
     }
     s.svg()
 }

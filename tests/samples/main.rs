@@ -35,6 +35,7 @@ mod shadow_rays;
 mod slivers;
 mod soft_shadows;
 mod solids;
+mod swept_spheres;
 mod two_normals;
 mod wireframe;
 mod worst;

@@ -6,7 +6,7 @@
 //! | [`rational`], [`vector`] | rational numbers and vectors, exactly those that the f32 or f64 bits denote |
 //! | [`surd`] | `p + q·√r`: the root of a quadratic, a unit normal, compared and rounded exactly |
 //! | [`sphere`], [`aabb`], [`plane`], [`triangle`] | the intersections, each in f64 and exactly |
-//! | [`capsule`], [`instance`] | the same for a capsule, and for a sphere under any matrix |
+//! | [`capsule`], [`swept`], [`instance`] | the same for a capsule, a swept sphere, and a sphere under any matrix |
 //! | [`heightfield`] | a surface of heights, bisected in f64 |
 //! | [`occlusion`] | how much of the sky a polygon hides from a point, in closed form |
 //! | [`random`] | seeded rays: the same on every machine |
@@ -47,6 +47,7 @@ pub mod solid;
 pub mod sphere;
 pub mod surd;
 mod surface;
+pub mod swept;
 pub mod transform;
 pub mod triangle;
 pub mod ulp;

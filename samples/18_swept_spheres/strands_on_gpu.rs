@@ -1,0 +1,135 @@
+//! The strands on the device: a bottom level of boxes, in order, beside the meshes.
+
+use anyhow::Result;
+use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
+use common::scene::{
+    Instance, Scene, SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu,
+};
+use glam::{Affine3A, Vec3};
+
+use crate::boxes::{self, reach};
+use crate::strands::{self, SceneKind, StrandAddresses, Strands};
+use crate::tubes;
+
+common::shader_enum! {
+    /// What the device is given: boxes and an intersection shader, or triangles.
+    pub enum Shape { Swept, Triangles }
+}
+
+/// What the strands are built from; where it changes, they are built again.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Build {
+    pub scene: SceneKind,
+    pub hairs: u32,
+    pub shape: Shape,
+    /// Of a tube of triangles.
+    pub sides: u32,
+}
+
+/// The strands in device memory, and the top level that holds them beside the meshes.
+pub struct StrandsOnGpu {
+    pub tlas: AccelerationStructure,
+    /// The meshes: those of the board, and of the strands where they are triangles.
+    pub scene: SceneOnGpu,
+    /// Where shaders find the strands: a [`StrandAddresses`].
+    pub addresses: Buffer,
+    /// Corners of the box around everything.
+    bounds: order::Bounds,
+    /// How far rays may begin from a strand; the margin of the boxes grows with it.
+    reach: f32,
+    build: Build,
+    _level: Option<AccelerationStructure>,
+    _buffers: Vec<Buffer>,
+}
+
+impl StrandsOnGpu {
+    /// `source` is the board; its last materials are those of the strands. Textures that are on the device
+    /// already stay there.
+    pub fn new(
+        gpu: &Gpu,
+        source: &Scene,
+        build: Build,
+        options: SceneOptions,
+        eye: Vec3,
+        old: Option<&Self>,
+    ) -> Result<Self> {
+        let material = source.model.materials.len() - strands::materials().count();
+        let strands = Strands::new(build.scene, build.hairs, material as u32);
+        let mut source = source.clone();
+        if build.scene != SceneKind::Board {
+            source.instances.clear();
+        }
+        if build.shape == Shape::Triangles {
+            for mesh in tubes::meshes(&strands, build.sides) {
+                let material = mesh.material;
+                let transform = Affine3A::IDENTITY;
+                let mesh_index = source.model.meshes.len();
+                source.model.meshes.push(mesh);
+                source.instances.push(Instance {
+                    mesh: mesh_index,
+                    transform,
+                    material,
+                    record_offset: 0,
+                });
+            }
+        }
+        let scene = SceneOnGpu::with_textures(
+            gpu,
+            &source,
+            options,
+            old.map(|old| old.scene.textures.clone()),
+        )?;
+
+        let bounds = strands.bounds();
+        let all = around(bounds.iter().chain(&source.bounds_of_instances()));
+        let reach = reach(all, eye);
+        // ANCHOR: level
+        let order = order::for_build(gpu, &bounds, options.ordering);
+        let ids = Buffer::with_data(gpu, "order of segments", &order, input_usage())?;
+        let mut boxes_of = source.bounds_of_instances();
+        let placed = source.instances.iter().enumerate();
+        let mut instances: Vec<_> = placed
+            .map(|(i, at)| instance_on_gpu(&at.transform, i, 0, &scene.blas[at.mesh]))
+            .collect();
+        let mut level = None;
+        if build.shape == Shape::Swept {
+            let ordered = order.iter().map(|&i| bounds[i as usize]);
+            let blas = level.insert(boxes::bottom(gpu, "strands", ordered, reach)?);
+            instances.push(instance_on_gpu(&Affine3A::IDENTITY, source.instances.len(), 1, blas));
+            boxes_of.push(around(&bounds));
+        }
+        // ANCHOR_END: level
+        let ordered = order::for_build(gpu, &boxes_of, options.ordering);
+        let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
+        let tlas = build_top(gpu, &ordered)?;
+
+        let nodes = Buffer::with_data(gpu, "nodes", &strands.nodes, input_usage())?;
+        let segments = Buffer::with_data(gpu, "segments", &strands.segments, input_usage())?;
+        let addresses = StrandAddresses {
+            nodes: nodes.address.into(),
+            segments: segments.address.into(),
+            ids: ids.address.into(),
+        };
+        Ok(Self {
+            tlas,
+            scene,
+            addresses: Buffer::with_data(gpu, "strands", &[addresses], input_usage())?,
+            bounds: all,
+            reach,
+            build,
+            _level: level,
+            _buffers: vec![nodes, segments, ids],
+        })
+    }
+
+    /// Whether they must be made again, for another build or because the eye has gone far.
+    pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
+        build != self.build || reach(self.bounds, eye) != self.reach
+    }
+}
+
+/// The box around boxes.
+fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bounds {
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
+}

@@ -1,0 +1,54 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/false_color.glsl"
+
+// ANCHOR: strands
+struct Node {
+    vec3 center;
+    float radius;
+};
+
+// From the node `first` to the one after it. The next segment of a chain begins where this one ends.
+struct Segment {
+    uint first;
+    uint material;
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Nodes { Node at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Segments { Segment at[]; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer StrandAddresses {
+    Nodes nodes;
+    Segments segments;
+    Original ids;   // primitive i of the build is segment ids.at[i]
+};
+// ANCHOR_END: strands
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    StrandAddresses strands;
+    DirectionalLight light;
+} push;
+
+// What the intersection shader tells the closest hit shader.
+struct Crossing {
+    vec3 outward;   // unit normal
+    float s;        // of which ball of the swept sphere: 0 at its first end, 1 at its last
+};
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_SEGMENT = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
+const uint SHOW_ALONG = 5;
+
+// Whether to shade by a normal that is perpendicular to the axis, and not to the surface.
+layout(constant_id = 1) const uint NORMAL = 0;
+const uint NORMAL_SURFACE = 0;
+const uint NORMAL_AXIS = 1;

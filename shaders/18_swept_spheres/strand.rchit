@@ -1,0 +1,68 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "hit.glsl"
+#include "common/place.glsl"
+
+layout(location = 0) rayPayloadInEXT Hit hit;
+hitAttributeEXT Crossing crossing;
+
+// ANCHOR: place
+// Computes the hit anew, from the shape and not from the ray: on the ball that touches the surface there, at its
+// end along the normal. And how far above the surface a leaving ray must start.
+//
+// As for a sphere in 08, a bound of 46u·r, and two roundings more: centre and radius are sums of the ends'.
+// Where a ray starts beside such a ball by an angle e, it lies r·e²/2 below the surface: the normal is off by less
+// than 64u, which adds nothing.
+void place_on_strand(Node a, Node b) {
+    precise vec3 center = crossing.s == 1.0 ? b.center : a.center + crossing.s * (b.center - a.center);
+    precise float radius = crossing.s == 1.0 ? b.radius : a.radius + crossing.s * (b.radius - a.radius);
+    precise vec3 point = center + radius * crossing.outward;
+    vec3 ends = max(abs(a.center), abs(b.center));
+    vec3 own = abs(point) + 4.0 * ends + vec3(50.0 * max(a.radius, b.radius));
+    precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
+
+    mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));
+    mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
+    vec3 shift = abs(gl_ObjectToWorldEXT[3]);
+    vec3 reach = linear * abs(point);
+    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+        + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
+
+    hit.position = world;
+    hit.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
+    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
+    hit.height = ROUNDING * dot(abs(hit.face), straying);
+}
+// ANCHOR_END: place
+
+// The nearest hit is a swept sphere: the intersection shader has left its normal, and where along it.
+void main() {
+    // ANCHOR: fetch
+    uint id = push.strands.ids.at[gl_PrimitiveID];
+    Segment segment = push.strands.segments.at[id];
+    Node a = push.strands.nodes.at[segment.first];
+    Node b = push.strands.nodes.at[segment.first + 1];
+    // ANCHOR_END: fetch
+    // ANCHOR: report
+    place_on_strand(a, b);
+    hit.t = gl_HitTEXT;
+    hit.normal = hit.face;
+    if (NORMAL == NORMAL_AXIS) {
+        // Wrong: away from the axis, as if the radius did not change and there were no ends.
+        vec3 axis = b.center - a.center;
+        vec3 from = hit.position - a.center;
+        vec3 away = normalize(from - dot(from, axis) / dot(axis, axis) * axis);
+        hit.normal = faceforward(away, gl_WorldRayDirectionEXT, away);
+    }
+    hit.lift = vec3(0.0);
+    hit.color = push.scene.materials.at[segment.material].base_color;
+    hit.material = segment.material;
+    hit.triangle = id;
+    hit.instance = gl_InstanceCustomIndexEXT;
+    hit.along = crossing.s;
+    // ANCHOR_END: report
+}

@@ -1,0 +1,132 @@
+//! The chapter's functions called on given rays and shapes, in the driver's arithmetic or in the worst.
+
+use std::sync::Arc;
+
+use common::gpu::{
+    Address, Buffer, Gpu, GpuOptions, RayTracingPipeline, Requirements, ShaderBindingTable, barrier,
+};
+use common::scene::input_usage;
+use glam::{DVec3, Vec3};
+use instruments::arithmetic::Arithmetic;
+use reference::Ray;
+use reference::swept::Swept;
+
+/// A ray and a swept sphere: f32 numbers, all of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    pub ray: Ray,
+    pub swept: Swept,
+}
+
+common::shader_struct! {
+    struct Query {
+        origin: Vec3,
+        direction: Vec3,
+        a: Vec3,
+        b: Vec3,
+        r: f32,
+        q: f32,
+    }
+}
+
+common::shader_struct! {
+    /// Where a line goes through the surface.
+    struct Root {
+        t: f32,
+        s: f32,
+        outward: Vec3,
+    }
+}
+
+common::shader_struct! {
+    struct Answer {
+        hit: u32,
+        near: Root,
+        far: Root,
+    }
+}
+
+common::shader_struct! {
+    struct Push {
+        queries: Address<Query>,
+        answers: Address<Answer>,
+    }
+}
+
+/// Where the shader that asks lies in a copy of the book's shaders.
+const FOLDER: &str = "swept_spheres_of_a_test";
+
+/// Runs a test of this program that asks: alone, so that it may have shaders of its own.
+pub fn run_alone(test: &str) {
+    let shaders = run::copy_of_shaders();
+    let folder = shaders.path().join(FOLDER);
+    std::fs::create_dir(&folder).expect("a copy can be written");
+    std::fs::write(folder.join("direct.rgen"), include_str!("direct.rgen"))
+        .expect("a copy can be written");
+    let this = std::env::current_exe().expect("a running program has a file");
+    let mut command = std::process::Command::new(this);
+    command.args([test, "--exact", "--ignored", "--nocapture"]).env("SHADERS", shaders.path());
+    let output = command.output().expect("the test starts");
+    let said = String::from_utf8_lossy(&output.stdout);
+    println!("{said}");
+    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("1 passed"), "no test is named {test}");
+}
+
+/// What a rung says of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    pub t: f32,
+    pub s: f32,
+    pub normal: DVec3,
+}
+
+/// A device that computes as `arithmetic` says.
+pub fn device(arithmetic: Arithmetic) -> Gpu {
+    let requirements = Requirements::ray_tracing();
+    let emulation = Arc::new(arithmetic);
+    Gpu::new(&GpuOptions { requirements, emulation, ..GpuOptions::default() }).expect("a device")
+}
+
+/// The first hit of each ray by a rung, by the number that its shader knows it by.
+pub fn ask(gpu: &Gpu, rung: u32, cases: &[Case]) -> Vec<Option<Found>> {
+    let pipeline = RayTracingPipeline::builder(FOLDER)
+        .raygen("direct.rgen")
+        .constant(0, rung)
+        .rounding_to_nearest_even(gpu)
+        .push_constants::<Push>()
+        .build(gpu)
+        .unwrap();
+    let sbt = ShaderBindingTable::new(gpu, &pipeline).unwrap();
+    let query = |Case { ray, swept }: &Case| Query {
+        origin: ray.origin.as_vec3(),
+        direction: ray.direction.as_vec3(),
+        a: swept.ends[0].as_vec3(),
+        b: swept.ends[1].as_vec3(),
+        r: swept.radii[0] as f32,
+        q: swept.radii[1] as f32,
+    };
+    let queries: Vec<Query> = cases.iter().map(query).collect();
+    let input = Buffer::with_data(gpu, "queries", &queries, input_usage()).unwrap();
+    let usage = input_usage() | ash::vk::BufferUsageFlags::TRANSFER_SRC;
+    let size = (cases.len() * size_of::<Answer>()) as u64;
+    let output = Buffer::new(gpu, "answers", size, usage).unwrap();
+    let push = Push { queries: input.address.into(), answers: output.address.into() };
+    let extent = ash::vk::Extent2D { width: cases.len() as u32, height: 1 };
+    gpu.submit(|cmd| {
+        pipeline.bind(cmd, &[], &push)?;
+        sbt.trace(cmd, extent.into());
+        barrier::trace_to_trace(gpu, cmd);
+        Ok(())
+    })
+    .unwrap();
+    let mut answers: Vec<Answer> = output.read().unwrap();
+    answers.truncate(cases.len());
+    let first = |(answer, case): (Answer, &Case)| {
+        let roots = [answer.near, answer.far].into_iter();
+        let root =
+            roots.filter(|_| answer.hit != 0).find(|root| case.ray.contains(root.t.into()))?;
+        Some(Found { t: root.t, s: root.s, normal: root.outward.as_dvec3() })
+    };
+    answers.into_iter().zip(cases).map(first).collect()
+}

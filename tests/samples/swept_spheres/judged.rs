@@ -1,0 +1,87 @@
+//! What a rung says of a family, held to the exact answers.
+
+use reference::Surface;
+use reference::ulp::ulp_error;
+
+use super::direct::{Case, Found};
+
+/// How far radii may be changed, relatively, for a ray to count as a tangent that no arithmetic has to decide.
+const TANGENT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Cases and their exact answers.
+pub struct Exact {
+    pub cases: Vec<Case>,
+    pub hits: Vec<Option<Surface>>,
+}
+
+impl Exact {
+    pub fn new(cases: Vec<Case>) -> Self {
+        let hits = cases.iter().map(|case| case.swept.intersect(&case.ray)).collect();
+        Self { cases, hits }
+    }
+}
+
+#[derive(Default)]
+pub struct Tally {
+    pub hits: usize,
+    pub misses: usize,
+    pub false_hits: usize,
+    pub false_misses: usize,
+    pub tangents: usize,
+    /// Errors of t of the right hits, in units of the last place, sorted.
+    pub ulp: Vec<f64>,
+    /// How far the normal is off: the length of the difference, sorted.
+    pub normals: Vec<f64>,
+    pub first_wrong: Option<String>,
+}
+
+impl Tally {
+    pub fn new(exact: &Exact, found: &[Option<Found>]) -> Self {
+        let mut tally = Self::default();
+        for ((case, hit), found) in exact.cases.iter().zip(&exact.hits).zip(found) {
+            match (hit, found) {
+                (None, None) => tally.misses += 1,
+                (Some(hit), Some(found)) => {
+                    tally.hits += 1;
+                    tally.ulp.push(ulp_error(found.t, hit.t));
+                    // A normal turns by how far the point is off over the radius there: near a tip, by anything.
+                    let [r, q] = case.swept.radii;
+                    if r + f64::from(found.s) * (q - r) > 1e-4 * r.max(q) {
+                        tally.normals.push((found.normal - hit.normal).length());
+                    }
+                }
+                _ => {
+                    let grown = |factor| case.swept.intersect_grown(&case.ray, factor).is_some();
+                    if grown(1.0 + TANGENT) != grown(1.0 - TANGENT) {
+                        tally.tangents += 1;
+                        continue;
+                    }
+                    let is_hit = found.is_some();
+                    *(if is_hit { &mut tally.false_hits } else { &mut tally.false_misses }) += 1;
+                    tally.first_wrong.get_or_insert(format!("{case:?}: {found:?}, exact {hit:?}"));
+                }
+            }
+        }
+        tally.ulp.sort_by(f64::total_cmp);
+        tally.normals.sort_by(f64::total_cmp);
+        tally
+    }
+
+    pub fn wrong(&self) -> usize {
+        self.false_hits + self.false_misses
+    }
+
+    /// The part of the hits whose t is off by less than this.
+    pub fn ulp_at(&self, part: f64) -> f64 {
+        at(&self.ulp, part)
+    }
+
+    pub fn normal_at(&self, part: f64) -> f64 {
+        at(&self.normals, part)
+    }
+}
+
+fn at(sorted: &[f64], part: f64) -> f64 {
+    let place = (sorted.len() as f64 * part) as usize;
+    sorted.get(place).or(sorted.last()).copied().unwrap_or_default()
+}
