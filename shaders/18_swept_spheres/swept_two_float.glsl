@@ -1,7 +1,7 @@
 // A ray against a swept sphere in two-floats: swept_stable() step by step, with twice the bits.
 //
 // Numbers in two floats are those of chapter 24, and so is what they need: rounding to nearest, `precise`.
-#include "24_accuracy/two_float.glsl"
+#include "common/two_float.glsl"
 #include "swept.glsl"
 
 // ANCHOR: foot

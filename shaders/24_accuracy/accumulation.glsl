@@ -1,5 +1,5 @@
 // The mean of many samples, one after the other: four ways that are equal on paper.
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint ACCUMULATE_SUM = 0;
 const uint ACCUMULATE_MEAN = 1;

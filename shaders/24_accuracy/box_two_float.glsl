@@ -1,5 +1,5 @@
 // A ray against a box, where common/box.glsl ends: every decision exact, and one division at the end.
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint BOX_TWO_FLOAT = 3;
 

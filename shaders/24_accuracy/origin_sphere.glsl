@@ -3,7 +3,7 @@
 // A start below the surface meets it again; a start too far above it is beyond what stands close by.
 #include "common/start.glsl"
 #include "common/up_by_floats.glsl"
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint ORIGIN_NOTHING = 0;
 const uint ORIGIN_TMIN = 1;

@@ -1,6 +1,6 @@
 // A ray against a plane in two-floats: the rung above those of plane.glsl.
 #include "common/plane.glsl"
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint PLANE_TWO_FLOAT = 4;
 

@@ -1,6 +1,6 @@
 // A ray against a sphere, where common/sphere.glsl ends: with more than 24 bits, where they matter, and
 // everywhere. After two_float.glsl's sums and products, which say what they need.
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint SPHERE_COMPENSATED = 5;
 const uint SPHERE_TWO_FLOAT = 6;

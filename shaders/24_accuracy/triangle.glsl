@@ -3,7 +3,7 @@
 // a, b, c are the corners, o the ray's origin, d its direction of any length. Both sides count, and the
 // edges belong to the triangle. A mesh must let no ray through between two triangles that share an
 // edge. So both triangles must compute the same number for the edge, one with the opposite sign.
-#include "two_float.glsl"
+#include "common/two_float.glsl"
 
 const uint TRIANGLE_MOELLER = 0;
 const uint TRIANGLE_WOOP = 1;

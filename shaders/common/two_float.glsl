@@ -1,3 +1,5 @@
+// Taught by 24_accuracy.
+//
 // Two floats for one number: twice the bits, from 32-bit operations alone.
 //
 // Of two floats a + b, the sum's rounding error is itself a float, and can be computed; so it is with
