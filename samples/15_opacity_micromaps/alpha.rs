@@ -93,9 +93,9 @@ impl Alpha {
 }
 
 // ANCHOR: texels
-/// The columns, or rows, that lookups between two coordinates can read, as ranges within the texture: two where
-/// they go over its edge. None if a coordinate is not finite.
-fn texels(low: f64, high: f64, size: usize) -> Option<Vec<(usize, usize)>> {
+/// The columns, or rows, that lookups between two coordinates can read, as ranges within the texture: the second is
+/// empty unless they go over its edge. None if a coordinate is not finite.
+fn texels(low: f64, high: f64, size: usize) -> Option<[(usize, usize); 2]> {
     let length = size as f64;
     // A lookup reads the two texels whose middles are on either side of it.
     let first = (low * length - 0.5 - SUBTEXEL).floor();
@@ -104,10 +104,10 @@ fn texels(low: f64, high: f64, size: usize) -> Option<Vec<(usize, usize)>> {
         return None;
     }
     if behind - first >= length {
-        return Some(vec![(0, size)]);
+        return Some([(0, size), (0, 0)]);
     }
     let start = first.rem_euclid(length) as usize;
     let end = start + (behind - first) as usize;
-    Some(if end <= size { vec![(start, end)] } else { vec![(start, size), (0, end - size)] })
+    Some([(start, end.min(size)), (0, end.saturating_sub(size))])
 }
 // ANCHOR_END: texels

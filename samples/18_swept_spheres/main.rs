@@ -98,7 +98,8 @@ impl Sample for Demo {
         if c.choice("scene", &mut self.build.scene) {
             self.camera = strands::camera(self.build.scene, self.distance);
         }
-        if c.slider("distance", &mut self.distance, 1.0..=1e6) {
+        let is_farther = c.slider("distance", &mut self.distance, 1.0..=1e5);
+        if is_farther && self.build.scene == SceneKind::One {
             self.camera = strands::camera(self.build.scene, self.distance);
         }
         c.integer("hairs", &mut self.build.hairs, 0..=100_000);

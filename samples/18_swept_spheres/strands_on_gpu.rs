@@ -1,6 +1,6 @@
 //! The strands on the device: a bottom level of boxes, in order, beside the meshes.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
 use common::scene::{
     Instance, Scene, SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu,
@@ -10,6 +10,9 @@ use glam::{Affine3A, Vec3};
 use crate::boxes::{self, reach};
 use crate::strands::{self, SceneKind, StrandAddresses, Strands};
 use crate::tubes;
+
+/// How many triangles the tubes of all strands may have.
+const MOST_TRIANGLES: usize = 1 << 24;
 
 common::shader_enum! {
     /// What the device is given: boxes and an intersection shader, or triangles.
@@ -60,6 +63,14 @@ impl StrandsOnGpu {
             source.instances.clear();
         }
         if build.shape == Shape::Triangles {
+            let count = tubes::count(&strands, build.sides);
+            ensure!(
+                count <= MOST_TRIANGLES,
+                "tubes of {} sides for {} segments have {count} triangles, and at most {MOST_TRIANGLES} are made: take fewer \
+                 hairs or sides",
+                build.sides,
+                strands.segments.len()
+            );
             for mesh in tubes::meshes(&strands, build.sides) {
                 let material = mesh.material;
                 let transform = Affine3A::IDENTITY;

@@ -9,7 +9,8 @@ use super::strands::{Node, Segment, Strands};
 
 /// A mesh for each material.
 ///
-/// A tube's outline lies within that of the strand by up to a part 1 - cos(π/sides) of the radius.
+/// A straight tube's outline lies within that of the strand by up to a part 1 - cos(π/sides) of the radius. Where a
+/// chain bends, it has a mitre instead of a ball.
 pub fn meshes(strands: &Strands, sides: u32) -> Vec<Mesh> {
     let mut meshes: Vec<Mesh> = Vec::new();
     for chain in chains(&strands.segments) {
@@ -27,6 +28,12 @@ pub fn meshes(strands: &Strands, sides: u32) -> Vec<Mesh> {
         }
     }
     meshes
+}
+
+/// How many triangles they have, or a few more.
+pub fn count(strands: &Strands, sides: u32) -> usize {
+    let rings = |chain: &[Segment]| chain.len() + 1 + 2 * sides.div_ceil(4) as usize;
+    chains(&strands.segments).map(|chain| 2 * sides as usize * rings(chain)).sum()
 }
 
 /// Segments that follow each other, of one material.

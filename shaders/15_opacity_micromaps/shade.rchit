@@ -38,7 +38,7 @@ void main() {
         * reflect_light(base, material.specular, material.shininess, normal, view, light);
 
     payload.color = vec4(color, 1.0);
-    if (SHOW == SHOW_STATES && material.opacity_texture >= 0) {
+    if (SHOW == SHOW_STATES && KNOWN && material.opacity_texture >= 0) {
         uint state = state_at(push.micromaps.at[gl_InstanceCustomIndexEXT], triangle, weights);
         payload.color = vec4(color_of(state), state);
     }

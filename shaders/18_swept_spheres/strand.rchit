@@ -52,10 +52,10 @@ void main() {
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     if (NORMAL == NORMAL_AXIS) {
-        // Wrong: away from the axis, as if the radius did not change and there were no ends.
+        // Wrong: away from the axis, as if the radius did not change and there were no ends. A bead has no axis.
         vec3 axis = b.center - a.center;
         vec3 from = hit.position - a.center;
-        vec3 away = normalize(from - dot(from, axis) / dot(axis, axis) * axis);
+        vec3 away = normalize(from - dot(from, axis) / max(dot(axis, axis), 1e-30) * axis);
         hit.normal = faceforward(away, gl_WorldRayDirectionEXT, away);
     }
     hit.lift = vec3(0.0);

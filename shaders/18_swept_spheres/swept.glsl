@@ -8,7 +8,7 @@
 // lies on a cap, a part of an end sphere. The body between the caps is k·(|p|² - r²) = (p·u + δ·r)².
 // Where k <= 0, one end holds the other, and is all there is.
 //
-// Roots are for the direction as given. swept_textbook() wants lengths whose fourth power is a float, the others
+// Roots are for the direction as given. swept_textbook() wants lengths whose sixth power is a float, the others
 // any between 1e-9 and 1e15.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 

@@ -257,6 +257,13 @@ fn hits_of_hair_rope_and_beads_are_the_references() {
     }
 }
 
+/// Beads have no axis to be perpendicular to.
+#[test]
+fn the_wrong_normal_is_a_number_everywhere() {
+    let shown = picture(SIZE, &["normal=axis", "show=normal"]);
+    assert!(shown.pixels.iter().flatten().all(|number| number.is_finite()));
+}
+
 /// No point of a segment lies outside its box.
 #[test]
 fn boxes_hold_their_segments() {
