@@ -141,14 +141,22 @@ Start start_height(Departure from) {
 }
 // ANCHOR_END: height
 
+// A vector of the mesh's space in the world, by the inverse of the matrix that goes the other way.
+vec3 into_world(mat3 to_mesh, vec3 v) {
+    vec3 x = cross(to_mesh[1], to_mesh[2]);
+    vec3 y = cross(to_mesh[2], to_mesh[0]);
+    vec3 z = cross(to_mesh[0], to_mesh[1]);
+    return vec3(dot(x, v), dot(y, v), dot(z, v)) / dot(x, to_mesh[0]);
+}
+
 // ANCHOR: magnitudes
 // Up by what enters the position: the largest coordinates of the corners, as seen along the normal. The
 // factor was found by trial: one to eight roundings were enough, and 32 leave room (Mitsuba 3, pull request
 // 1962, 2026; its meshes lie in the world, so the corners are taken there).
 Start start_magnitudes(Departure from) {
-    mat3 to_world = inverse(from.to_mesh);
-    vec3 a = from.position + to_world * from.to_a;
-    vec3 b = a + to_world * from.e1, c = a + to_world * from.e2;
+    vec3 a = from.position + into_world(from.to_mesh, from.to_a);
+    vec3 b = a + into_world(from.to_mesh, from.e1);
+    vec3 c = a + into_world(from.to_mesh, from.e2);
     vec3 largest = max(abs(a), max(abs(b), abs(c)));
     float height = 32.0 * ROUNDING * dot(abs(from.normal), largest);
     return Start(from.position + height * from.normal, 0.0);
