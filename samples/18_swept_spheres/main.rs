@@ -4,6 +4,7 @@
 //! normal of a cone, and the same strands as triangles.
 
 mod boxes;
+mod scenes;
 mod strands;
 mod strands_on_gpu;
 mod tubes;
@@ -19,7 +20,8 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
-use strands::{SceneKind, StrandAddresses};
+use scenes::SceneKind;
+use strands::StrandAddresses;
 use strands_on_gpu::{Build, Shape, StrandsOnGpu};
 
 fn main() -> ExitCode {
@@ -72,8 +74,8 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut source = setup.scene_or(Scene::chess)?;
-        source.model.materials.extend(strands::materials());
-        let (options, camera) = (setup.options, strands::camera(SceneKind::Board, 1.0));
+        source.model.materials.extend(scenes::materials());
+        let (options, camera) = (setup.options, scenes::camera(SceneKind::Board, 1.0));
         let build = Build { scene: SceneKind::Board, hairs: 10_000, shape: Shape::Swept, sides: 8 };
         let strands = StrandsOnGpu::new(gpu, &source, build, options, camera.eye.as_vec3(), None)?;
         let constants =
@@ -96,11 +98,11 @@ impl Sample for Demo {
     fn controls(&mut self, c: &mut Controls) {
         // A scene brings its view.
         if c.choice("scene", &mut self.build.scene) {
-            self.camera = strands::camera(self.build.scene, self.distance);
+            self.camera = scenes::camera(self.build.scene, self.distance);
         }
         let is_farther = c.slider("distance", &mut self.distance, 1.0..=1e5);
         if is_farther && self.build.scene == SceneKind::One {
-            self.camera = strands::camera(self.build.scene, self.distance);
+            self.camera = scenes::camera(self.build.scene, self.distance);
         }
         c.integer("hairs", &mut self.build.hairs, 0..=100_000);
         c.choice("rung", &mut self.constants.rung);

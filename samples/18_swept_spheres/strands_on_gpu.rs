@@ -8,7 +8,8 @@ use common::scene::{
 use glam::{Affine3A, Vec3};
 
 use crate::boxes::{self, reach};
-use crate::strands::{self, SceneKind, StrandAddresses, Strands};
+use crate::scenes::{self, SceneKind};
+use crate::strands::{StrandAddresses, Strands};
 use crate::tubes;
 
 /// How many triangles the tubes of all strands may have.
@@ -56,7 +57,7 @@ impl StrandsOnGpu {
         eye: Vec3,
         old: Option<&Self>,
     ) -> Result<Self> {
-        let material = source.model.materials.len() - strands::materials().count();
+        let material = source.model.materials.len() - scenes::materials().count();
         let strands = Strands::new(build.scene, build.hairs, material as u32);
         let mut source = source.clone();
         if build.scene != SceneKind::Board {

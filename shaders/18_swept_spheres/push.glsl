@@ -3,22 +3,9 @@
 #include "common/scene.glsl"
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
+#include "common/strand.glsl"
 
 // ANCHOR: strands
-struct Node {
-    vec3 center;
-    float radius;
-};
-
-// From the node `first` to the one after it. The next segment of a chain begins where this one ends.
-struct Segment {
-    uint first;
-    uint material;
-};
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Nodes { Node at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Segments { Segment at[]; };
-
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer StrandAddresses {
     Nodes nodes;
     Segments segments;
@@ -32,12 +19,6 @@ layout(push_constant, scalar) uniform Push {
     StrandAddresses strands;
     DirectionalLight light;
 } push;
-
-// What the intersection shader tells the closest hit shader.
-struct Crossing {
-    vec3 outward;   // unit normal
-    float s;        // of which ball of the swept sphere: 0 at its first end, 1 at its last
-};
 
 // What is fixed when the pipeline is made: code that cannot run is not even there.
 layout(constant_id = 0) const uint SHOW = 0;

@@ -11,18 +11,11 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT Crossing crossing;
 
 // ANCHOR: place
-// Computes the hit anew, from the shape and not from the ray: on the ball that touches the surface there, at its
-// end along the normal. And how far above the surface a leaving ray must start.
-//
-// As for a sphere in 08, a bound of 46u·r, and two roundings more: centre and radius are sums of the ends'.
-// Where a ray starts beside such a ball by an angle e, it lies r·e²/2 below the surface: the normal is off by less
-// than 64u, which adds nothing.
+// Where the hit is, and how far above the surface a leaving ray must start.
 void place_on_strand(Node a, Node b) {
-    precise vec3 center = crossing.s == 1.0 ? b.center : a.center + crossing.s * (b.center - a.center);
-    precise float radius = crossing.s == 1.0 ? b.radius : a.radius + crossing.s * (b.radius - a.radius);
-    precise vec3 point = center + radius * crossing.outward;
-    vec3 ends = max(abs(a.center), abs(b.center));
-    vec3 own = abs(point) + 4.0 * ends + vec3(50.0 * max(a.radius, b.radius));
+    vec3 own;
+    float radius;
+    vec3 point = strand_point(a, b, crossing, own, radius);
     precise vec3 world = vec3(gl_ObjectToWorldEXT * vec4(point, 1.0));
 
     mat3 linear = absolute(mat3(gl_ObjectToWorldEXT));

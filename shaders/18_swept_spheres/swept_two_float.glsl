@@ -2,7 +2,7 @@
 //
 // Numbers in two floats are those of chapter 24, and so is what they need: rounding to nearest, `precise`.
 #include "common/two_float.glsl"
-#include "swept.glsl"
+#include "common/swept.glsl"
 
 // ANCHOR: foot
 struct ExactFoot {
@@ -42,7 +42,7 @@ vec2 ff_inside(ExactFoot foot, vec2 r) {
 // ANCHOR_END: foot
 
 // ANCHOR: two_float
-bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root near, out Root far) {
+bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
     float speed = unit_of(largest(d));
     TwoFloat3 dir = ff_vector(speed * d);
     vec2 dd = ff_dot(dir, dir);
@@ -97,17 +97,13 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
         met = inside_a.x >= 0.0 || inside_b.x >= 0.0 || (off != 0.0 ? square.x >= 0.0 : met);
     }
     if (!met) {
-        near = Root(0.0, 0.0, vec3(0.0));
-        far = near;
         return false;
     }
 
     vec2 root = ff_sqrt(square);
     vec2 c = -ff_add(ff_mul(k, inside), mm);
     vec2 mn = ff_mul(m, n);
-    Root found[2];
-    for (int i = 0; i < 2; i++) {
-        float side = i == 0 ? -1.0 : 1.0;
+    for (float side = -1.0; side <= 1.0; side += 2.0) {
         vec2 beyond_a = ff_add(start_a, side * ff_mul(half_a, n));
         vec2 beyond_b = ff_add(start_b, side * ff_mul(half_b, n));
         bool is_a = k.x > 0.0 ? inside_a.x >= 0.0 && beyond_a.x <= 0.0 : !by_b;
@@ -118,7 +114,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
             start = is_a ? at_a.t : at_b.t;
             way = side * (is_a ? half_a : half_b);
             TwoFloat3 p = ff_moved(is_a ? at_a.p : at_b.p, way, dir);
-            found[i] = Root(0.0, is_a ? 0.0 : 1.0, ff_normalize(p));
+            first = Root(0.0, is_a ? 0.0 : 1.0, ff_normalize(p));
         } else {
             vec2 sum = ff_add(mn, side * root);
             vec2 other = ff_sub(mn, side * root);
@@ -128,12 +124,13 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root 
             precise float along = (by_b ? 1.0 : 0.0) + (off + ff_div(ff_add(height, ff_mul(delta, ball)), k).x);
             vec3 across = ff_normalize(ff_moved(p, -ff_div(height, uu), u));
             vec3 outward = normalize(sqrt(k.x / uu.x) * across - (delta.x / uu.x) * rounded(u));
-            found[i] = Root(0.0, clamp(along, 0.0, 1.0), outward);
+            first = Root(0.0, clamp(along, 0.0, 1.0), outward);
         }
-        found[i].t = ff_add(start, way).x * (speed * unit_of(unit));
+        first.t = ff_add(start, way).x * (speed * unit_of(unit));
+        if (first.t > tmin) {
+            return true;
+        }
     }
-    near = found[0];
-    far = found[1];
-    return true;
+    return false;
 }
 // ANCHOR_END: two_float

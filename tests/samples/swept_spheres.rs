@@ -17,13 +17,17 @@ use run::primary_hits::{answer, rays};
 use run::{bits, figures, golden, has_worst_arithmetic, render};
 
 #[allow(dead_code)]
+#[path = "../../samples/18_swept_spheres/scenes.rs"]
+mod scenes;
+#[allow(dead_code)]
 #[path = "../../samples/18_swept_spheres/strands.rs"]
 mod strands;
 
 use cases::{FAMILIES, cases};
 use direct::{Case, Found, ask, device};
 use judged::{Exact, Tally};
-use strands::{SceneKind, Segment, Strands};
+use scenes::SceneKind;
+use strands::{Segment, Strands};
 
 const NAME: &str = "18_swept_spheres";
 const SIZE: &str = "120x75";
@@ -183,7 +187,7 @@ fn swept(strands: &Strands, segment: &Segment) -> Swept {
 fn chains_have_no_seams() {
     let strands = Strands::new(SceneKind::Chain, 0, 0);
     let all: Vec<Swept> = strands.segments.iter().map(|segment| swept(&strands, segment)).collect();
-    let camera = strands::camera(SceneKind::Chain, 1.0);
+    let camera = scenes::camera(SceneKind::Chain, 1.0);
     for rung in ["stable", "two-float"] {
         let sets = ["scene=chain", &format!("rung={rung}")];
         let view = |show: &str| picture("240x150", &[&sets[..], &[show]].concat());
@@ -232,7 +236,7 @@ fn chains_have_no_seams() {
 #[test]
 fn hits_of_hair_rope_and_beads_are_the_references() {
     let strands = Strands::new(SceneKind::Board, 10_000, 0);
-    let camera = strands::camera(SceneKind::Board, 1.0);
+    let camera = scenes::camera(SceneKind::Board, 1.0);
     for (rung, bar) in [("stable", 16.0), ("two-float", 1.0)] {
         let rung = format!("rung={rung}");
         let [hits, directions] =
@@ -262,6 +266,18 @@ fn hits_of_hair_rope_and_beads_are_the_references() {
 fn the_wrong_normal_is_a_number_everywhere() {
     let shown = picture(SIZE, &["normal=axis", "show=normal"]);
     assert!(shown.pixels.iter().flatten().all(|number| number.is_finite()));
+}
+
+/// The ray through the middle meets the very point that a chain ends in.
+#[test]
+fn a_tip_has_a_normal_and_a_colour() {
+    let tip = ["scene=chain", "camera eye=2.1,0.55,5", "camera target=2.1,0.55,0"];
+    for show in ["show=normal", "show=picture"] {
+        let shown = picture("9x9", &[&tip[..], &[show]].concat());
+        assert!(shown.pixels.iter().flatten().all(|number| number.is_finite()), "{show}");
+    }
+    let hit = picture("9x9", &[&tip[..], &["show=hit"]].concat()).pixels[4 * 9 + 4];
+    assert_eq!((hit[0], hit[2]), (0.0, 5.0), "the only instance, at the tip's distance");
 }
 
 /// No point of a segment lies outside its box.

@@ -26,6 +26,7 @@ common::shader_struct! {
         b: Vec3,
         r: f32,
         q: f32,
+        tmin: f32,
     }
 }
 
@@ -41,8 +42,7 @@ common::shader_struct! {
 common::shader_struct! {
     struct Answer {
         hit: u32,
-        near: Root,
-        far: Root,
+        first: Root,
     }
 }
 
@@ -105,6 +105,7 @@ pub fn ask(gpu: &Gpu, rung: u32, cases: &[Case]) -> Vec<Option<Found>> {
         b: swept.ends[1].as_vec3(),
         r: swept.radii[0] as f32,
         q: swept.radii[1] as f32,
+        tmin: ray.tmin as f32,
     };
     let queries: Vec<Query> = cases.iter().map(query).collect();
     let input = Buffer::with_data(gpu, "queries", &queries, input_usage()).unwrap();
@@ -123,10 +124,9 @@ pub fn ask(gpu: &Gpu, rung: u32, cases: &[Case]) -> Vec<Option<Found>> {
     let mut answers: Vec<Answer> = output.read().unwrap();
     answers.truncate(cases.len());
     let first = |(answer, case): (Answer, &Case)| {
-        let roots = [answer.near, answer.far].into_iter();
-        let root =
-            roots.filter(|_| answer.hit != 0).find(|root| case.ray.contains(root.t.into()))?;
-        Some(Found { t: root.t, s: root.s, normal: root.outward.as_dvec3() })
+        let Root { t, s, outward } = answer.first;
+        let is_hit = answer.hit != 0 && case.ray.contains(t.into());
+        is_hit.then(|| Found { t, s, normal: outward.as_dvec3() })
     };
     answers.into_iter().zip(cases).map(first).collect()
 }

@@ -1,3 +1,5 @@
+// Taught by 18_swept_spheres.
+//
 // A ray against a swept sphere: all balls on the way from one end sphere to the other, their centre and
 // radius changing evenly. This is the convex hull of the two end spheres, a cone with round ends.
 //
@@ -8,7 +10,7 @@
 // lies on a cap, a part of an end sphere. The body between the caps is k·(|p|² - r²) = (p·u + δ·r)².
 // Where k <= 0, one end holds the other, and is all there is.
 //
-// Roots are for the direction as given. swept_textbook() wants lengths whose sixth power is a float, the others
+// Each way finds the first root beyond tmin, for the direction as given. swept_textbook() wants lengths whose sixth power is a float, the others
 // any between 1e-9 and 1e15.
 // `precise`: rounding is what this is about, so no compiler may rearrange it.
 
@@ -44,15 +46,15 @@ bool roots_textbook(float a, float b, float c, out vec2 t) {
 
 // Three quadratics as they stand: the body's and those of both ends. A root counts where its point lies on
 // that part.
-bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root near, out Root far) {
+bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
     precise vec3 u = b - a;
     precise vec3 f = o - a;
     precise float delta = q - r;
     precise float k = dot(u, u) - delta * delta;
     precise float n = dot(d, u);
     precise float m = dot(f, u) + delta * r;
-    near = Root(1e38, 0.0, vec3(0.0));
-    far = Root(-1e38, 0.0, vec3(0.0));
+    const float NONE = 1e38;
+    first = Root(NONE, 0.0, vec3(0.0));
     for (int part = 0; part < 3; part++) {
         precise vec3 from = part == 1 ? o - b : f;
         float radius = part == 1 ? q : r;
@@ -66,17 +68,15 @@ bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root n
         for (int i = 0; i < 2; i++) {
             precise float s = k > 0.0 ? (m + t[i] * n) / k : (q > r ? 1.0 : 0.0);
             bool counts = part == 0 ? s <= 0.0 : part == 1 ? s >= 1.0 : k > 0.0 && s > 0.0 && s < 1.0;
-            if (counts) {
+            if (counts && t[i] > tmin && t[i] < first.t) {
                 precise vec3 p = f + t[i] * d;
                 vec3 across = p - (dot(p, u) / dot(u, u)) * u;
                 vec3 outward = part == 2 ? body_normal(across, u, delta) : normalize(from + t[i] * d);
-                Root root = Root(t[i], clamp(s, 0.0, 1.0), outward);
-                if (root.t < near.t) near = root;
-                if (root.t > far.t) far = root;
+                first = Root(t[i], clamp(s, 0.0, 1.0), outward);
             }
         }
     }
-    return near.t <= far.t;
+    return first.t < NONE;
 }
 // ANCHOR_END: textbook
 
@@ -118,11 +118,9 @@ float half_chord(Foot foot, vec3 d, float r) {
 // ANCHOR_END: foot
 
 // ANCHOR: stable
-// Where the line enters (side -1) and leaves (side 1).
-//
 // The end spheres are computed first, from their own centre and radius alone. So two segments that share an
 // end compute its sphere alike, to the bit.
-bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root near, out Root far) {
+bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
     float speed = unit_of(largest(d));
     d *= speed;
     Foot at_a = foot_of(o - a, d);
@@ -176,9 +174,8 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
     precise float root = sqrt(max(k * (dd * m * m + bend * inside), 0.0));
     precise float c = -k * inside - m * m;
     precise float mn = m * n;
-    Root found[2];
-    for (int i = 0; i < 2; i++) {
-        float side = i == 0 ? -1.0 : 1.0;
+    // Where the line enters (side -1), and where it leaves.
+    for (float side = -1.0; met && side <= 1.0; side += 2.0) {
         // On which part? The surface is an end's where s(p) <= 0, or s(p) >= 1.
         precise float beyond_a = dot(at_a.p, u) + side * half_a * n + delta * r;
         precise float beyond_b = dot(at_b.p, u) + side * half_b * n + delta * q;
@@ -188,7 +185,7 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
             Foot own = is_a ? at_a : at_b;
             float way = side * (is_a ? half_a : half_b);
             precise float t = own.t + way;
-            found[i] = Root(t, is_a ? 0.0 : 1.0, normalize(own.p + way * d));
+            first = Root(t, is_a ? 0.0 : 1.0, normalize(own.p + way * d));
         } else {
             // The root whose terms have one sign, and the other from the product of both, c / bend.
             precise float sum = mn + side * root;
@@ -198,12 +195,13 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, out Root nea
             precise vec3 p = mid.p + way * d;
             precise float along = (by_b ? 1.0 : 0.0) + (off + (dot(p, u) + delta * ball) / k);
             precise vec3 across = p - (dot(p, u) / dot(u, u)) * u;
-            found[i] = Root(t, clamp(along, 0.0, 1.0), body_normal(across, u, delta));
+            first = Root(t, clamp(along, 0.0, 1.0), body_normal(across, u, delta));
         }
-        found[i].t *= speed * unit_of(unit);
+        first.t *= speed * unit_of(unit);
+        if (first.t > tmin) {
+            return true;
+        }
     }
-    near = found[0];
-    far = found[1];
-    return met;
+    return false;
 }
 // ANCHOR_END: stable
