@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use common::scene::{Camera, DiskLight, Light, Material, Scene, Sun};
 use glam::{Vec2, Vec3};
 
-use crate::{Box, Face, Finish, Solid, Sphere, ThinLens, is_glass};
+use crate::{Box, Face, Finish, Solid, Sphere, Strands, ThinLens, is_glass};
 
 /// A landscape in a box, as high as two waves say: hills, and ridges across.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +82,8 @@ pub struct Composition {
     pub faces: Vec<Face>,
     /// Corners of the boxes around the solids.
     pub solid_bounds: Vec<(Vec3, Vec3)>,
+    /// Swept spheres, likewise.
+    pub strands: Strands,
     /// The landscape, if there is one.
     pub heightfield: Option<Heightfield>,
     /// How bright the sky is, 0 to 1.
@@ -117,6 +119,7 @@ impl Composition {
             solids: Vec::new(),
             faces: Vec::new(),
             solid_bounds: Vec::new(),
+            strands: Strands::default(),
             heightfield: None,
             sky: 1.0,
             samples: 1,
@@ -140,7 +143,8 @@ impl Composition {
         let spheres = self.spheres.iter().map(|sphere| sphere.material as usize);
         let boxes = self.boxes.iter().map(|b| b.material as usize);
         let solids = self.solids.iter().map(|solid| solid.material as usize);
-        meshes.chain(spheres).chain(boxes).chain(solids).collect()
+        let strands = self.strands.segments.iter().map(|segment| segment.material as usize);
+        meshes.chain(spheres).chain(boxes).chain(solids).chain(strands).collect()
     }
 
     /// The finishes, if any material in use has one; shaders read no others.

@@ -19,6 +19,8 @@ common::shader_enum! {
         Spheres,
         /// Boxes that a shader intersects (08).
         Boxes,
+        /// Spheres swept along segments (18).
+        SweptSpheres = "swept spheres",
         /// A landscape that a shader marches over (21).
         Heightfield,
         /// A plane without end (12).

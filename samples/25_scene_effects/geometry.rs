@@ -72,6 +72,12 @@ impl SceneGeometry {
         geometry.shapes.solids = geometry.records(gpu, "solids", &from.solids, &order)?;
         let as_they_come: Vec<u32> = (0..from.faces.len() as u32).collect();
         geometry.shapes.faces = geometry.records(gpu, "faces", &from.faces, &as_they_come)?;
+        let order = geometry.level(gpu, GeometryKind::Strand, &from.strands.bounds())?;
+        geometry.shapes.segments =
+            geometry.records(gpu, "segments", &from.strands.segments, &order)?;
+        let as_they_come: Vec<u32> = (0..from.strands.nodes.len() as u32).collect();
+        geometry.shapes.nodes =
+            geometry.records(gpu, "nodes", &from.strands.nodes, &as_they_come)?;
         let finishes = from.finishes_to_read();
         let as_they_come: Vec<u32> = (0..finishes.len() as u32).collect();
         geometry.shapes.finishes = geometry.records(gpu, "finishes", finishes, &as_they_come)?;
@@ -214,7 +220,9 @@ fn reach(scene: &Composition, eye: Vec3) -> f32 {
     let boxes = scene.boxes.iter().map(|b| (b.low, b.high));
     let ground = scene.heightfield.iter().map(crate::ground::bounds);
     let solids = scene.solid_bounds.iter().copied();
-    let all: Vec<_> = meshes.chain(spheres).chain(boxes).chain(ground).chain(solids).collect();
+    let strands = scene.strands.bounds();
+    let all: Vec<_> =
+        meshes.chain(spheres).chain(boxes).chain(ground).chain(solids).chain(strands).collect();
     let lens = 0.5 * scene.lens.diameter;
     let (low, high) = around(&[around(&all), (eye - lens, eye + lens)]);
     // A plane goes on beyond all that; a shadow's ray that begins ten times as far is a speck.

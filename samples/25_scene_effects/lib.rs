@@ -1,7 +1,7 @@
 //! What scenes call for: effects, found from a scene alone, and the scene files that say what there is.
 //!
 //! Nothing here knows a device. The chapter makes its pipelines from these bits; its tests make scenes from
-//! them. What chapters 27, 28 and 29 teach of the host is read from their own files.
+//! them. What chapters 18, 27, 28 and 29 teach of the host is read from their own files.
 
 #[path = "../29_emitters/alias.rs"]
 mod alias;
@@ -19,6 +19,8 @@ mod lamps;
 #[path = "../28_depth_of_field/lens.rs"]
 mod lens;
 mod shapes;
+#[path = "../18_swept_spheres/strands.rs"]
+mod strands;
 
 pub use alias::Column;
 pub use composition::{BoardPlane, Composition, FOCUS, Heightfield, MAX_LIGHTS, SceneLight};
@@ -31,3 +33,4 @@ pub use glass::{Glass, GlassKind, is_glass};
 pub use lamps::Lamps;
 pub use lens::{Lens, ThinLens};
 pub use shapes::{Box, Face, Solid, Sphere};
+pub use strands::{Node, Segment, Strands};

@@ -21,16 +21,19 @@ pub enum GeometryKind {
     Ground,
     /// Convex solids.
     Solid,
+    /// Swept spheres.
+    Strand,
 }
 
 impl GeometryKind {
     /// All kinds, in the order of hit records and mask bits, each with the effect that calls for it.
-    pub const ALL: [(Self, Effect); 5] = [
+    pub const ALL: [(Self, Effect); 6] = [
         (Self::Mesh, Triangles),
         (Self::Sphere, Spheres),
         (Self::Box, Boxes),
         (Self::Ground, Heightfield),
         (Self::Solid, Solids),
+        (Self::Strand, SweptSpheres),
     ];
 
     /// Its bit of the cull mask.
@@ -108,6 +111,7 @@ impl Recipe {
             GeometryKind::Box => HitGroup::procedural("box.rint").closest_hit("shape.rchit"),
             GeometryKind::Ground => HitGroup::procedural("ground.rint").closest_hit("ground.rchit"),
             GeometryKind::Solid => HitGroup::procedural("solid.rint").closest_hit("solid.rchit"),
+            GeometryKind::Strand => HitGroup::procedural("strand.rint").closest_hit("strand.rchit"),
         }
     }
     // ANCHOR_END: groups

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 19] = [
+pub const SCENES: [&str; 20] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -17,6 +17,7 @@ pub const SCENES: [&str; 19] = [
     "bauhaus",
     "mirror balls",
     "solids",
+    "knot",
     "lake",
     "colonnade",
     "painted room",
@@ -28,9 +29,9 @@ pub const SCENES: [&str; 19] = [
 ];
 
 /// What the chapter begins with.
-pub const EVERYTHING: u32 = 17;
+pub const EVERYTHING: u32 = 18;
 /// Where `--scene` names a file.
-pub const FILE: u32 = 18;
+pub const FILE: u32 = 19;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -7,7 +7,7 @@ use common::scene::plane::Plane;
 use common::scene::{DiskLight, Light, LightKind};
 use effects::{
     BoardPlane, Column, Composition, Emitter, EmitterAddresses, Face, Finish, Glass, Lens,
-    MAX_LIGHTS, Solid, Sphere,
+    MAX_LIGHTS, Node, Segment, Solid, Sphere,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -23,6 +23,10 @@ pub struct Shapes {
     pub boxes: vk::DeviceAddress,
     /// Of [`effects::Solid`].
     pub solids: vk::DeviceAddress,
+    /// Of [`effects::Node`].
+    pub nodes: vk::DeviceAddress,
+    /// Of [`effects::Segment`].
+    pub segments: vk::DeviceAddress,
     /// Of [`effects::Face`].
     pub faces: vk::DeviceAddress,
     /// Of [`effects::Finish`].
@@ -62,6 +66,8 @@ common::shader_struct! {
         pub boxes: Address,
         pub solids: Address,
         pub faces: Address,
+        pub nodes: Address,
+        pub segments: Address,
         pub finishes: Address,
         pub glasses: Address,
         pub emitters: EmitterAddresses,
@@ -86,7 +92,7 @@ common::shader_struct! {
 }
 
 /// What lies behind the world's address.
-pub const LAYOUTS: [StructLayout; 17] = [
+pub const LAYOUTS: [StructLayout; 19] = [
     World::LAYOUT,
     Plane::LAYOUT,
     Board::LAYOUT,
@@ -98,6 +104,8 @@ pub const LAYOUTS: [StructLayout; 17] = [
     effects::Box::LAYOUT,
     Solid::LAYOUT,
     Face::LAYOUT,
+    Node::LAYOUT,
+    Segment::LAYOUT,
     Finish::LAYOUT,
     Glass::LAYOUT,
     Lens::LAYOUT,
@@ -134,6 +142,8 @@ impl World {
             boxes: shapes.boxes.into(),
             solids: shapes.solids.into(),
             faces: shapes.faces.into(),
+            nodes: shapes.nodes.into(),
+            segments: shapes.segments.into(),
             finishes: shapes.finishes.into(),
             glasses: shapes.glasses.into(),
             emitters: shapes.emitters.unwrap_or_else(Zeroable::zeroed),

@@ -11,6 +11,7 @@
 #include "common/heightfield.glsl"
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
+#include "common/strand.glsl"
 #include "lens.glsl"
 
 // All that shines.
@@ -96,6 +97,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     Boxes boxes;
     Solids solids;
     Faces faces;
+    Nodes nodes;          // of all strands
+    Segments segments;
     Finishes finishes;
     Glasses glasses;
     EmitterAddresses emitters;

@@ -251,6 +251,14 @@ fn things_that_are_wrong() {
         &solid("[1, 1, 1, -1], [1, -1, -1, -1], [-1, 1, -1, -1], [-1, -1, 1, -1]"),
         "s.toml:8: the planes enclose nothing, or a body thinner than 1e-6; a normal points out of the solid",
     );
+    let strand = |nodes: &str| format!("{PAINT}[[strand]]\nmaterial = \"a\"\nnodes = {nodes}\n");
+    table_refused(&strand("[[0, 1, 0, 1]]"), "s.toml:10: 1 nodes; a strand has 2 or more");
+    table_refused(&strand("[[0, 1, 0], [0, 2, 0, 1]]"), "s.toml:10: 3 numbers where there are 4");
+    table_refused(
+        &strand("[[0, 1, 0, 1], [0, 2, 0, -1]]"),
+        "s.toml:10: -1.0 is not a number from 0 to 1000000",
+    );
+    table_refused(&strand("7"), "s.toml:10: 7 is no list of balls, such as [[0, 1, 0, 0.1], …]");
     table_refused(
         &solid(&"[0, 1, 0, 1],".repeat(2000)),
         "s.toml:11: 2000 planes; a solid has 4 to 24",

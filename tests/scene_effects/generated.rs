@@ -22,13 +22,13 @@ pub fn possible(mut set: Effects) -> Effects {
     if !set.has_any(&[PointShadows, DirectionalShadows]) {
         set = set.without(AreaLight);
     }
-    if !set.has_any(&[Triangles, Spheres, Boxes, Plane, Solids]) {
+    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Plane, Solids]) {
         set = set.without(Mirror);
     }
     if !set.has_any(&[Triangles, Spheres]) {
         set = set.without(Emitters);
     }
-    if !set.has_any(&[Triangles, Spheres, Boxes, Solids]) {
+    if !set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) {
         set = set.without(Patterns).without(Glass);
     }
     set
@@ -74,7 +74,7 @@ pub fn all_pairs() -> Vec<Effects> {
 /// Whether there is something to see, and no ray leaves it: only a pipeline without such rays computes no start.
 fn leaves_nothing(set: &Effects) -> bool {
     let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
-    set.has_any(&[Triangles, Spheres, Boxes, Solids]) && !set.has_any(&leaving)
+    set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)
 }
 
 /// Eight of sixteen, without the first.
@@ -248,6 +248,15 @@ fn text(set: Effects, random: &mut Random) -> String {
                 x + 0.5,
                 n(0.3, 1.0),
                 z + 0.5
+            );
+        }
+        let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
+        if has(SweptSpheres) {
+            text += &format!(
+                "[[strand]]\nnodes = [[{x}, 0.3, {z}, 0.2], [{x}, {}, {z}, 0.1], [{}, 1.1, {z}, 0]]\n\
+                 material = \"{material}\"\n",
+                n(0.6, 0.9),
+                n(-2.5, 2.5)
             );
         }
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));

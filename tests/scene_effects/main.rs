@@ -23,7 +23,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects that each calls for, and the stages, by hand. Every pipeline
 /// has `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 18] = [
+const SCENES: [(&str, &[Effect], &[&str]); 19] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -54,6 +54,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 18] = [
         "solids",
         &[Plane, Solids, DirectionalShadows],
         &["shadow.rmiss", "solid.rint", "solid.rchit"],
+    ),
+    (
+        "knot",
+        &[SweptSpheres, Plane, DirectionalShadows, Mirror],
+        &["shadow.rmiss", "strand.rint", "strand.rchit"],
     ),
     (
         "lake",
@@ -96,7 +101,7 @@ const SCENES: [(&str, &[Effect], &[&str]); 18] = [
     ("everything", Effect::ALL, &EVERY_STAGE),
 ];
 
-const EVERY_STAGE: [&str; 10] = [
+const EVERY_STAGE: [&str; 12] = [
     "shadow.rmiss",
     "mesh.rchit",
     "cut_out.rahit",
@@ -107,6 +112,8 @@ const EVERY_STAGE: [&str; 10] = [
     "ground.rchit",
     "solid.rint",
     "solid.rchit",
+    "strand.rint",
+    "strand.rchit",
 ];
 
 fn run(size: &str, scene: &[&str], sets: &[&str]) -> Run {
@@ -170,7 +177,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     }
     let groups = &pipeline["groups"];
     let misses = 1 + u64::from(shadows);
-    let kinds = [Triangles, Spheres, Boxes, Heightfield, Solids];
+    let kinds = [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids];
     let hits = kinds.into_iter().filter(|&kind| effects.has(kind)).count();
     assert_eq!(groups, &json!({ "raygen": 1, "miss": misses, "hit": hits }), "{name}");
     assert_eq!(pipeline["recursion"], 1, "{name}");
@@ -342,7 +349,8 @@ fn every_effect_that_a_chapter_declares_is_in_the_table_and_in_the_shaders() {
         assert!(everything.contains(&format!("#define {define}\n")), "effects.glsl lacks {define}");
         // Each effect has a stage or a line of its own. Geometry has none: its stages are chosen.
         let used = sources.iter().filter(|text| text.contains(&define)).count();
-        let geometry = [Triangles, Spheres, Boxes, Heightfield, Solids].contains(&effect);
+        let geometry =
+            [Triangles, Spheres, Boxes, SweptSpheres, Heightfield, Solids].contains(&effect);
         assert!(used > 1 || geometry, "no shader asks for {define}");
     }
 }
@@ -374,13 +382,22 @@ fn the_page_of_the_format_lists_every_key() {
     let page = format_page();
     // What the reader of files says that it knows, table by table.
     let tables = ["[camera]", "[picture]", "[plane]", "[heightfield]"];
-    let lists = ["[[light]]", "[[material]]", "[[piece]]", "[[sphere]]", "[[box]]", "[[solid]]"];
+    let lists = [
+        "[[light]]",
+        "[[material]]",
+        "[[piece]]",
+        "[[sphere]]",
+        "[[box]]",
+        "[[solid]]",
+        "[[strand]]",
+    ];
     let folder = tempfile::tempdir().unwrap();
     for table in tables.iter().chain(&lists).chain(&[""]) {
         let file = folder.path().join("s.toml");
         std::fs::write(&file, format!("version = 1\n{table}\nunheard_of = 1\n")).unwrap();
         let error = effects::open(&file).err().unwrap().to_string();
-        let known = error.split_once("expected one of ").expect(&error).1;
+        let known = error.split_once("expected ").expect(&error).1.trim_start_matches("one of ");
+        let known = known.replace(" or ", ", ");
         let rows =
             page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
         let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];

@@ -180,6 +180,26 @@ pub fn faces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f64; 4]>, D::Err
     }
 }
 
+/// A chain's balls: a centre and a radius, each.
+pub fn nodes<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f32; 4]>, D::Error> {
+    let value = Value::deserialize(from)?;
+    let Value::Array(nodes) = &value else {
+        let what = format!("{} is no list of balls, such as [[0, 1, 0, 0.1], …]", shown(&value));
+        return Err(D::Error::custom(what));
+    };
+    let nodes: Vec<[f64; 4]> = nodes.iter().map(numbers).collect::<Result<_, _>>()?;
+    for &[x, y, z, radius] in &nodes {
+        for part in [x, y, z] {
+            check(part, -FAR, FAR)?;
+        }
+        check(radius, 0.0, FAR)?;
+    }
+    match nodes.len() {
+        0 | 1 => Err(D::Error::custom(format!("{} nodes; a strand has 2 or more", nodes.len()))),
+        _ => Ok(nodes.into_iter().map(|node| node.map(|part| part as f32)).collect()),
+    }
+}
+
 /// A direction of any length but 0.
 pub fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     let direction = point(from)?;

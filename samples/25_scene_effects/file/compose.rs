@@ -8,7 +8,7 @@ use common::scene::text::{Folder, quoted};
 use common::scene::{
     Camera, Instance, Material, Mesh, Model, REACH, Scene, assets, obj, place_position,
 };
-use glam::{Affine3A, Mat3A};
+use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
 
 use super::description::{CameraTable, Description, LensTable, PieceTable, PlaneTable};
@@ -16,7 +16,7 @@ use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
 use crate::composition::{close, pinhole};
-use crate::{Box, Composition, Finish, MAX_LIGHTS, Sphere, ThinLens, is_glass};
+use crate::{Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLens, is_glass};
 
 /// Pieces, spheres, boxes, solids and materials, each.
 const MOST: usize = 100_000;
@@ -33,6 +33,7 @@ impl Description {
         source.check(&self.sphere, MOST, "spheres")?;
         source.check(&self.boxes, MOST, "boxes")?;
         source.check(&self.solid, MOST, "solids")?;
+        source.check(&self.strand, MOST, "strands")?;
         let mut model = self.model(path, source)?;
         let (materials, finishes) = self.paint(&mut model.materials, source)?;
         let view = self.camera.get_ref();
@@ -65,6 +66,7 @@ impl Description {
             solids: Vec::new(),
             faces: Vec::new(),
             solid_bounds: Vec::new(),
+            strands: Strands::default(),
             heightfield: heightfield.transpose()?,
             sky: self.sky,
             samples: self.picture.samples,
@@ -175,6 +177,12 @@ impl Description {
                     .map_err(|what| source.error(at, what))?;
             to.solids.push(solid);
             to.solid_bounds.push(bounds);
+        }
+        for chain in self.strand.iter().map(Spanned::get_ref) {
+            let material = opaque(model, materials, &chain.material, source)?;
+            let nodes = chain.nodes.iter();
+            let node = |&[x, y, z, radius]: &[f32; 4]| Node { center: Vec3::new(x, y, z), radius };
+            to.strands.chain(nodes.map(node), material);
         }
         Ok(())
     }

@@ -40,6 +40,8 @@ pub(super) struct Description {
     pub(super) boxes: Vec<Spanned<BoxTable>>,
     #[serde(default)]
     pub(super) solid: Vec<Spanned<SolidTable>>,
+    #[serde(default)]
+    pub(super) strand: Vec<Spanned<StrandTable>>,
     pub(super) heightfield: Option<Spanned<HeightfieldTable>>,
 }
 
@@ -206,6 +208,14 @@ pub(super) struct SolidTable {
     pub(super) center: Vec3,
     #[serde(deserialize_with = "bounded::faces")]
     pub(super) planes: Vec<[f64; 4]>,
+    pub(super) material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table, [[strand]]")]
+pub(super) struct StrandTable {
+    #[serde(deserialize_with = "bounded::nodes")]
+    pub(super) nodes: Vec<[f32; 4]>,
     pub(super) material: Spanned<String>,
 }
 
