@@ -75,7 +75,7 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmi
     vec2 start_b = ff_add(ff_dot(at_b.p, u), ff_mul(delta, q));
     bool by_b = k.x <= 0.0 ? q > r
         : bend.x > 0.0 ? start_a.x * dd.x / bend.x > 0.5
-        : inside_b.x > inside_a.x;
+        : q < r;
     float off = 0.0;
     if (k.x > 0.0 && bend.x > 0.0) {
         off = by_b ? min(start_b.x * dd.x / bend.x, 0.0) : max(start_a.x * dd.x / bend.x, 0.0);

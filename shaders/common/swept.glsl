@@ -143,14 +143,15 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, 
     precise float dd = dot(d, d);
 
     // Of all balls, the one that the line passes nearest by, or enters deepest: |p|² - radius² is least. If one
-    // end holds the other, it is that end.
+    // end holds the other, it is that end. If the line leans less from the axis than the body does, both ends
+    // decide, and the smaller one is nearer to the apex, the only place where two roots of the body meet.
     precise float bend = dot(cross(d, u), cross(d, u)) - delta * delta * dd;
     // It is found from the nearer end, so that near a tip no term is larger than what is left of the radius.
     precise float from_a = (dot(at_a.p, u) + delta * r) * dd / bend;
     precise float from_b = (dot(at_b.p, u) + delta * q) * dd / bend;
     bool by_b = k <= 0.0 ? q > r
         : bend > 0.0 ? from_a > 0.5
-        : dot(at_a.p, at_a.p) - r * r > dot(at_b.p, at_b.p) - q * q;
+        : q < r;
     float off = k > 0.0 && bend > 0.0 ? (by_b ? min(from_b, 0.0) : max(from_a, 0.0)) : 0.0;
     Foot end = by_b ? at_b : at_a;
     Foot mid = end;

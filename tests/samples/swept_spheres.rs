@@ -70,9 +70,7 @@ fn hold_top(family: &str, tally: &Tally, roundings: f64) {
     assert_eq!(tally.wrong(), 0, "{what}");
     assert!(tally.hits > 150 && tally.tangents < 10, "{family}: {} hits", tally.hits);
     assert!(tally.ulp_at(1.0) <= 1.0, "{family}: t is off by {} ULP", tally.ulp_at(1.0));
-    // Near a tip the radius is down to a ten-thousandth, and the normal turns by the point's error over it.
-    let turns = if family == "tips" { 256.0 } else { 1.0 };
-    let most = turns * roundings / 16_777_216.0;
+    let most = roundings / 16_777_216.0;
     assert!(tally.normal_at(1.0) <= most, "{family}: a normal is off by {}", tally.normal_at(1.0));
 }
 
@@ -102,7 +100,9 @@ fn all_rungs_by_the_driver() {
     for (name, wrong) in RUNGS.iter().zip(all_wrong) {
         held.insert(format!("all.{name}.wrong"), json!(wrong));
     }
-    figures::hold("18_swept_spheres/rungs", Value::Object(held));
+    if cases::seed().is_none() {
+        figures::hold("18_swept_spheres/rungs", Value::Object(held));
+    }
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! What a rung says of a family, held to the exact answers.
 
+use glam::DVec3;
 use reference::Surface;
+use reference::swept::Swept;
 use reference::ulp::ulp_error;
 
 use super::direct::{Case, Found};
@@ -52,7 +54,9 @@ impl Tally {
                 }
                 _ => {
                     let grown = |factor| case.swept.intersect_grown(&case.ray, factor).is_some();
-                    if grown(1.0 + TANGENT) != grown(1.0 - TANGENT) {
+                    if grown(1.0 + TANGENT) != grown(1.0 - TANGENT)
+                        || hit.is_some() && touches_tip(case)
+                    {
                         tally.tangents += 1;
                         continue;
                     }
@@ -79,6 +83,16 @@ impl Tally {
     pub fn normal_at(&self, part: f64) -> f64 {
         at(&self.normals, part)
     }
+}
+
+/// Whether a ray that hits the shape meets a tip, a ball of radius 0, and nothing else: no hit without it.
+fn touches_tip(case: &Case) -> bool {
+    let [a, b] = case.swept.ends;
+    let radii = case.swept.radii;
+    let shorter =
+        |end: f64, from, to: DVec3| if end == 0.0 { to.lerp(from, 1.0 - TANGENT) } else { from };
+    let ends = [shorter(radii[0], a, b), shorter(radii[1], b, a)];
+    ends != [a, b] && Swept { ends, radii }.intersect(&case.ray).is_none()
 }
 
 fn at(sorted: &[f64], part: f64) -> f64 {
