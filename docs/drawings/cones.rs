@@ -40,7 +40,7 @@ fn from_the_side(s: &mut Sheet) {
     s.note([eye.x, eye.y - 12.0], Middle, "eye");
     s.say([hit.x - 118.0, hit.y - 96.0], Start, "the cone's width, w = spread · t");
     s.line(&[[hit.x - 20.0, hit.y - 90.0], [hit.x + 4.0, hit.y - 30.0]], LINE, 1.0);
-    s.say([hit.x, floor + 28.0], Middle, "along the surface: w / cosine");
+    s.say([hit.x, floor + 50.0], Middle, "along the surface: w / cosine");
     s.note([24.0, 72.0], Start, "from the side");
 }
 

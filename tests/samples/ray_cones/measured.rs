@@ -93,7 +93,7 @@ fn time_by_distance_and_angle() {
             let compare = format!("footprint={}", FOOTPRINTS.join("|"));
             let mut arguments = vec!["--frames", "15", "--compare", &compare];
             arguments.extend(from.iter().flat_map(|set| ["--set", set]));
-            let report = render(NAME, "240x150", &arguments).report;
+            let report = render(NAME, "480x300", &arguments).report;
             for (i, footprint) in FOOTPRINTS.iter().enumerate() {
                 let ratio =
                     report["comparison"]["values"][i]["ratio"]["median"].as_f64().expect("a ratio");
