@@ -41,8 +41,10 @@ Row row_of(vec2 a, vec2 b, vec2 size) {
     float count = 1.0;
     // What is no number, or endless, is one lookup.
     if (longer > 1.0 && longer < 1e9) {
+        // Not max(), which may hand on what is no number.
+        float wide = shorter > 1.0 ? shorter : 1.0;
         // A tenth of a lookup is not worth a whole one: lookups may lie that much farther apart.
-        count = clamp(ceil(longer / max(shorter, 1.0) - 0.1), 1.0, MOST);
+        count = clamp(ceil(longer / wide - 0.1), 1.0, MOST);
     }
     vec2 between = count > 1.0 ? (is_a ? a : b) / count : vec2(0.0);
     return Row(between, int(count), level_of(max(longer / count, shorter)));
