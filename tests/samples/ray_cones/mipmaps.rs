@@ -18,9 +18,8 @@ fn means(texture: &Texture, step: u32, value: fn(u8) -> f64) -> Vec<[f64; 3]> {
         for k in 0..step * step {
             let (x, y) = (i % side * step + k % step, i / side * step + k / step);
             let texel = 4 * (y * texture.width + x) as usize;
-            for c in 0..3 {
-                sum[c] += value(texture.rgba[texel + c]);
-            }
+            let rgb = texture.rgba[texel..].iter();
+            sum.iter_mut().zip(rgb).for_each(|(sum, &code)| *sum += value(code));
         }
         sum.map(|sum| sum / f64::from(step * step))
     };
