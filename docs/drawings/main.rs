@@ -4,6 +4,7 @@
 //! A drawing that shows data computes it: the hill, the solids and the triangles are real ones.
 
 mod calls;
+mod cones;
 mod floats;
 mod lens;
 mod lights;
@@ -33,6 +34,7 @@ const DRAWINGS: &[Drawing] = &[
     ("any_hit_order", calls::any_hit_order),
     ("barycentrics", rays::barycentrics),
     ("edge_plane", rays::edge_plane),
+    ("ellipse", cones::ellipse),
     ("footprint", rays::footprint),
     ("from_raster", rays::from_raster),
     ("heightfield_steps", march::steps),

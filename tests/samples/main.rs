@@ -25,6 +25,7 @@ mod path_tracing;
 mod pixel;
 mod position_fetch;
 mod primitive_order;
+mod ray_cones;
 mod ray_query;
 mod ray_query_raster;
 mod reflection;

@@ -1,6 +1,7 @@
 //! A two-dimensional image: the picture that rays write, a texture that they read, or what a rasteriser
 //! draws to.
 
+mod mipmaps;
 mod texels;
 
 use anyhow::{Context, Result, ensure};
@@ -36,7 +37,7 @@ pub(super) const COPY: vk::BufferImageCopy = vk::BufferImageCopy {
     image_extent: vk::Extent3D { width: 0, height: 0, depth: 1 },
 };
 
-/// A `VkImage` with one mip level, its memory and a view, freed on drop.
+/// A `VkImage`, its memory and a view, freed on drop. Of all images only textures may have more than one mip level.
 pub struct Image {
     /// The Vulkan handle.
     pub handle: vk::Image,
@@ -46,6 +47,7 @@ pub struct Image {
     pub extent: vk::Extent2D,
     /// The format.
     pub format: vk::Format,
+    levels: u32,
     memory: Option<Memory>,
     gpu: Gpu,
 }
@@ -60,7 +62,7 @@ impl Image {
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let format = vk::Format::R32G32B32A32_SFLOAT;
-        let image = Self::new(gpu, name, extent, format, format, usage)?;
+        let image = Self::new(gpu, name, extent, format, format, usage, 1)?;
         gpu.submit(|cmd| {
             let layout = vk::ImageLayout::GENERAL;
             image.transition(cmd, vk::ImageLayout::UNDEFINED, layout);
@@ -92,7 +94,7 @@ impl Image {
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
-        Self::new(gpu, name, extent, format, view_format, usage)
+        Self::new(gpu, name, extent, format, view_format, usage, 1)
     }
 
     /// An image that is drawn to, for colour or depth as its format says, and for what else `usage` names;
@@ -119,7 +121,7 @@ impl Image {
             vk::ImageAspectFlags::DEPTH => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
             _ => vk::ImageUsageFlags::COLOR_ATTACHMENT,
         };
-        Self::new(gpu, name, extent, format, format, usage | drawn)
+        Self::new(gpu, name, extent, format, format, usage | drawn, 1)
     }
 
     fn new(
@@ -129,6 +131,7 @@ impl Image {
         format: vk::Format,
         view_format: vk::Format,
         usage: vk::ImageUsageFlags,
+        levels: u32,
     ) -> Result<Self> {
         let (width, height) = (extent.width, extent.height);
         let limit = gpu.limits.core.max_image_dimension2_d;
@@ -144,7 +147,7 @@ impl Image {
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
             .extent(extent.into())
-            .mip_levels(1)
+            .mip_levels(levels)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .usage(usage);
@@ -152,7 +155,8 @@ impl Image {
         // SAFETY: the device is alive; `image` destroys the handles on every path.
         let handle = unsafe { gpu.device.create_image(&info, None) }.with_context(too_large)?;
         let view = vk::ImageView::null();
-        let mut image = Self { handle, view, extent, format, memory: None, gpu: gpu.clone() };
+        let mut image =
+            Self { handle, view, extent, format, levels, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
         let memory = Memory::new(gpu, name, requirements, MemoryLocation::GpuOnly, false)
@@ -173,9 +177,10 @@ impl Image {
         Ok(image)
     }
 
-    /// The one mip level and layer, of colour or depth.
+    /// All mip levels of the one layer, of colour or depth.
     pub fn range(&self) -> vk::ImageSubresourceRange {
-        vk::ImageSubresourceRange { aspect_mask: aspect(self.format), ..WHOLE }
+        let aspect_mask = aspect(self.format);
+        vk::ImageSubresourceRange { aspect_mask, level_count: self.levels, ..WHOLE }
     }
 
     /// Changes the layout; everything before is done, and visible to everything after.
@@ -206,7 +211,7 @@ impl Image {
     }
 }
 
-/// Changes the layout of any image of one level; everything before is done, and visible to
+/// Changes the layout of the first level of any image; everything before is done, and visible to
 /// everything after.
 pub fn transition(
     gpu: &Gpu,
@@ -215,9 +220,21 @@ pub fn transition(
     from: vk::ImageLayout,
     to: vk::ImageLayout,
 ) {
+    transition_level(gpu, cmd, image, 0, [from, to]);
+}
+
+/// As [`transition`], of one mip level.
+pub(super) fn transition_level(
+    gpu: &Gpu,
+    cmd: vk::CommandBuffer,
+    image: vk::Image,
+    level: u32,
+    [from, to]: [vk::ImageLayout; 2],
+) {
+    let range = vk::ImageSubresourceRange { base_mip_level: level, ..WHOLE };
     let barriers = [vk::ImageMemoryBarrier2::default()
         .image(image)
-        .subresource_range(WHOLE)
+        .subresource_range(range)
         .old_layout(from)
         .new_layout(to)
         .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)

@@ -21,26 +21,31 @@ pub struct TextureTable {
 }
 
 impl TextureTable {
-    /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly.
+    /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly. With
+    /// `mipmaps` they have all mip levels, and a lookup between two levels blends them.
     ///
     /// # Errors
     /// If the device has no room for so many.
-    pub fn new(gpu: &Gpu, textures: &[Texels]) -> Result<Self> {
+    pub fn new(gpu: &Gpu, textures: &[Texels], mipmaps: bool) -> Result<Self> {
         // Neither an array of no textures is allowed nor a slot that was never filled.
         let extent = vk::Extent2D { width: 1, height: 1 };
         let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
         let textures = if textures.is_empty() { &none } else { textures };
         let count = textures.len() as u32;
         fits(count, gpu.limits.max_textures(), &gpu.name)?;
-        let images = Image::textures(gpu, textures)?;
+        let images = Image::textures(gpu, textures, mipmaps)?;
         let sizes = [vk::DescriptorPoolSize { ty: TYPE, descriptor_count: count }];
         let pool_info = vk::DescriptorPoolCreateInfo::default()
             .flags(vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND)
             .max_sets(1)
             .pool_sizes(&sizes);
-        let sampler_info = vk::SamplerCreateInfo::default()
+        let mut sampler_info = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR);
+        if mipmaps {
+            let between_levels = vk::SamplerMipmapMode::LINEAR;
+            sampler_info = sampler_info.mipmap_mode(between_levels).max_lod(vk::LOD_CLAMP_NONE);
+        }
         let mut table = Self {
             layout: Self::layout(gpu, count)?,
             set: vk::DescriptorSet::null(),

@@ -39,7 +39,7 @@ pub struct SceneOnGpu {
     _buffers: Vec<Buffer>,
 }
 
-/// How a scene's acceleration structures are built.
+/// How a scene is uploaded and its acceleration structures are built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneOptions {
     /// Order primitives and instances in space before the build.
@@ -49,11 +49,14 @@ pub struct SceneOptions {
     /// Keep positions in the bottom levels alone: hit shaders fetch corners from there, and vertices are
     /// freed after the build.
     pub position_fetch: bool,
+    /// Make all mip levels of the textures.
+    pub mipmaps: bool,
 }
 
 impl Default for SceneOptions {
     fn default() -> Self {
-        Self { ordering: true, no_duplicate_any_hit: false, position_fetch: false }
+        let (no_duplicate_any_hit, position_fetch, mipmaps) = (false, false, false);
+        Self { ordering: true, no_duplicate_any_hit, position_fetch, mipmaps }
     }
 }
 
@@ -76,7 +79,8 @@ impl SceneOnGpu {
             rgba: &texture.rgba,
             srgb: texture.srgb,
         });
-        let textures = TextureTable::new(gpu, &textures.collect::<Vec<_>>())?;
+        let textures: Vec<_> = textures.collect();
+        let textures = TextureTable::new(gpu, &textures, options.mipmaps)?;
         Self::build(gpu, scene, options, Arc::new(textures))
     }
 
