@@ -86,6 +86,8 @@ pub struct Composition {
     pub strands: Strands,
     /// The landscape, if there is one.
     pub heightfield: Option<Heightfield>,
+    /// Whether textures are averaged over what a pixel sees of them.
+    pub filtered: bool,
     /// How bright the sky is, 0 to 1.
     pub sky: f32,
     /// Rays a pixel.
@@ -121,6 +123,7 @@ impl Composition {
             solid_bounds: Vec::new(),
             strands: Strands::default(),
             heightfield: None,
+            filtered: false,
             sky: 1.0,
             samples: 1,
             light_samples: 16,

@@ -13,6 +13,8 @@ common::shader_enum! {
         Triangles,
         /// Colours from an image, `map_Kd` (02).
         Textures,
+        /// The same, averaged over what a pixel sees of it (19).
+        FilteredTextures = "filtered textures",
         /// Surfaces with holes, `map_d` or `d` below 1 (03).
         CutOut = "cut-out",
         /// Spheres that a shader intersects (08).

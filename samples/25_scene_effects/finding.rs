@@ -61,6 +61,8 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
             count(scene.scene.instances.len(), "placed mesh").map(|n| n.replace("meshs", "meshes"))
         }
         Textures => worn(&|m| m.base_texture.is_some(), "has map_Kd"),
+        FilteredTextures if !scene.filtered => None,
+        FilteredTextures => worn(&|m| m.base_texture.is_some(), "has map_Kd, to be filtered"),
         CutOut => worn(&|m| m.opacity_texture.is_some(), "has map_d")
             .or_else(|| worn(&|m| m.opacity < 1.0, "is not opaque")),
         Spheres => count(scene.spheres.len(), "sphere"),
@@ -104,6 +106,7 @@ fn why_not(effect: Effect) -> &'static str {
     match effect {
         Triangles => "no mesh is placed",
         Textures => "no material in use has map_Kd",
+        FilteredTextures => "no material in use has map_Kd, or none is to be filtered",
         CutOut => "every material in use is opaque",
         Spheres => "no sphere",
         Boxes => "no box",

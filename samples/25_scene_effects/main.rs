@@ -223,7 +223,8 @@ impl Demo {
         if textures.is_none() {
             self.pipelines = Variants::default();
         }
-        let scene = SceneOnGpu::with_textures(gpu, &self.scene.scene, self.options, textures)?;
+        let options = SceneOptions { mipmaps: self.scene.filtered, ..self.options };
+        let scene = SceneOnGpu::with_textures(gpu, &self.scene.scene, options, textures)?;
         let geometry = SceneGeometry::new(gpu, &self.scene, scene, eye)?;
         (self.geometry, self.repainted, self.costs) = (Some(geometry), false, None);
         Ok(())

@@ -88,6 +88,7 @@ common::shader_struct! {
         pub plane_on: u32,
         pub finish_count: u32,
         pub glass_count: u32,
+        pub filtered: u32,
     }
 }
 
@@ -164,6 +165,7 @@ impl World {
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,
             glass_count: shapes.glass_count,
+            filtered: scene.filtered.into(),
         }
     }
 }

@@ -8,8 +8,11 @@
 #include "common/heat.glsl"
 #include "common/hit.glsl"
 #include "common/place.glsl"
-#include "footprint.glsl"
-#include "lookup.glsl"
+#include "seen.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+#include "common/lookup.glsl"
 
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 weights;

@@ -6,6 +6,7 @@
 #ifndef SPECIALISED
 #define EFFECT_TRIANGLES
 #define EFFECT_TEXTURES
+#define EFFECT_FILTERED_TEXTURES
 #define EFFECT_CUT_OUT
 #define EFFECT_SPHERES
 #define EFFECT_BOXES
@@ -51,8 +52,12 @@
 #if defined(SHADOWS) && defined(EFFECT_TRIANGLES)
 #define LIFTS
 #endif
-// Squares, averaged over what a pixel sees of them, and lines as wide as pixels: a ray has a cone.
-#if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD) || defined(EFFECT_WIREFRAME)
+// Triangles whose looks depend on how much of them a pixel sees: they are told the ray's cone.
+#if defined(EFFECT_WIREFRAME) || defined(EFFECT_FILTERED_TEXTURES)
+#define TOLD_CONES
+#endif
+// Squares, averaged over what a pixel sees of them, lines as wide as pixels, filtered textures: a ray has a cone.
+#if defined(EFFECT_PLANE) || defined(EFFECT_HEIGHTFIELD) || defined(TOLD_CONES)
 #define CONES
 #endif
 // A curved mirror changes the cone, and so does glass that mirrors.

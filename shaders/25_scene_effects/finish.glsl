@@ -47,7 +47,7 @@ vec3 finished(Hit hit) {
     }
 #endif
 #ifdef EFFECT_WIREFRAME
-    color += hit.line.x * (finish.ink - color);
+    color += hit.cone.x * (finish.ink - color);
 #endif
     return color;
 }

@@ -25,8 +25,8 @@ struct Hit {
 #ifdef CURVES
     float curvature;  // by how much the normal turns in a unit of length
 #endif
-#ifdef EFFECT_WIREFRAME
-    vec2 line;        // told to the shader: the ray's cone. Told by it, in x: how much of a pixel lines cover
+#ifdef TOLD_CONES
+    vec2 cone;        // told to the shader: the ray's width and spread. Told by it, in x: how much lines cover
 #endif
 };                    // 44 to 92 bytes
 // ANCHOR_END: hit

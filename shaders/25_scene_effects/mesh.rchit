@@ -28,6 +28,10 @@ struct Placed {
 #ifdef EFFECT_TEXTURES
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
+#ifdef EFFECT_FILTERED_TEXTURES
+#include "common/footprint.glsl"
+#include "common/lookup.glsl"
+#endif
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
@@ -44,6 +48,27 @@ float curvature(InstanceRecord instance, uint triangle) {
         most = max(most, length(b.normal - a.normal) / length(edge));
     }
     return most;
+}
+#endif
+
+#ifdef EFFECT_FILTERED_TEXTURES
+// What the ray's cone reads of a texture (chapter 19).
+Row row_on(InstanceRecord instance, uint triangle, vec3 face, int index) {
+    if (push.world.filtered == 0) {
+        return Row(vec2(0.0), 1, 0.0);
+    }
+    uvec3 corner = instance.triangles.at[triangle];
+    Vertex a = instance.vertices.at[corner.x];
+    Vertex b = instance.vertices.at[corner.y];
+    Vertex c = instance.vertices.at[corner.z];
+    vec3 e1 = mat3(gl_ObjectToWorldEXT) * (b.position - a.position);
+    vec3 e2 = mat3(gl_ObjectToWorldEXT) * (c.position - a.position);
+    Mapping mapping = mapping_of(e1, e2, b.uv - a.uv, c.uv - a.uv);
+    // Many curved mirrors widen a cone beyond what floats can say.
+    float width = min(hit.cone.x + hit.cone.y * gl_HitTEXT, 1e15);
+    Axes axes = ellipse(width, gl_WorldRayDirectionEXT, face);
+    vec2 size = vec2(textureSize(textures[nonuniformEXT(index)], 0));
+    return row_of(on_texture(mapping, axes.a), on_texture(mapping, axes.b), size);
 }
 #endif
 
@@ -79,7 +104,12 @@ void main() {
     hit.color = material.base_color;
 #ifdef EFFECT_TEXTURES
     if (material.base_texture >= 0) {
-        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
+        int index = material.base_texture;
+#ifdef EFFECT_FILTERED_TEXTURES
+        hit.color *= texture_along(index, surface.uv, row_on(instance, triangle, placed.face, index));
+#else
+        hit.color *= textureLod(textures[nonuniformEXT(index)], surface.uv, 0.0).rgb;
+#endif
     }
 #endif
 #ifdef DEPARTURES
@@ -120,8 +150,8 @@ void main() {
             corners[k] = gl_ObjectToWorldEXT * vec4(corners[k], 1.0);
         }
         covered = line_coverage(
-            corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.line, finish.lines);
+            corners, gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, hit.cone, finish.lines);
     }
-    hit.line = vec2(covered, 0.0);
+    hit.cone = vec2(covered, 0.0);
 #endif
 }

@@ -119,6 +119,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0
     uint glass_count;     // of materials, if one in use is glass; else 0
+    uint filtered;        // whether textures are averaged over what a pixel sees
 };
 // ANCHOR_END: world
 

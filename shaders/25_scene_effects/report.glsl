@@ -36,8 +36,8 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #ifdef CURVES
     hit.curvature = curvature;
 #endif
-#ifdef EFFECT_WIREFRAME
-    hit.line = vec2(0.0);
+#ifdef TOLD_CONES
+    hit.cone = vec2(0.0);
 #endif
     return hit;
 }

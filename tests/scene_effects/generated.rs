@@ -19,6 +19,9 @@ pub fn possible(mut set: Effects) -> Effects {
     if !set.has(Triangles) {
         set = set.without(Textures).without(CutOut).without(Wireframe);
     }
+    if !set.has(Textures) {
+        set = set.without(FilteredTextures);
+    }
     if !set.has_any(&[PointShadows, DirectionalShadows]) {
         set = set.without(AreaLight);
     }
@@ -40,8 +43,13 @@ pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
     let is_seen = |a: Effect, b: Effect| {
         let all = ways.iter().filter(|&&(with_a, with_b)| {
             // Holes, textures and lines are on triangles.
+            let is_possible = a != Triangles
+                || with_a
+                || !with_b
+                || ![Textures, FilteredTextures, CutOut, Wireframe].contains(&b);
+            // What is filtered is a texture.
             let is_possible =
-                a != Triangles || with_a || !with_b || ![Textures, CutOut, Wireframe].contains(&b);
+                is_possible && (a != Textures || with_a || !with_b || b != FilteredTextures);
             is_possible && !sets.iter().any(|set| set.has(a) == with_a && set.has(b) == with_b)
         });
         all.count() == 0
@@ -145,9 +153,10 @@ fn text(set: Effects, random: &mut Random) -> String {
     let mut n = |low, high| between(random, low, high);
     let mut text = format!(
         "version = 1\nmodel = \"model.obj\"\n[picture]\nsamples = {}\nlight_samples = 3\ndepth = 3\n\
-         bounces = {}\n",
+         bounces = {}\nfiltered = {}\n",
         if has(AntiAliasing) { 2 } else { 1 },
-        if has(Bounces) { 2 } else { 0 }
+        if has(Bounces) { 2 } else { 0 },
+        has(FilteredTextures)
     );
     let (x, y) = (n(-1.5, 1.5), n(1.2, 2.4));
     text += &format!("[camera]\neye = [{x}, {y}, 7]\ntarget = [0, 0.6, 0]\nfield_of_view = 48\n");

@@ -36,7 +36,7 @@ const SCENES: [(&str, &[Effect], &[&str]); 19] = [
     ),
     (
         "fretwork",
-        &[Triangles, Textures, CutOut, DirectionalShadows],
+        &[Triangles, Textures, FilteredTextures, CutOut, DirectionalShadows],
         &["shadow.rmiss", "mesh.rchit", "cut_out.rahit"],
     ),
     ("knight", &[Triangles, DirectionalShadows, AntiAliasing], &["shadow.rmiss", "mesh.rchit"]),
@@ -184,7 +184,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
     // Position, distance, normal, material and colour; where rays leave, height and face; the way to the
     // round surface; from where it came into a body; which emitter it is; how round it is; and the ray's cone. A
     // shadow ray has a payload of its own, of one bool.
-    let cones = effects.has_any(&[Plane, Heightfield, Wireframe]);
+    let cones = effects.has_any(&[Plane, Heightfield, Wireframe, FilteredTextures]);
     let leaves = shadows || effects.has_any(&[Mirror, Bounces, Glass]);
     let payload = 11
         + 4 * usize::from(leaves)
@@ -192,7 +192,7 @@ fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str)
         + usize::from(effects.has(Glass))
         + usize::from(effects.has(Emitters) && effects.has(Bounces))
         + usize::from(cones && effects.has_any(&[Mirror, Glass]))
-        + 2 * usize::from(effects.has(Wireframe));
+        + 2 * usize::from(effects.has_any(&[Wireframe, FilteredTextures]));
     for stage in stages {
         let path = stage["path"].as_str().unwrap();
         let floats = match path.rsplit_once('/').unwrap().1 {

@@ -68,6 +68,7 @@ impl Description {
             solid_bounds: Vec::new(),
             strands: Strands::default(),
             heightfield: heightfield.transpose()?,
+            filtered: self.picture.filtered,
             sky: self.sky,
             samples: self.picture.samples,
             light_samples: self.picture.light_samples,

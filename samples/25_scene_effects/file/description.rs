@@ -56,11 +56,12 @@ pub(super) struct PictureTable {
     pub(super) depth: u32,
     #[serde(deserialize_with = "bounded::bounces")]
     pub(super) bounces: u32,
+    pub(super) filtered: bool,
 }
 
 impl Default for PictureTable {
     fn default() -> Self {
-        Self { samples: 1, light_samples: 16, depth: 4, bounces: 0 }
+        Self { samples: 1, light_samples: 16, depth: 4, bounces: 0, filtered: false }
     }
 }
 

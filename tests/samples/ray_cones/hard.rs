@@ -15,9 +15,10 @@ const BAD: &str = "
 
 /// The chapter's two files, before those of 02.
 fn declared() -> String {
-    let nonuniform = "#extension GL_EXT_nonuniform_qualifier : require";
+    let nonuniform = "#extension GL_EXT_nonuniform_qualifier : require
+        layout(set = 1, binding = 0) uniform sampler2D textures[];";
     let [hit, footprint, lookup] =
-        ["common/hit.glsl", "19_ray_cones/footprint.glsl", "19_ray_cones/lookup.glsl"]
+        ["common/hit.glsl", "common/footprint.glsl", "common/lookup.glsl"]
             .map(|file| std::fs::read_to_string(run::root().join("shaders").join(file)).unwrap());
     format!("{nonuniform}\n{hit}{footprint}{lookup}{BAD}")
 }

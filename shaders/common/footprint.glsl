@@ -1,3 +1,5 @@
+// Taught by 19_ray_cones.
+//
 // What a ray sees of a surface: a cone around the ray, and what it covers of a triangle and of the triangle's texture.
 
 // ANCHOR: cone
@@ -10,12 +12,6 @@ float width_at(Cone cone, float t) {
     return cone.width + cone.spread * t;
 }
 // ANCHOR_END: cone
-
-// The payload of the camera's rays: the cone goes in, the hit comes out.
-struct Seen {
-    Hit hit;
-    Cone cone;
-};
 
 // Two steps on a triangle's plane. Between their ends, half before the point and half behind it, lies the footprint.
 struct Axes {

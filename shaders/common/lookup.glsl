@@ -1,6 +1,6 @@
-// What is read of a texture: which level, and where.
-
-layout(set = 1, binding = 0) uniform sampler2D textures[];
+// Taught by 19_ray_cones.
+//
+// What is read of a texture: which level, and where. After `textures`, an array of samplers.
 
 // As many lookups as one takes along a footprint.
 const float MOST = 16.0;
