@@ -150,6 +150,11 @@ impl Composition {
         meshes.chain(spheres).chain(boxes).chain(solids).chain(strands).collect()
     }
 
+    /// How many spheres move while the shutter is open.
+    pub fn moving(&self) -> usize {
+        self.spheres.iter().filter(|sphere| sphere.moves != Vec3::ZERO).count()
+    }
+
     /// The finishes, if any material in use has one; shaders read no others.
     pub fn finishes_to_read(&self) -> &[Finish] {
         let plain = self.finishes.iter().all(|finish| *finish == Finish::NONE);

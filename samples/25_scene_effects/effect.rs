@@ -51,6 +51,8 @@ common::shader_enum! {
         AntiAliasing = "anti-aliasing",
         /// A lens with a diameter (28).
         DepthOfField,
+        /// Spheres that move while the shutter is open (23).
+        MotionBlur = "motion blur",
     }
 }
 

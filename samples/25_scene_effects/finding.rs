@@ -98,6 +98,7 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         AntiAliasing => (scene.samples > 1).then(|| format!("{} rays a pixel", scene.samples)),
         DepthOfField => (scene.lens.diameter > 0.0)
             .then(|| format!("the camera has a lens of diameter {}", scene.lens.diameter)),
+        MotionBlur => count(scene.moving(), "sphere").map(|n| format!("{n} under way")),
     }
 }
 // ANCHOR_END: found
@@ -125,5 +126,6 @@ fn why_not(effect: Effect) -> &'static str {
         Wireframe => "no material in use has lines",
         AntiAliasing => "one ray a pixel",
         DepthOfField => "the camera is a pinhole",
+        MotionBlur => "nothing moves while the shutter is open",
     }
 }

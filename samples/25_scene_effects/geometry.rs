@@ -200,10 +200,12 @@ impl Placed {
     // ANCHOR_END: instance
 }
 
-/// Corners of the box around a sphere, never inside it by rounding.
+/// Corners of the box around a sphere and its way, never inside it by rounding.
 fn sphere_bounds(sphere: &Sphere) -> order::Bounds {
-    let radius = sphere.radius + (sphere.center.abs().max_element() + sphere.radius) * 1.2e-7;
-    (sphere.center - radius, sphere.center + radius)
+    let end = sphere.center + sphere.moves;
+    let (low, high) = (sphere.center.min(end), sphere.center.max(end));
+    let radius = sphere.radius + (low.abs().max(high.abs()).max_element() + sphere.radius) * 1.2e-7;
+    (low - radius, high + radius)
 }
 
 /// The box around boxes.

@@ -80,14 +80,15 @@ impl Composition {
         let count = triangles.fold(shining, usize::saturating_add);
         ensure!(count <= MOST, "{count} triangles and spheres shine, and at most {MOST} may");
         let mut spheres = Vec::new();
-        let of_spheres = self.spheres.iter().map(|&crate::Sphere { center, radius, material }| {
-            let material = material as usize;
-            if !shines(material) {
-                return NO_EMITTER;
-            }
-            spheres.push(emitters::Sphere { center, radius, material });
-            spheres.len() as u32 - 1
-        });
+        let of_spheres =
+            self.spheres.iter().map(|&crate::Sphere { center, radius, material, .. }| {
+                let material = material as usize;
+                if !shines(material) {
+                    return NO_EMITTER;
+                }
+                spheres.push(emitters::Sphere { center, radius, material });
+                spheres.len() as u32 - 1
+            });
         let of_spheres = of_spheres.collect();
         let dull: Vec<bool> = scene.instances.iter().map(|i| !shines(i.material)).collect();
         let emitters = Emitters::new(&scene, &spheres)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use common::scene::assets;
 
 /// From the least to everything. The last is a file of the reader's.
-pub const SCENES: [&str; 20] = [
+pub const SCENES: [&str; 21] = [
     "one sphere",
     "two kings",
     "empty board",
@@ -24,14 +24,15 @@ pub const SCENES: [&str; 20] = [
     "crystal",
     "close up",
     "globes",
+    "billiards",
     "everything",
     "file",
 ];
 
 /// What the chapter begins with.
-pub const EVERYTHING: u32 = 18;
+pub const EVERYTHING: u32 = 19;
 /// Where `--scene` names a file.
-pub const FILE: u32 = 19;
+pub const FILE: u32 = 20;
 
 /// The file of one of them.
 pub fn path(number: u32) -> PathBuf {

@@ -12,6 +12,8 @@ common::shader_struct! {
         pub radius: f32,
         /// The material, by position in the model.
         pub material: u32,
+        /// By how much it moves while the shutter is open.
+        pub moves: Vec3,
     }
 }
 

@@ -88,6 +88,7 @@ common::shader_struct! {
         pub plane_on: u32,
         pub finish_count: u32,
         pub glass_count: u32,
+        pub moving: u32,
         pub filtered: u32,
     }
 }
@@ -165,6 +166,7 @@ impl World {
             plane_on: scene.plane.is_some().into(),
             finish_count: scene.finishes_to_read().len() as u32,
             glass_count: shapes.glass_count,
+            moving: scene.moving() as u32,
             filtered: scene.filtered.into(),
         }
     }

@@ -25,6 +25,7 @@
 #define EFFECT_WIREFRAME
 #define EFFECT_ANTI_ALIASING
 #define EFFECT_DEPTH_OF_FIELD
+#define EFFECT_MOTION_BLUR
 #endif
 // ANCHOR_END: everything
 

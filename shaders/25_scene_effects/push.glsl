@@ -12,6 +12,7 @@
 #include "common/glass.glsl"
 #include "common/emitter.glsl"
 #include "common/strand.glsl"
+#include "common/ray_time.glsl"
 #include "lens.glsl"
 
 // All that shines.
@@ -28,7 +29,18 @@ struct Sphere {
     vec3 center;
     float radius;
     uint material;
+    vec3 moves;      // by so much while the shutter is open
 };
+
+// Where a sphere is at a time: where it stands, to the bit, if it does not move.
+vec3 center_at(Sphere sphere, float time) {
+#ifdef EFFECT_MOTION_BLUR
+    precise vec3 center = sphere.center + time * sphere.moves;
+    return center;
+#else
+    return sphere.center;
+#endif
+}
 
 struct Box {
     vec3 low;
@@ -119,6 +131,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint plane_on;
     uint finish_count;    // of materials, if one in use has a finish; else 0
     uint glass_count;     // of materials, if one in use is glass; else 0
+    uint moving;          // whether anything moves while the shutter is open
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
 // ANCHOR_END: world

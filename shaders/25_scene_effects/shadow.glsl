@@ -19,7 +19,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end, bool on_plane) {
         1,              // sbtRecordStride: one record a geometry
         1,              // missIndex: shadow.rmiss
         origin,
-        0.0,            // tmin: the origin lies off the surface
+        tmin,           // 0, or the time: the origin lies off the surface
         to_light,
         end,            // tmax
         1               // payload location

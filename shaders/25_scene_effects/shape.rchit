@@ -22,7 +22,7 @@ void main() {
 #ifdef EFFECT_SPHERES
     if (gl_HitKindEXT == KIND_SPHERE) {
         Sphere sphere = push.world.spheres.at[gl_PrimitiveID];
-        point = sphere.center + sphere.radius * outward;
+        point = center_at(sphere, time_of(gl_RayTminEXT)) + sphere.radius * outward;
         own = abs(point) + vec3(46.0 * sphere.radius);
         number = sphere.material;
         curvature = 1.0 / sphere.radius;

@@ -251,6 +251,17 @@ fn things_that_are_wrong() {
         &solid("[1, 1, 1, -1], [1, -1, -1, -1], [-1, 1, -1, -1], [-1, -1, 1, -1]"),
         "s.toml:8: the planes enclose nothing, or a body thinner than 1e-6; a normal points out of the solid",
     );
+    let crystal = "[[material]]\nname = \"c\"\nglass = \"thick\"\nspecular = [0.04, 0.04, 0.04]\n";
+    let moved = ball.replace("\"a\"", "\"c\"") + "moves = [0, 0, 1]\n";
+    table_refused(
+        &format!("{crystal}{moved}"),
+        "s.toml:13: a sphere that moves is not of glass, and does not shine",
+    );
+    let chain = "[[strand]]\nnodes = [[0, 1, 0, 1], [0, 2, 0, 1]]\nmaterial = \"c\"\n";
+    table_refused(
+        &format!("{crystal}{chain}"),
+        "s.toml:12: a strand is not of glass: its segments overlap",
+    );
     let strand = |nodes: &str| format!("{PAINT}[[strand]]\nmaterial = \"a\"\nnodes = {nodes}\n");
     table_refused(&strand("[[0, 1, 0, 1]]"), "s.toml:10: 1 nodes; a strand has 2 or more");
     table_refused(&strand("[[0, 1, 0], [0, 2, 0, 1]]"), "s.toml:10: 3 numbers where there are 4");

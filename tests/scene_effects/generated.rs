@@ -16,11 +16,10 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 /// The effects of a set that a scene can call for together: holes, textures and lines need triangles, a
 /// light's size needs shadows, and a mirror, a pattern, glass and an emitter need a surface.
 pub fn possible(mut set: Effects) -> Effects {
-    if !set.has(Triangles) {
-        set = set.without(Textures).without(CutOut).without(Wireframe);
-    }
-    if !set.has(Textures) {
-        set = set.without(FilteredTextures);
+    for &effect in Effect::ALL {
+        if !needed_by(effect).iter().all(|&needed| set.has(needed)) {
+            set = set.without(effect);
+        }
     }
     if !set.has_any(&[PointShadows, DirectionalShadows]) {
         set = set.without(AreaLight);
@@ -37,19 +36,22 @@ pub fn possible(mut set: Effects) -> Effects {
     set
 }
 
+/// What a scene with an effect has of necessity: holes, textures and lines are on triangles.
+fn needed_by(effect: Effect) -> &'static [Effect] {
+    match effect {
+        Textures | CutOut | Wireframe => &[Triangles],
+        FilteredTextures => &[Triangles, Textures],
+        MotionBlur => &[Spheres],
+        _ => &[],
+    }
+}
+
 /// Two effects that no set has in one of the four ways that are possible: neither, one, the other, both.
 pub fn unseen(sets: &[Effects]) -> Option<(Effect, Effect)> {
     let ways = [(false, false), (true, false), (false, true), (true, true)];
     let is_seen = |a: Effect, b: Effect| {
         let all = ways.iter().filter(|&&(with_a, with_b)| {
-            // Holes, textures and lines are on triangles.
-            let is_possible = a != Triangles
-                || with_a
-                || !with_b
-                || ![Textures, FilteredTextures, CutOut, Wireframe].contains(&b);
-            // What is filtered is a texture.
-            let is_possible =
-                is_possible && (a != Textures || with_a || !with_b || b != FilteredTextures);
+            let is_possible = with_a || !with_b || !needed_by(b).contains(&a);
             is_possible && !sets.iter().any(|set| set.has(a) == with_a && set.has(b) == with_b)
         });
         all.count() == 0
@@ -249,6 +251,9 @@ fn text(set: Effects, random: &mut Random) -> String {
             text += &format!(
                 "[[sphere]]\ncenter = [{x}, {radius}, {z}]\nradius = {radius}\nmaterial = \"{material}\"\n"
             );
+            if has(MotionBlur) && material != "crystal" {
+                text += &format!("moves = [{}, 0.1, {}]\n", n(-0.6, 0.6), n(-0.6, 0.6));
+            }
         }
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
         if has(Boxes) {

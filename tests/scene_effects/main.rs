@@ -23,7 +23,7 @@ const NAME: &str = "25_scene_effects";
 
 /// The chapter's own scenes: the effects that each calls for, and the stages, by hand. Every pipeline
 /// has `camera.rgen` and `sky.rmiss`.
-const SCENES: [(&str, &[Effect], &[&str]); 19] = [
+const SCENES: [(&str, &[Effect], &[&str]); 20] = [
     ("one sphere", &[Spheres], &["sphere.rint", "shape.rchit"]),
     ("two kings", &[Triangles], &["mesh.rchit"]),
     ("empty board", &[Plane], &[]),
@@ -97,6 +97,11 @@ const SCENES: [(&str, &[Effect], &[&str]); 19] = [
         "globes",
         &[Triangles, Spheres, Plane, Mirror, Bounces, Glass, Emitters, AntiAliasing],
         &["shadow.rmiss", "mesh.rchit", "sphere.rint", "shape.rchit"],
+    ),
+    (
+        "billiards",
+        &[Spheres, Plane, DirectionalShadows, AntiAliasing, MotionBlur],
+        &["shadow.rmiss", "sphere.rint", "shape.rchit"],
     ),
     ("everything", Effect::ALL, &EVERY_STAGE),
 ];

@@ -11,7 +11,9 @@ use common::scene::{
 use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
 
-use super::description::{CameraTable, Description, LensTable, PieceTable, PlaneTable};
+use super::description::{
+    CameraTable, Description, LensTable, PieceTable, PlaneTable, SphereTable,
+};
 use super::names::{Numbers, find, numbers, opaque, some};
 use super::polytope;
 use super::source::Source;
@@ -155,9 +157,16 @@ impl Description {
 
     fn add_shapes(&self, to: &mut Composition, materials: &Numbers, source: &Source) -> Result<()> {
         let model = (&to.scene.model, to.finishes.as_slice());
+        let glass = |number: u32| is_glass(&model.0.materials[number as usize]);
+        let shines = |number: u32| model.0.materials[number as usize].emission != Vec3::ZERO;
         for ball in self.sphere.iter().map(Spanned::get_ref) {
+            let &SphereTable { center, radius, moves, .. } = ball;
             let material = opaque(model, materials, &ball.material, source)?;
-            to.spheres.push(Sphere { center: ball.center, radius: ball.radius, material });
+            if moves != Vec3::ZERO && (glass(material) || shines(material)) {
+                let what = "a sphere that moves is not of glass, and does not shine";
+                return Err(source.error(ball.material.span().start, what));
+            }
+            to.spheres.push(Sphere { center, radius, material, moves });
         }
         for block in &self.boxes {
             let at = block.span().start;
@@ -181,6 +190,10 @@ impl Description {
         }
         for chain in self.strand.iter().map(Spanned::get_ref) {
             let material = opaque(model, materials, &chain.material, source)?;
+            if glass(material) {
+                let what = "a strand is not of glass: its segments overlap";
+                return Err(source.error(chain.material.span().start, what));
+            }
             let nodes = chain.nodes.iter();
             let node = |&[x, y, z, radius]: &[f32; 4]| Node { center: Vec3::new(x, y, z), radius };
             to.strands.chain(nodes.map(node), material);

@@ -189,6 +189,8 @@ pub(super) struct SphereTable {
     pub(super) center: Vec3,
     #[serde(deserialize_with = "bounded::length")]
     pub(super) radius: f32,
+    #[serde(default, deserialize_with = "bounded::point")]
+    pub(super) moves: Vec3,
     pub(super) material: Spanned<String>,
 }
 
