@@ -54,6 +54,13 @@ fn middle(a: Weights, b: Weights) -> Weights {
     [0, 1, 2].map(|i| (a[i] + b[i]) / 2)
 }
 
+/// How many micro-triangles have each state, by the specification's numbers.
+pub fn tally(states: &[State]) -> [u64; 4] {
+    let mut counts = [0; 4];
+    states.iter().for_each(|&state| counts[state as usize] += 1);
+    counts
+}
+
 // ANCHOR: pack
 /// Two bits a state, from the lowest of each byte.
 pub fn pack(states: &[State]) -> Vec<u8> {

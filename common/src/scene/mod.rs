@@ -33,7 +33,7 @@ pub use placement::{Moved, Placement, Size};
 pub use records::{InstanceRecord, MaterialRecord, SceneAddresses};
 pub use texture::Texture;
 pub use upload::{
-    SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_bytes,
+    SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, build_top_of, input_usage, instance_bytes,
     instance_on_gpu, transform,
 };
 pub use world::{Instance, Scene};

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::index::{index, out_of_range, position};
 use super::limits::Limits;
@@ -84,6 +84,19 @@ pub(super) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     let meshes: Vec<_> = models.map(|model| obj::mesh(model, default)).collect();
     if meshes.iter().any(|mesh| mesh.material == default) {
         materials.push(Material::default());
+    }
+    for mesh in &meshes {
+        let material = &materials[mesh.material];
+        if material.opacity_texture.is_some() && mesh.vertices.iter().all(|v| v.uv == Vec2::ZERO) {
+            let (mesh, material) = (quoted(&mesh.name), quoted(&material.name));
+            let what = || {
+                format!(
+                    "{}: the mesh {mesh} has no vt, and its material {material} has map_d",
+                    text.shown
+                )
+            };
+            warnings.add_many(Kind::Unwrapped, 1, what);
+        }
     }
     Ok(Model { meshes, materials, textures, warnings: warnings.lines() })
 }

@@ -128,16 +128,28 @@ impl SceneOnGpu {
         let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
         buffers.push(records);
 
-        let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
-        let placed = order.into_iter().map(|index| {
-            let instance = &instances[index as usize];
-            // The custom index stays the scene's, whatever the order of the build.
-            let blas = &blas[instance.mesh];
-            instance_on_gpu(&instance.transform, index as usize, instance.record_offset, blas)
-        });
-        let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
+        let tlas = build_top_of(gpu, scene, options, |index| &blas[instances[index].mesh])?;
         Ok(Self { tlas, blas, meshes, textures, addresses, options, _buffers: buffers })
     }
+}
+
+/// Builds a top level of a scene's instances, each with the bottom level that `blas` has for its position.
+///
+/// # Errors
+/// If memory is short.
+pub fn build_top_of<'a>(
+    gpu: &Gpu,
+    scene: &Scene,
+    options: SceneOptions,
+    blas: impl Fn(usize) -> &'a AccelerationStructure,
+) -> Result<AccelerationStructure> {
+    let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
+    let placed = order.into_iter().map(|index| {
+        let (index, instance) = (index as usize, &scene.instances[index as usize]);
+        // The custom index stays the scene's, whatever the order of the build.
+        instance_on_gpu(&instance.transform, index, instance.record_offset, blas(index))
+    });
+    build_top(gpu, &placed.collect::<Vec<_>>())
 }
 
 /// Builds a top level from instances that are in the order of the build.

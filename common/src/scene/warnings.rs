@@ -19,6 +19,8 @@ pub(super) enum Kind {
     Option,
     /// A texture coordinate out of range.
     Coordinate,
+    /// A mesh without texture coordinates whose material has holes by a texture.
+    Unwrapped,
     /// A normal out of range.
     Normal,
     /// A statement of another format.
@@ -35,6 +37,7 @@ impl Kind {
             Self::Texture => "the plain colour stands for it",
             Self::Option => "it is passed over",
             Self::Coordinate => "the corner has none",
+            Self::Unwrapped => "one place of the texture stands for all of the mesh",
             Self::Normal => "the triangle's own stands for it",
             Self::Keyword => "the line is passed over",
         }
