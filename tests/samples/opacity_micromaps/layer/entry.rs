@@ -32,7 +32,7 @@ unsafe extern "system" fn get_instance_proc_addr(
             "vkEnumerateDeviceExtensionProperties" => physical::extensions as *const c_void,
             "vkGetPhysicalDeviceProperties2" => physical::properties2 as *const c_void,
             "vkGetPhysicalDeviceFeatures2" => physical::features2 as *const c_void,
-            // An extension of the instance, whose functions loaders ask for here.
+            // An extension of the instance, whose functions loaders ask for here, and layers below.
             "vkSetDebugUtilsObjectNameEXT" => device::name_object as *const c_void,
             _ if instance == vk::Instance::null() => return None,
             _ => return (below::instance(instance).get_proc_addr)(instance, name),
@@ -53,6 +53,7 @@ unsafe extern "system" fn get_device_proc_addr(
             "vkCreateAccelerationStructure2KHR" => {
                 return layer::function(create::create2 as *const c_void);
             }
+            "vkSetDebugUtilsObjectNameEXT" => device::name_object as *const c_void,
             "vkGetDeviceProcAddr" => get_device_proc_addr as *const c_void,
             "vkDestroyDevice" => device::destroy as *const c_void,
             "vkCreateAccelerationStructureKHR" => create::create as *const c_void,
