@@ -48,7 +48,7 @@ common::shader_enum! {
         None, Zero = "0", One = "1", Two = "2", Three = "3", Four = "4", Five = "5", Six = "6",
     }
     /// Who reads the states.
-    enum Reader {
+    enum Way {
         /// The any-hit shader.
         Shader,
         /// Traversal, where it knows `VK_KHR_opacity_micromap`.
@@ -91,8 +91,8 @@ impl Sample for Demo {
         let source = setup.scene_or(behind_the_screen)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let (rule, reader) = (Rule::Conservative, Reader::Shader);
-        let none = Build { level: Level::None, rule, reader };
+        let (rule, way) = (Rule::Conservative, Way::Shader);
+        let none = Build { level: Level::None, rule, way };
         Ok(Self {
             micromaps: Micromaps::new(gpu, &source, &scene, none)?,
             source,
@@ -110,7 +110,7 @@ impl Sample for Demo {
         c.choice("show", &mut self.show);
         c.choice("level", &mut self.build.level);
         c.choice("rule", &mut self.build.rule);
-        c.choice("reader", &mut self.build.reader);
+        c.choice("way", &mut self.build.way);
         let unknown = 100.0 * self.micromaps.unknown();
         c.note("states", &format!("{} bytes, {unknown:.1} % unknown", self.micromaps.bytes));
         c.sun(&mut self.sun);

@@ -14,7 +14,7 @@ use crate::alpha::Alpha;
 use crate::classify::{self, Rule};
 use crate::curve::{self, FINEST};
 use crate::on_device::OnDevice;
-use crate::{Level, Reader};
+use crate::{Level, Way};
 
 /// Bytes that the states of a scene may take. A scene file can ask for more than there is.
 const MOST_BYTES: usize = 64 << 20;
@@ -36,7 +36,7 @@ common::shader_struct! {
 pub struct Build {
     pub level: Level,
     pub rule: Rule,
-    pub reader: Reader,
+    pub way: Way,
 }
 
 /// What has states of its own: a mesh, and the texture that gives its opacity.
@@ -77,7 +77,7 @@ impl Micromaps {
     /// # Errors
     /// If there are too many, memory is short, or the device shall read them and cannot.
     pub fn new(gpu: &Gpu, scene: &Scene, meshes: &SceneOnGpu, build: Build) -> Result<Self> {
-        let level = build.level.number().map(|level| fitted(gpu, level, build.reader));
+        let level = build.level.number().map(|level| fitted(gpu, level, build.way));
         let level = level.transpose()?;
         let pairs = (0..scene.instances.len()).filter_map(|i| Pair::of(scene, i));
         let mut pairs: Vec<_> = pairs.filter(|_| level.is_some()).collect();
@@ -113,10 +113,8 @@ impl Micromaps {
             }
             arrays.insert(pair, bytes);
         }
-        let on_device = match (level, build.reader) {
-            (Some(level), Reader::Device) => {
-                Some(OnDevice::new(gpu, scene, meshes, &arrays, level)?)
-            }
+        let on_device = match (level, build.way) {
+            (Some(level), Way::Device) => Some(OnDevice::new(gpu, scene, meshes, &arrays, level)?),
             _ => None,
         };
         // Shaders read whole words.
@@ -144,7 +142,7 @@ impl Micromaps {
         let [transparent, opaque, _, _] = self.counts;
         let unknown = self.unknown();
         json!({
-            "bytes": self.bytes, "transparent": transparent, "opaque": opaque, "unknown": unknown,
+            "level": self.level, "bytes": self.bytes, "transparent": transparent, "opaque": opaque, "unknown": unknown,
         })
     }
 }
@@ -153,9 +151,10 @@ impl Micromaps {
 ///
 /// # Errors
 /// If it cannot read any.
-fn fitted(gpu: &Gpu, level: u32, reader: Reader) -> Result<u32> {
-    let finest = if reader == Reader::Device { OnDevice::finest(gpu)? } else { FINEST };
-    let line = format!("{} takes micromaps up to level {finest}: it gets those, not {level}", gpu.name);
+fn fitted(gpu: &Gpu, level: u32, way: Way) -> Result<u32> {
+    let finest = if way == Way::Device { OnDevice::finest(gpu)? } else { FINEST };
+    let line =
+        format!("{} takes micromaps up to level {finest}: it gets those, not {level}", gpu.name);
     gpu.warn("micromaps", if level > finest { vec![line] } else { Vec::new() });
     Ok(level.min(finest))
 }

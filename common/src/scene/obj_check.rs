@@ -88,14 +88,10 @@ pub(super) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     for mesh in &meshes {
         let material = &materials[mesh.material];
         if material.opacity_texture.is_some() && mesh.vertices.iter().all(|v| v.uv == Vec2::ZERO) {
-            let (mesh, material) = (quoted(&mesh.name), quoted(&material.name));
-            let what = || {
-                format!(
-                    "{}: the mesh {mesh} has no vt, and its material {material} has map_d",
-                    text.shown
-                )
-            };
-            warnings.add_many(Kind::Unwrapped, 1, what);
+            let faces =
+                format!("{}: the faces of the material {}", text.shown, quoted(&material.name));
+            let line = || format!("{faces} have no vt, which its map_d needs");
+            warnings.add_many(Kind::Unwrapped, 1, line);
         }
     }
     Ok(Model { meshes, materials, textures, warnings: warnings.lines() })

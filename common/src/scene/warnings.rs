@@ -37,7 +37,7 @@ impl Kind {
             Self::Texture => "the plain colour stands for it",
             Self::Option => "it is passed over",
             Self::Coordinate => "the corner has none",
-            Self::Unwrapped => "one place of the texture stands for all of the mesh",
+            Self::Unwrapped => "one place of the texture stands for all of them",
             Self::Normal => "the triangle's own stands for it",
             Self::Keyword => "the line is passed over",
         }

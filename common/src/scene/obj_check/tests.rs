@@ -131,6 +131,24 @@ fn indices_that_a_model_can_do_without() {
 }
 
 #[test]
+fn holes_without_texture_coordinates() {
+    let png = super::super::texture::tests::png(&[[200, 100, 50, 128]; 4], 2);
+    let warnings = |faces: &str, mtl: &str| {
+        let obj =
+            format!("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nusemtl a\n{faces}\n");
+        let files: [(&str, &[u8]); 3] =
+            [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", &png)];
+        load_files(&files, &Limits::DEFAULT).unwrap().warnings
+    };
+    let cut = "newmtl a\nmap_d t.png\nnewmtl b\n";
+    let line = "model.obj: the faces of the material \"a\" have no vt, which its map_d needs; \
+                one place of the texture stands for all of them (1 in all)";
+    assert_eq!(warnings("f 1 2 3", cut), [line]);
+    assert_eq!(warnings("f 1/1 2/1 3/1\nf 1/1 2 3\nusemtl b\nf 1 2 3", cut), [""; 0]);
+    assert_eq!(warnings("f 1 2 3", "newmtl a\nmap_Kd t.png\n"), [""; 0]);
+}
+
+#[test]
 fn statements_of_other_formats_are_passed_over() {
     let hint = "is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are";
     let warning = format!("model.obj:7: \"group\" {hint}; the line is passed over (2 in all)");
