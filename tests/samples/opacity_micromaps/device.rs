@@ -38,6 +38,11 @@ impl Told {
     }
 }
 
+/// Whether the layer can read what a device would: on the software driver, whose addresses are the host's.
+fn has_layer() -> bool {
+    run::device::is_software()
+}
+
 /// A run where micromaps go up to level `finest`.
 fn told(finest: u32, arguments: &[&str]) -> Told {
     let folder = tempfile::tempdir().unwrap();
@@ -95,6 +100,9 @@ fn screen(scene: &Scene) -> (&Mesh, &Texture) {
 
 #[test]
 fn a_device_gets_the_states_that_the_shader_reads() {
+    if !has_layer() {
+        return;
+    }
     let scene = Scene::chess().unwrap();
     let (mesh, texture) = screen(&scene);
     let parent = render(PARENT, SIZE, &super::settings(&BEHIND)).picture;
@@ -119,6 +127,9 @@ fn a_device_gets_the_states_that_the_shader_reads() {
 
 #[test]
 fn a_level_that_is_too_fine_for_the_device_falls_back_to_its_finest_and_says_so() {
+    if !has_layer() {
+        return;
+    }
     let scene = Scene::chess().unwrap();
     let (mesh, texture) = screen(&scene);
     let told = told(3, &super::settings(&["way=device", "show=hit"]));
@@ -132,6 +143,9 @@ fn a_level_that_is_too_fine_for_the_device_falls_back_to_its_finest_and_says_so(
 
 #[test]
 fn without_the_extension_the_device_s_way_is_refused_in_one_line() {
+    if !has_layer() {
+        return;
+    }
     let (code, line) = refused(NAME, &["--headless", "--size", "8x8", "--set", "way=device"]);
     assert_eq!(code, 1);
     let words =
@@ -141,6 +155,9 @@ fn without_the_extension_the_device_s_way_is_refused_in_one_line() {
 
 #[test]
 fn where_it_is_not_asked_for_nothing_is_built_for_the_device() {
+    if !has_layer() {
+        return;
+    }
     let sets = ["show=states", "level=4"];
     let shader = told(6, &super::settings(&sets));
     assert_eq!(shader.lines.keys().collect::<Vec<_>>(), ["alive"]);
@@ -174,6 +191,9 @@ fn three_meshes(folder: &Path) -> String {
 
 #[test]
 fn each_mesh_with_holes_has_a_micromap_of_its_own() {
+    if !has_layer() {
+        return;
+    }
     let folder = tempfile::tempdir().unwrap();
     let file = three_meshes(folder.path());
     let scene = Scene::open(file.as_ref()).unwrap();
@@ -200,11 +220,11 @@ fn each_mesh_with_holes_has_a_micromap_of_its_own() {
 /// The worst driver offers each triangle twice: so do the bottom levels with micromaps.
 #[test]
 fn a_triangle_that_is_offered_twice_has_its_states_twice() {
-    let scene = Scene::chess().unwrap();
-    let (mesh, _) = screen(&scene);
-    if !run::has_worst_arithmetic() {
+    if !has_layer() || !run::has_worst_arithmetic() {
         return;
     }
+    let scene = Scene::chess().unwrap();
+    let (mesh, _) = screen(&scene);
     let sets = [&["way=device"], &BEFORE[..]].concat();
     let told = told(5, &[&super::settings(&sets)[..], &["--arithmetic", "worst"]].concat());
     assert_eq!(names_its_own(&told.of("level")[0], mesh), 2 * mesh.triangles.len());
