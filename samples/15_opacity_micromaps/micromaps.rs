@@ -142,7 +142,8 @@ impl Micromaps {
         let [transparent, opaque, _, _] = self.counts;
         let unknown = self.unknown();
         json!({
-            "level": self.level, "bytes": self.bytes, "transparent": transparent, "opaque": opaque, "unknown": unknown,
+            "level": self.level, "bytes": self.bytes, "transparent": transparent, "opaque": opaque,
+            "unknown": unknown,
         })
     }
 }
