@@ -7,6 +7,7 @@
 //! - [`files`], [`output`], [`usage`]: files written whole; what a program says; the error that means "wrong
 //!   arguments"
 //! - [`home`]: the crate that a program belongs to
+//! - [`workers`]: work that is shared among the processors
 //!
 //! Arrows point one way: samples → instruments → app → gpu; `scene` uses `gpu` only to upload. The crate
 //! `instruments` watches runs, and nothing here knows it: it meets a run in [`app::Watch`], and a device in
@@ -27,6 +28,7 @@ pub mod output;
 pub mod prelude;
 pub mod scene;
 pub mod usage;
+pub mod workers;
 
 pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
 // The crates whose types are in the signatures of this one: a program needs no versions of its own.

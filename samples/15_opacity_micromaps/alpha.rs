@@ -73,22 +73,23 @@ impl Alpha {
     /// How many texels of a rectangle are surely opaque, and how many surely transparent.
     fn count(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> [u32; 2] {
         let at = |x: usize, y: usize| self.sums[y * (self.size[0] + 1) + x];
-        let corners = [at(right, bottom), at(left, bottom), at(right, top), at(left, top)];
-        [0, 1].map(|i| corners[0][i] + corners[3][i] - corners[1][i] - corners[2][i])
+        let (a, b, c, d) = (at(right, bottom), at(left, bottom), at(right, top), at(left, top));
+        [a[0] + d[0] - b[0] - c[0], a[1] + d[1] - b[1] - c[1]]
     }
 
     /// A lookup: the four texels around a place by their shares.
     pub fn lookup(&self, uv: DVec2) -> f64 {
         let place = uv * self.size() - 0.5;
         let (first, share) = (place.floor(), place - place.floor());
-        let texel = |dx: f64, dy: f64| {
-            let x = (first.x + dx).rem_euclid(self.size[0] as f64) as usize;
-            let y = (first.y + dy).rem_euclid(self.size[1] as f64) as usize;
-            f64::from(self.alpha[y * self.size[0] + x]) / 255.0
+        let both = |first: f64, size: usize| {
+            [first, first + 1.0].map(|place| place.rem_euclid(size as f64) as usize)
         };
+        let ([left, right], [above, below]) =
+            (both(first.x, self.size[0]), both(first.y, self.size[1]));
+        let texel = |x: usize, y: usize| f64::from(self.alpha[y * self.size[0] + x]) / 255.0;
         let mix = |a: f64, b: f64, share: f64| a + (b - a) * share;
-        let upper = mix(texel(0.0, 0.0), texel(1.0, 0.0), share.x);
-        mix(upper, mix(texel(0.0, 1.0), texel(1.0, 1.0), share.x), share.y)
+        let upper = mix(texel(left, above), texel(right, above), share.x);
+        mix(upper, mix(texel(left, below), texel(right, below), share.x), share.y)
     }
 }
 

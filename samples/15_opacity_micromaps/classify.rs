@@ -44,10 +44,9 @@ pub fn triangle(alpha: &Alpha, corners: [Vec2; 3], level: u32, rule: Rule) -> Ve
 /// The corners of a micro-triangle in texture coordinates.
 fn micro_corners(corners: [DVec2; 3], index: u32, level: u32) -> [DVec2; 3] {
     let part = 1.0 / f64::from(1 << level);
-    curve::corners(index, level).map(|weights| {
-        let [a, b, c] = weights.map(|weight| f64::from(weight) * part);
-        a * corners[0] + b * corners[1] + c * corners[2]
-    })
+    let exact = |weight| f64::from(weight) * part;
+    curve::corners(index, level)
+        .map(|[a, b, c]| exact(a) * corners[0] + exact(b) * corners[1] + exact(c) * corners[2])
 }
 
 // ANCHOR: bound

@@ -50,8 +50,16 @@ pub fn corners(index: u32, level: u32) -> [Weights; 3] {
 }
 // ANCHOR_END: corners
 
+/// Written out, as most of the time that states take is spent here: weights are no less than 0.
 fn middle(a: Weights, b: Weights) -> Weights {
-    [0, 1, 2].map(|i| (a[i] + b[i]) / 2)
+    [(a[0] + b[0]) >> 1, (a[1] + b[1]) >> 1, (a[2] + b[2]) >> 1]
+}
+
+/// How many micro-triangles have each state, by the specification's numbers.
+pub fn tally(states: &[State]) -> [u64; 4] {
+    let mut counts = [0; 4];
+    states.iter().for_each(|&state| counts[state as usize] += 1);
+    counts
 }
 
 // ANCHOR: pack

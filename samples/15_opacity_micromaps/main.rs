@@ -7,6 +7,7 @@ mod alpha;
 mod classify;
 mod curve;
 mod micromaps;
+mod on_device;
 
 use std::process::ExitCode;
 
@@ -46,6 +47,13 @@ common::shader_enum! {
     enum Level {
         None, Zero = "0", One = "1", Two = "2", Three = "3", Four = "4", Five = "5", Six = "6",
     }
+    /// Who reads the states.
+    enum Way {
+        /// The any-hit shader.
+        Shader,
+        /// Traversal, where it knows `VK_KHR_opacity_micromap`.
+        Device,
+    }
 }
 
 impl Level {
@@ -58,8 +66,10 @@ impl Level {
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    /// Whether the any-hit shader reads states at all.
+    /// Whether shaders read states at all.
     known: bool,
+    /// Whether traversal does.
+    by_device: bool,
 }
 
 common::shader_struct! {
@@ -74,16 +84,17 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures()
+        Requirements::ray_tracing().textures().opacity_micromaps_where_offered()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let source = setup.scene_or(behind_the_screen)?;
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
-        let none = Build { level: Level::None, rule: Rule::Conservative };
+        let (rule, way) = (Rule::Conservative, Way::Shader);
+        let none = Build { level: Level::None, rule, way };
         Ok(Self {
-            micromaps: Micromaps::new(gpu, &source, none)?,
+            micromaps: Micromaps::new(gpu, &source, &scene, none)?,
             source,
             scene,
             pipelines: Variants::default(),
@@ -99,6 +110,7 @@ impl Sample for Demo {
         c.choice("show", &mut self.show);
         c.choice("level", &mut self.build.level);
         c.choice("rule", &mut self.build.rule);
+        c.choice("way", &mut self.build.way);
         let unknown = 100.0 * self.micromaps.unknown();
         c.note("states", &format!("{} bytes, {unknown:.1} % unknown", self.micromaps.bytes));
         c.sun(&mut self.sun);
@@ -109,7 +121,7 @@ impl Sample for Demo {
     // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.build != self.micromaps.build {
-            self.micromaps = Micromaps::new(gpu, &self.source, self.build)?;
+            self.micromaps = Micromaps::new(gpu, &self.source, &self.scene, self.build)?;
         }
         Ok(())
     }
@@ -123,13 +135,19 @@ impl Sample for Demo {
             light: self.sun.light(),
             micromaps: self.micromaps.records.address.into(),
         };
+        // To show the states, holes have to be hit, which a device passes through.
+        let on_device = self.micromaps.on_device.as_ref().filter(|_| self.show != Show::States);
+        let by_device = on_device.is_some();
+        let known = self.build.level != Level::None && !by_device;
+        let constants = Constants { show: self.show, known, by_device };
+        let Variant { key, pipeline, sbt } =
+            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
+        // While a pipeline is made, the last one goes on, which may not have been made for micromaps.
+        let on_device = on_device.filter(|_| key.by_device);
         let descriptors = [
-            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::AccelerationStructure(on_device.map_or(&self.scene.tlas, |it| &it.tlas)),
             Descriptor::StorageImage(frame.image),
         ];
-        let constants = Constants { show: self.show, known: self.build.level != Level::None };
-        let Variant { pipeline, sbt, .. } =
-            self.pipelines.choose(frame, &self.scene.textures, constants, pipeline)?;
         pipeline.bind(frame.cmd, &descriptors, &push)?;
         sbt.trace(frame.cmd, frame.area);
         // ANCHOR_END: trace
@@ -162,6 +180,7 @@ fn pipeline(
         .hit(HitGroup::triangles().closest_hit("shade.rchit").any_hit("decide.rahit"))
         .constant(0, constants.show)
         .constant(1, constants.known)
+        .opacity_micromaps(constants.by_device)
         .recursion(1)
         .binding(Binding::AccelerationStructure)
         .binding(Binding::StorageImage)

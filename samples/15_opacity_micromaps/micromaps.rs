@@ -1,16 +1,22 @@
 //! The micromaps of a scene: the states of every triangle whose opacity a texture gives, in device memory.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Result, ensure};
+use common::app::Progress;
 use common::gpu::{Address, Buffer, Gpu};
-use common::scene::{Scene, input_usage};
+use common::scene::text::quoted;
+use common::scene::{Scene, SceneOnGpu, input_usage};
+use common::{output, workers};
+use glam::Vec2;
 use serde_json::{Value, json};
 
-use crate::Level;
 use crate::alpha::Alpha;
 use crate::classify::{self, Rule};
 use crate::curve::{self, FINEST};
+use crate::on_device::OnDevice;
+use crate::{Level, Way};
 
 /// Bytes that the states of a scene may take. A scene file can ask for more than there is.
 const MOST_BYTES: usize = 64 << 20;
@@ -32,13 +38,34 @@ common::shader_struct! {
 pub struct Build {
     pub level: Level,
     pub rule: Rule,
+    pub way: Way,
+}
+
+/// What has states of its own: a mesh, and the texture that gives its opacity.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Pair {
+    pub mesh: usize,
+    texture: usize,
+}
+
+impl Pair {
+    /// That of an instance, if it has such a texture.
+    pub fn of(scene: &Scene, instance: usize) -> Option<Self> {
+        let instance = &scene.instances[instance];
+        let texture = scene.model.materials[instance.material].opacity_texture?;
+        Some(Self { mesh: instance.mesh, texture })
+    }
 }
 
 /// All micromaps of a scene.
 pub struct Micromaps {
     /// A [`Micromap`] for each instance.
     pub records: Buffer,
+    /// The same states, where traversal reads them.
+    pub on_device: Option<OnDevice>,
     pub build: Build,
+    /// How finely triangles are cut, if they are.
+    pub level: Option<u32>,
     /// Bytes of all states.
     pub bytes: usize,
     /// How many micro-triangles have each state, by the specification's numbers.
@@ -50,50 +77,68 @@ impl Micromaps {
     /// Finds the states of each pair of mesh and texture once, however many instances have it.
     ///
     /// # Errors
-    /// If there are too many, or memory is short.
-    pub fn new(gpu: &Gpu, scene: &Scene, build: Build) -> Result<Self> {
-        let textured = |i: usize| {
-            let instance = &scene.instances[i];
-            let texture = scene.model.materials[instance.material].opacity_texture?;
-            build.level.number().map(|_| (instance.mesh, texture))
-        };
-        let mut pairs: Vec<_> = (0..scene.instances.len()).filter_map(textured).collect();
+    /// If there are too many, memory is short, or the device shall read them and cannot.
+    pub fn new(gpu: &Gpu, scene: &Scene, meshes: &SceneOnGpu, build: Build) -> Result<Self> {
+        let level = build.level.number().map(|level| fitted(gpu, level, build.way));
+        let level = level.transpose()?;
+        let pairs = (0..scene.instances.len()).filter_map(|i| Pair::of(scene, i));
+        let mut pairs: Vec<_> = pairs.filter(|_| level.is_some()).collect();
         pairs.sort_unstable();
         pairs.dedup();
-        let level = build.level.number().unwrap_or(0);
-        fits(pairs.iter().map(|pair| scene.model.meshes[pair.0].triangles.len()).sum(), level)?;
+        for Pair { mesh, .. } in &pairs {
+            let mesh = &scene.model.meshes[*mesh];
+            if mesh.vertices.iter().all(|vertex| vertex.uv == Vec2::ZERO) {
+                let what = "has no vt, which its map_d needs: one place of the texture stands for all of it";
+                output::warn(&[format!("the mesh {} {what}", quoted(&mesh.name))]);
+            }
+        }
+        let cut = level.unwrap_or(0);
+        let triangles = |pair: &Pair| scene.model.meshes[pair.mesh].triangles.len();
+        let triangles = pairs.iter().map(triangles).sum();
+        fits(triangles, cut)?;
 
         let mut alphas = HashMap::new();
         let mut counts = [0; 4];
-        let mut arrays = Vec::new();
-        for &(mesh, texture) in &pairs {
-            let of = &scene.model.textures[texture];
-            let alpha =
-                alphas.entry(texture).or_insert_with(|| Alpha::new(of.width, of.height, &of.rgba));
+        let mut arrays = BTreeMap::new();
+        let progress = Mutex::new(Progress::new(triangles as u64, "triangles"));
+        for pair in pairs {
+            let of = &scene.model.textures[pair.texture];
+            let alpha = alphas
+                .entry(pair.texture)
+                .or_insert_with(|| Alpha::new(of.width, of.height, &of.rgba));
             // ANCHOR: states
-            let mesh = &scene.model.meshes[mesh];
-            let mut bytes = Vec::new();
-            for corners in &mesh.triangles {
+            let mesh = &scene.model.meshes[pair.mesh];
+            let states = workers::each(&mesh.triangles, |corners| {
                 let corners = corners.map(|corner| mesh.vertices[corner as usize].uv);
-                let states = classify::triangle(alpha, corners, level, build.rule);
-                states.iter().for_each(|&state| counts[state as usize] += 1);
-                bytes.extend(curve::pack(&states));
-            }
+                let states = classify::triangle(alpha, corners, cut, build.rule);
+                progress.lock().unwrap_or_else(PoisonError::into_inner).step();
+                (curve::pack(&states), curve::tally(&states))
+            });
             // ANCHOR_END: states
-            // Shaders read whole words.
-            bytes.resize(bytes.len().next_multiple_of(4), 0);
-            arrays.push(bytes);
+            let mut bytes = Vec::with_capacity(states.len() * curve::bytes(cut) + 3);
+            for (packed, tally) in states {
+                bytes.extend(packed);
+                counts.iter_mut().zip(tally).for_each(|(sum, count)| *sum += count);
+            }
+            arrays.insert(pair, bytes);
         }
-        let bytes = arrays.iter().map(Vec::len).sum();
-        let (states, at) = Buffer::with_arrays(gpu, "opacity states", &arrays, input_usage())?;
-        let at: HashMap<_, _> = pairs.into_iter().zip(at).collect();
-        let record = |i| match textured(i).map(|pair| at[&pair]) {
-            Some(address) => Micromap { states: address.into(), level: level as i32, padding: 0 },
+        let on_device = match (level, build.way) {
+            (Some(level), Way::Device) => Some(OnDevice::new(gpu, scene, meshes, &arrays, level)?),
+            _ => None,
+        };
+        // Shaders read whole words.
+        arrays.values_mut().for_each(|bytes| bytes.resize(bytes.len().next_multiple_of(4), 0));
+        let bytes = arrays.values().map(Vec::len).sum();
+        let (states, at) =
+            Buffer::with_arrays(gpu, "opacity states", arrays.values(), input_usage())?;
+        let at: BTreeMap<_, _> = arrays.into_keys().zip(at).collect();
+        let record = |i| match Pair::of(scene, i).and_then(|pair| at.get(&pair)) {
+            Some(&address) => Micromap { states: address.into(), level: cut as i32, padding: 0 },
             None => Micromap { states: Address::default(), level: -1, padding: 0 },
         };
         let records: Vec<_> = (0..scene.instances.len()).map(record).collect();
         let records = Buffer::with_data(gpu, "micromaps", &records, input_usage())?;
-        Ok(Self { records, build, bytes, counts, _states: states })
+        Ok(Self { records, on_device, build, level, bytes, counts, _states: states })
     }
 
     /// How many micro-triangles are unknown, as a part of all.
@@ -106,9 +151,22 @@ impl Micromaps {
         let [transparent, opaque, _, _] = self.counts;
         let unknown = self.unknown();
         json!({
-            "bytes": self.bytes, "transparent": transparent, "opaque": opaque, "unknown": unknown,
+            "level": self.level, "bytes": self.bytes, "transparent": transparent, "opaque": opaque,
+            "unknown": unknown,
         })
     }
+}
+
+/// The level, or the finest that the device takes, if that shall read the states.
+///
+/// # Errors
+/// If it cannot read any.
+fn fitted(gpu: &Gpu, level: u32, way: Way) -> Result<u32> {
+    let finest = if way == Way::Device { OnDevice::finest(gpu)? } else { FINEST };
+    let line =
+        format!("{} takes micromaps up to level {finest}: it gets those, not {level}", gpu.name);
+    gpu.warn("micromaps", if level > finest { vec![line] } else { Vec::new() });
+    Ok(level.min(finest))
 }
 
 /// Whether the states of so many triangles may be made.

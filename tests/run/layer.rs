@@ -33,6 +33,13 @@ impl Layer {
         Self::new("moods", moods::NAME, layers, false, vec![("MOODS", words.into())])
     }
 
+    /// A device with opacity micromaps, in the words of `tests/samples/opacity_micromaps/layer`. The validation
+    /// layer of Debian 12 does not know them.
+    pub fn micromaps(words: &str) -> Self {
+        let layers = micromaps::NAME.to_owned();
+        Self::new("micromaps", micromaps::NAME, layers, false, vec![("MICROMAPS", words.into())])
+    }
+
     /// A call that fails: `fault` names it in the words of `tests/errors/failing`; empty for none.
     pub fn failing(fault: &str) -> Self {
         // Mesa's own layer, which sorts devices, crashes of some failures.

@@ -22,6 +22,8 @@ mod classify;
 #[path = "../../samples/15_opacity_micromaps/curve.rs"]
 mod curve;
 
+mod device;
+
 use alpha::Alpha;
 use classify::{Rule, SLACK};
 use curve::{FINEST, State};
@@ -37,9 +39,12 @@ const BEHIND: [&str; 3] =
 const BEFORE: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
+fn settings<'a>(sets: &[&'a str]) -> Vec<&'a str> {
+    sets.iter().flat_map(|&set| ["--set", set]).collect()
+}
+
 fn picture(name: &str, size: &str, sets: &[&str]) -> Picture {
-    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
-    render(name, size, &arguments).picture
+    render(name, size, &settings(sets)).picture
 }
 
 /// The sum of what a view counts.

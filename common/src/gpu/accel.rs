@@ -7,6 +7,7 @@
 
 mod build;
 mod compaction;
+mod micromap;
 mod place;
 mod plan;
 mod update;
@@ -17,8 +18,10 @@ use anyhow::Result;
 use ash::vk;
 
 use super::geometry::Geometry;
+use super::micromap::TrianglesMicromap;
 use super::pipeline::Asked;
 use super::{Buffer, Gpu};
+pub use micromap::OpacityMicromap;
 use plan::Plan;
 
 /// What a structure is built from: the name that messages call it, and its geometries.
@@ -34,6 +37,8 @@ pub struct BuildOptions {
     pub compact: bool,
     /// Let hit shaders ask for the corners of its triangles; needs `VK_KHR_ray_tracing_position_fetch`.
     pub data_access: bool,
+    /// The micromap of its only geometry, triangles: [`OpacityMicromap::by_indices`].
+    pub micromap: Option<TrianglesMicromap>,
 }
 
 /// A `VkAccelerationStructureKHR` of either level with its share of a buffer, freed on drop.

@@ -4,6 +4,10 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::micromap::{
+    AddressCommandsFeatures, DEVICE_ADDRESS_COMMANDS, MicromapFeatures, OPACITY_MICROMAP,
+};
+
 /// The feature structures that a chapter may ask for, as the device fills them or as it is opened with them.
 #[derive(Clone, Copy, Default)]
 #[allow(missing_docs, reason = "they are Vulkan's")]
@@ -15,6 +19,8 @@ pub struct Features {
     pub ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelineFeaturesKHR<'static>,
     pub position_fetch: vk::PhysicalDeviceRayTracingPositionFetchFeaturesKHR<'static>,
     pub ray_query: vk::PhysicalDeviceRayQueryFeaturesKHR<'static>,
+    pub address_commands: AddressCommandsFeatures,
+    pub micromap: MicromapFeatures,
     pub executable: vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR<'static>,
 }
 
@@ -39,6 +45,12 @@ impl Features {
         }
         if has(khr::ray_query::NAME) {
             chain = chain.push_next(&mut self.ray_query);
+        }
+        if has(DEVICE_ADDRESS_COMMANDS) {
+            chain = chain.push_next(&mut self.address_commands);
+        }
+        if has(OPACITY_MICROMAP) {
+            chain = chain.push_next(&mut self.micromap);
         }
         if has(khr::pipeline_executable_properties::NAME) {
             chain = chain.push_next(&mut self.executable);

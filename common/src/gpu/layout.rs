@@ -24,6 +24,12 @@ impl<T> From<ash::vk::DeviceAddress> for Address<T> {
     }
 }
 
+impl<T> From<Address<T>> for ash::vk::DeviceAddress {
+    fn from(Address([low, high], _): Address<T>) -> Self {
+        Self::from(low) | Self::from(high) << 32
+    }
+}
+
 impl<T> Default for Address<T> {
     /// Nowhere.
     fn default() -> Self {

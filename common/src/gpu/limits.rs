@@ -7,6 +7,7 @@ use std::ptr;
 use ash::{Instance, khr, vk};
 
 use super::ADDRESS_ALIGNMENT;
+use super::micromap::{MicromapProperties, OPACITY_MICROMAP};
 
 /// Properties of the device that decide sizes, alignments and depths; those of ray tracing pipelines are at hand
 /// without the name of their structure.
@@ -24,6 +25,8 @@ pub struct Limits {
     pub acceleration_structure: vk::PhysicalDeviceAccelerationStructurePropertiesKHR<'static>,
     /// Those of ray tracing pipelines; zeros where the device has none.
     pub ray_tracing_pipeline: vk::PhysicalDeviceRayTracingPipelinePropertiesKHR<'static>,
+    /// Those of opacity micromaps; zeros where the device has none.
+    pub micromap: MicromapProperties,
     /// Bytes of the largest heap of device memory.
     pub largest_heap: u64,
     /// How many bits of a timestamp count; none where the queue has no timestamps.
@@ -56,6 +59,9 @@ impl Limits {
         }
         if has(khr::ray_tracing_pipeline::NAME) {
             properties = properties.push_next(&mut all.ray_tracing_pipeline);
+        }
+        if has(OPACITY_MICROMAP) {
+            properties = properties.push_next(&mut all.micromap);
         }
         // SAFETY: the device belongs to the live instance and has what the chain is of, here and below.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };

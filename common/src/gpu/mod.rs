@@ -19,6 +19,7 @@ mod layout;
 mod limits;
 mod margin;
 mod memory;
+pub mod micromap;
 pub mod order;
 mod pipeline;
 mod pipeline_cache;
@@ -36,7 +37,7 @@ mod threads;
 mod timing;
 mod validation;
 
-pub use accel::{AccelerationStructure, BuildOptions};
+pub use accel::{AccelerationStructure, BuildOptions, OpacityMicromap};
 pub use blueprint::{Attachments, Binding, Blueprint, Group, Stage};
 pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
 pub use context::{Gpu, GpuContext, GpuOptions};

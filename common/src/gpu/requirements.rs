@@ -7,6 +7,7 @@ use std::ffi::CStr;
 
 use ash::{khr, vk};
 
+use super::micromap::{DEVICE_ADDRESS_COMMANDS, OPACITY_MICROMAP};
 use super::{Features, Limits};
 
 /// One feature bit, the extension that carries it, and how to read and set it.
@@ -167,6 +168,18 @@ impl Requirements {
             "rayTraversalPrimitiveCulling",
             ray_tracing_pipeline.ray_traversal_primitive_culling
         ));
+        self
+    }
+
+    /// Opacity micromaps that traversal reads by itself, where the device has them:
+    /// [`OpacityMicromap::finest`](super::OpacityMicromap::finest) tells.
+    pub fn opacity_micromaps_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(DEVICE_ADDRESS_COMMANDS),
+            "deviceAddressCommands",
+            address_commands.device_address_commands
+        ));
+        self.wishes.push(requirement!(Some(OPACITY_MICROMAP), "micromap", micromap.micromap));
         self
     }
 

@@ -132,15 +132,27 @@ impl SceneOnGpu {
         let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
         buffers.push(records);
 
+        let tlas = Self::top_level(gpu, scene, options, |index| &blas[instances[index].mesh])?;
+        Ok(Self { tlas, blas, meshes, textures, addresses, options, _buffers: buffers })
+    }
+
+    /// Builds a top level of a scene's instances, each with the bottom level that `blas` has for its position.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn top_level<'a>(
+        gpu: &Gpu,
+        scene: &Scene,
+        options: SceneOptions,
+        blas: impl Fn(usize) -> &'a AccelerationStructure,
+    ) -> Result<AccelerationStructure> {
         let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
         let placed = order.into_iter().map(|index| {
-            let instance = &instances[index as usize];
+            let (index, instance) = (index as usize, &scene.instances[index as usize]);
             // The custom index stays the scene's, whatever the order of the build.
-            let blas = &blas[instance.mesh];
-            instance_on_gpu(&instance.transform, index as usize, instance.record_offset, blas)
+            instance_on_gpu(&instance.transform, index, instance.record_offset, blas(index))
         });
-        let tlas = build_top(gpu, &placed.collect::<Vec<_>>())?;
-        Ok(Self { tlas, blas, meshes, textures, addresses, options, _buffers: buffers })
+        build_top(gpu, &placed.collect::<Vec<_>>())
     }
 }
 

@@ -6,6 +6,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use common::output::print;
 use common::usage::Usage;
+use common::workers;
 use manuscript::project::Project;
 
 use super::attempt::{Attempt, Originals};
@@ -19,7 +20,6 @@ use super::workbench::{Workbench, solved};
 use crate::programs::command_line::quoted;
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
-use crate::programs::workers;
 
 /// What is asked.
 #[derive(Debug, Args)]

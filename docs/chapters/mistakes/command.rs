@@ -5,12 +5,12 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use common::output::print;
 use common::usage::Usage;
+use common::workers;
 use manuscript::project::Project;
 
 use super::mistake::Mistake;
 use super::reproduction::Reproduction;
 use crate::programs::program::Programs;
-use crate::programs::workers;
 
 /// Lists mistakes, makes a patched copy, or checks them.
 ///

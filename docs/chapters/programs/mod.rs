@@ -9,4 +9,3 @@ pub mod interrupt;
 pub mod program;
 pub mod run_result;
 pub mod test;
-pub mod workers;

@@ -8,12 +8,12 @@ use std::sync::Mutex;
 use std::time::SystemTime;
 
 use anyhow::{Context, Result, anyhow};
+use common::workers;
 use manuscript::project::Project;
 use patience::Limit;
 
 use super::child;
 use super::controls::Controls;
-use super::workers;
 
 /// The samples' programs.
 pub struct Programs<'a> {

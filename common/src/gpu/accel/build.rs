@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use ash::vk;
 
 use super::place::{OFFSET_ALIGNMENT, place, together};
-use super::plan::{Plan, described};
+use super::plan::Plan;
 use super::{AccelerationStructure, BuildOptions, Input, compaction};
 use crate::gpu::buffer::offsets;
 use crate::gpu::queries::Queries;
@@ -106,7 +106,8 @@ pub(super) fn record(
     mode: vk::BuildAccelerationStructureModeKHR,
     builds: &[Build],
 ) {
-    let geometries: Vec<_> = builds.iter().map(|build| described(build.geometries)).collect();
+    let geometries = builds.iter().map(|build| build.structure.plan.described(build.geometries));
+    let geometries: Vec<_> = geometries.collect();
     let infos = builds.iter().zip(&geometries).map(|(build, geometries)| {
         let AccelerationStructure { plan, handle, .. } = build.structure;
         let mut info = plan.info(geometries).mode(mode).dst_acceleration_structure(*handle);

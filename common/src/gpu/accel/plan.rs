@@ -1,5 +1,7 @@
 //! What an acceleration structure is built from and with, and what of it an update must leave as it was.
 
+use std::ptr;
+
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
@@ -21,10 +23,10 @@ impl Plan {
     /// # Errors
     /// If there is more of something than the device takes.
     pub(super) fn new(gpu: &Gpu, (name, list): Input, options: BuildOptions) -> Result<Self> {
-        let sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
+        let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         let (name, geometries) = (name.to_owned(), list.to_vec());
-        let mut plan = Self { name, options, geometries, sizes };
-        let described = described(&plan.geometries);
+        let plan = Self { name, options, geometries, sizes };
+        let described = plan.described(&plan.geometries);
         let counts: Vec<_> = plan.geometries.iter().map(Geometry::count).collect();
         let limits = &gpu.limits.acceleration_structure;
         let (what, limit) = match plan.level() {
@@ -40,10 +42,10 @@ impl Plan {
                 vk::AccelerationStructureBuildTypeKHR::DEVICE,
                 &plan.info(&described),
                 &counts,
-                &mut plan.sizes,
+                &mut sizes,
             );
         }
-        Ok(plan)
+        Ok(Self { sizes, ..plan })
     }
 
     /// Of which level the structure is.
@@ -52,6 +54,21 @@ impl Plan {
             [Geometry::Instances { .. }] => vk::AccelerationStructureTypeKHR::TOP_LEVEL,
             _ => vk::AccelerationStructureTypeKHR::BOTTOM_LEVEL,
         }
+    }
+
+    /// Geometries as Vulkan takes them, triangles with the plan's micromap.
+    pub(super) fn described(
+        &self,
+        list: &[Geometry],
+    ) -> Vec<vk::AccelerationStructureGeometryKHR<'_>> {
+        let mut all: Vec<_> = list.iter().map(Geometry::described).collect();
+        for one in all.iter_mut().filter(|one| one.geometry_type == vk::GeometryTypeKHR::TRIANGLES)
+        {
+            let micromap = self.options.micromap.as_ref();
+            one.geometry.triangles.p_next =
+                micromap.map_or(ptr::null(), |one| ptr::from_ref(one).cast());
+        }
+        all
     }
 
     /// What the sizes, the build and every update must say alike.
@@ -111,11 +128,6 @@ impl Plan {
         }
         Ok(())
     }
-}
-
-/// Geometries as Vulkan takes them.
-pub(super) fn described(list: &[Geometry]) -> Vec<vk::AccelerationStructureGeometryKHR<'static>> {
-    list.iter().map(Geometry::described).collect()
 }
 
 #[cfg(test)]

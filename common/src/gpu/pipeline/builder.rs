@@ -205,6 +205,15 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
+    /// Lets rays meet triangles that have opacity micromaps: where the device has the feature `micromap`.
+    pub fn opacity_micromaps(mut self, meets: bool) -> Self {
+        if meets {
+            let flag = vk::PipelineCreateFlags::RAY_TRACING_OPACITY_MICROMAP_EXT;
+            self.blueprint.flags |= flag.as_raw();
+        }
+        self
+    }
+
     /// Compiles the shaders and makes the pipeline.
     ///
     /// # Errors
