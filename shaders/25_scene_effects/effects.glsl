@@ -53,6 +53,10 @@
 #if defined(SHADOWS) && defined(EFFECT_TRIANGLES)
 #define LIFTS
 #endif
+// Without textures there is nothing to filter.
+#ifndef EFFECT_TEXTURES
+#undef EFFECT_FILTERED_TEXTURES
+#endif
 // Triangles whose looks depend on how much of them a pixel sees: they are told the ray's cone.
 #if defined(EFFECT_WIREFRAME) || defined(EFFECT_FILTERED_TEXTURES)
 #define TOLD_CONES

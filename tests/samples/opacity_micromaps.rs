@@ -54,6 +54,25 @@ fn counted(view: &str, level: &str) -> f64 {
 }
 
 #[test]
+fn holes_without_texture_coordinates_are_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no leaf\nusemtl a\nf 1 2 3\n";
+    fs::write(folder.path().join("a.obj"), obj).unwrap();
+    fs::write(folder.path().join("a.mtl"), "newmtl a\nmap_d a.png\n").unwrap();
+    image::RgbaImage::from_pixel(2, 2, image::Rgba([255; 4]))
+        .save(folder.path().join("a.png"))
+        .unwrap();
+    let scene = folder.path().join("a.obj");
+    let arguments = ["--headless", "--size", "8x8", "--scene", scene.to_str().unwrap()];
+    let output = run::command(NAME).args(arguments).output().unwrap();
+    assert!(output.status.success());
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr).trim(),
+        "warning: the mesh \"leaf\" has no vt, which its map_d needs: one place of the texture stands for all of it"
+    );
+}
+
+#[test]
 fn the_picture_is_the_golden_one_and_repeats() {
     let [first, second] = [0, 1].map(|_| picture(NAME, "240x150", &[]));
     assert_eq!(bits(&first), bits(&second));
