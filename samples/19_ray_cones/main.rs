@@ -60,7 +60,7 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures()
+        Requirements::ray_tracing().textures().mipmaps()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {

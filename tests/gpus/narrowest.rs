@@ -189,18 +189,20 @@ fn a_card_without_graphics_traces_without_a_window() {
     }
 }
 
-/// What draws needs a queue that draws, and says so beside what else is missing.
+/// What draws, or makes mip levels by blits, needs a queue that draws, and says so beside what else is missing.
 #[test]
 fn a_card_without_graphics_is_refused_by_what_draws() {
-    let lacks = |faults: &str, what: &str| {
+    let lacks = |sample: &str, faults: &str, what: &str| {
         let narrow = Layer::narrow(faults);
-        let mut list = narrow.command("17_ray_query_raster");
-        quiet("17", list.arg("--list-devices").output().expect("it starts")).contains(what)
+        let mut list = narrow.command(sample);
+        quiet(sample, list.arg("--list-devices").output().expect("it starts")).contains(what)
     };
-    assert!(lacks("compute-only", "a queue with graphics"));
-    assert!(!lacks("", "a queue with graphics"));
-    assert!(lacks("without=dynamicRendering", "feature dynamicRendering"));
-    assert!(!lacks("", "feature dynamicRendering"));
+    for sample in ["17_ray_query_raster", "19_ray_cones"] {
+        assert!(lacks(sample, "compute-only", "a queue with graphics"), "{sample}");
+        assert!(!lacks(sample, "", "a queue with graphics"), "{sample}");
+    }
+    assert!(lacks("17_ray_query_raster", "without=dynamicRendering", "feature dynamicRendering"));
+    assert!(!lacks("17_ray_query_raster", "", "feature dynamicRendering"));
 }
 
 /// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and

@@ -141,18 +141,18 @@ fn judge(
     if queue.is_none() {
         candidate.missing.push("a compute queue".to_owned());
     }
+    if (wanted.raster || wanted.mipmaps) && !candidate.graphics {
+        candidate.missing.push("a queue with graphics".to_owned());
+    }
     if wanted.raster {
         // SAFETY: as above.
         let depth = unsafe {
             instance.get_physical_device_format_properties(physical_device, vk::Format::D32_SFLOAT)
         };
         let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
-        let needed = [
-            ("a queue with graphics", candidate.graphics),
-            ("depth in D32_SFLOAT", depth.optimal_tiling_features.contains(drawn)),
-        ];
-        let lacking = needed.iter().filter(|(_, has)| !has);
-        candidate.missing.extend(lacking.map(|(what, _)| (*what).to_owned()));
+        if !depth.optimal_tiling_features.contains(drawn) {
+            candidate.missing.push("depth in D32_SFLOAT".to_owned());
+        }
     }
     Ok(candidate)
 }

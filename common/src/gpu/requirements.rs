@@ -74,6 +74,8 @@ pub struct Requirements {
     pub push_constants: u32,
     /// A queue with graphics, and depth in 32-bit floats.
     pub raster: bool,
+    /// A queue with graphics, for blits.
+    pub mipmaps: bool,
     exact_floats: bool,
     list: Vec<Requirement>,
     wishes: Vec<Requirement>,
@@ -158,6 +160,12 @@ impl Requirements {
     pub fn raster(mut self) -> Self {
         self.raster = true;
         self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
+        self
+    }
+
+    /// Mip levels that the device makes: by blits, and these need a queue with graphics.
+    pub fn mipmaps(mut self) -> Self {
+        self.mipmaps = true;
         self
     }
 

@@ -14,8 +14,8 @@ pub(super) fn levels(extent: vk::Extent2D) -> u32 {
 /// Fills all levels but the first, which holds texels ready to be sampled.
 ///
 /// Each texel becomes the mean of two by two of the level before. A blit decodes sRGB before it filters, so the mean
-/// is one of light. Every device can blit the formats of textures with a linear filter (Vulkan specification,
-/// *Required Format Support*); a compute shader could not write sRGB.
+/// is one of light. Every queue with graphics can blit the formats of textures with a linear filter (Vulkan
+/// specification, *Required Format Support*); a compute shader could not write sRGB everywhere.
 pub(super) fn make(gpu: &Gpu, textures: &[Image]) -> Result<()> {
     gpu.submit(|cmd| {
         for image in textures {
