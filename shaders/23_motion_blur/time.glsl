@@ -1,0 +1,29 @@
+// The time of a sample, and how a ray carries it.
+#include "common/random.glsl"
+
+// What else than in chapters before a number is for.
+const uint DIMENSION_TIME = 2;
+
+// ANCHOR: time
+// The time of a pixel's sample: 0 when the shutter opens, and less than 1.
+float sample_time(uvec2 pixel, uint i) {
+    float u = random(pixel, i, push.frame, DIMENSION_TIME).x;
+    switch (TIMES) {
+        case TIMES_MIDDLE: return 0.5;
+        case TIMES_RANDOM: return u;
+        // One time in each of as many equal parts of the shutter's time as there are samples.
+        default: return min((float(i) + u) / float(push.samples), 0.99999994);
+    }
+}
+// ANCHOR_END: time
+
+// ANCHOR: carry
+// A ray carries its time as the start of its interval: the intersection shader sees the ray, and no payload.
+// A product with a power of two rounds nothing, and no surface is nearer than 2^-64.
+const float TIME_UNIT = 5.421010862427522e-20;
+
+// Which instances a ray of this time sees.
+uint mask_of(float time) {
+    return METHOD == METHOD_MOMENTS ? 1u << uint(time * float(push.moments)) : 0xff;
+}
+// ANCHOR_END: carry
