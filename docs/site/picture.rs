@@ -98,7 +98,9 @@ impl Picture {
         let (width, height) = size(&project.root.join(&self.from)).unwrap_or((0, 0));
         let size = match self.part {
             _ if width == 0 => String::new(),
-            Part::Whole | Part::Small | Part::Still => format!(" width=\"{width}\" height=\"{height}\""),
+            Part::Whole | Part::Small | Part::Still => {
+                format!(" width=\"{width}\" height=\"{height}\"")
+            }
             Part::First | Part::Second => {
                 let [_, _, width, height] = panel((width, height), false);
                 format!(" width=\"{width}\" height=\"{height}\"")
