@@ -274,6 +274,7 @@ impl Composer<'_> {
             true => image,
             false => format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address()),
         };
+        self.done.pictures.extend(picture.still(&self.project.root));
         self.done.pictures.insert(picture);
         self.edits.push((span, html));
     }

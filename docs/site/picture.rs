@@ -20,6 +20,8 @@ pub enum Part {
     Second,
     /// All of it, at most 480 pixels wide.
     Small,
+    /// The first frame of one that moves.
+    Still,
 }
 
 /// The height of a label above its panel and the gap between panels, in pixels: those of `panels`, which
@@ -48,6 +50,7 @@ impl Picture {
             Part::First => format!("{stem}-first.{extension}"),
             Part::Second => format!("{stem}-second.{extension}"),
             Part::Small => format!("{stem}-small.{extension}"),
+            Part::Still => format!("{stem}-still.{extension}"),
         }
     }
 
@@ -66,6 +69,7 @@ impl Picture {
         let size = (picture.width(), picture.height());
         let cut = match self.part {
             Part::Whole => unreachable!("copied above"),
+            Part::Still => picture.to_rgb8().into(),
             Part::Small if size.0 <= SMALL => picture,
             Part::Small => {
                 let small = imageops::thumbnail(&picture, SMALL, size.1 * SMALL / size.0);
@@ -79,12 +83,24 @@ impl Picture {
         cut.save(&to).with_context(|| format!("cannot write '{}'", to.display()))
     }
 
+    /// The still one of a picture that moves.
+    pub fn still(&self, root: &Path) -> Option<Self> {
+        let bytes = fs::read(root.join(&self.from)).ok()?;
+        // The chunk acTL comes before all pixels.
+        let pixels = bytes.windows(4).position(|word| word == b"IDAT")?;
+        let moves = bytes[..pixels].windows(4).any(|word| word == b"acTL");
+        (moves && self.part == Part::Whole)
+            .then(|| Self { from: self.from.clone(), part: Part::Still })
+    }
+
     /// It as HTML: with its size, so that nothing jumps while it loads.
     pub fn html(&self, project: &Project, words: &str, lazy: bool) -> String {
         let (width, height) = size(&project.root.join(&self.from)).unwrap_or((0, 0));
         let size = match self.part {
             _ if width == 0 => String::new(),
-            Part::Whole | Part::Small => format!(" width=\"{width}\" height=\"{height}\""),
+            Part::Whole | Part::Small | Part::Still => {
+                format!(" width=\"{width}\" height=\"{height}\"")
+            }
             Part::First | Part::Second => {
                 let [_, _, width, height] = panel((width, height), false);
                 format!(" width=\"{width}\" height=\"{height}\"")
@@ -93,7 +109,15 @@ impl Picture {
         let drawing = if self.from.ends_with(".svg") { " class=\"drawing\"" } else { "" };
         let lazy = if lazy { " loading=\"lazy\"" } else { "" };
         let alt = escaped(words).replace('|', "&#124;");
-        format!("<img src=\"{}\" alt=\"{alt}\"{drawing}{size}{lazy}>", self.address())
+        let image = format!("<img src=\"{}\" alt=\"{alt}\"{drawing}{size}{lazy}>", self.address());
+        // Who prefers less motion sees the first frame.
+        match self.still(&project.root) {
+            Some(still) => format!(
+                "<picture><source media=\"(prefers-reduced-motion: reduce)\" srcset=\"{}\">{image}</picture>",
+                still.address()
+            ),
+            None => image,
+        }
     }
 }
 

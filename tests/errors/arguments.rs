@@ -55,6 +55,37 @@ fn options() {
 }
 
 #[test]
+fn frames_that_cannot_be_animated() {
+    for (arguments, words) in [
+        (&["--animate", "--frames", "4"][..], "--animate writes a file: name it, --out FILE.png"),
+        (
+            &["--animate", "--frames", "4", "--out", "a.exr"],
+            "'a.exr' does not move: --animate writes a .png",
+        ),
+        (&["--animate", "--out", "a.png"], "say how many, --frames N"),
+        (
+            &["--animate", "--frames", "3601", "--out", "a.png"],
+            "--animate takes at most 3600 frames, a minute; not 3601",
+        ),
+        (&["--animate", "--frames", "4", "--out", "a.png"], "shows nothing that moves"),
+    ] {
+        refused(arguments, 2, &[words]);
+    }
+    for (name, arguments, words) in [
+        ("01_foundation", &["--animate"][..], "this program plays no frames"),
+        ("14_animation", &["--compare", "flag=rebuilt|updated"], "leave one of both out"),
+        ("14_animation", &["--pixel", "1,1"], "cannot be used with '--out <FILE>'"),
+    ] {
+        let frames = ["--animate", "--frames", "4", "--out", "a.png"];
+        let (code, line) = run::refused(name, &[arguments, &frames].concat());
+        assert!(code == 2 && line.contains(words), "{name}: {line}");
+    }
+    let mut window = run::command("14_animation");
+    window.args(["--animate", "--frames", "4", "--out", "a.png"]);
+    refused_by(window, 2, &["--headless"]);
+}
+
+#[test]
 fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
     let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
     assert!(code == 2 && line.contains("--compile-for is for 02 and on"), "{line}");

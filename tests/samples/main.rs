@@ -19,6 +19,7 @@ mod jitter_camera;
 mod leaving_a_surface;
 mod lights;
 mod long_renders;
+mod motion_blur;
 mod multi_closest_hit;
 mod opacity_micromaps;
 mod path_tracing;

@@ -51,10 +51,15 @@ impl Instruments {
 /// Refuses before the work what would be refused after it; for a program that renders by itself.
 ///
 /// # Errors
-/// If a file cannot be written, or is named twice; if a pixel's rays are asked for.
+/// If a file cannot be written, or is named twice; if a pixel's rays or frames that follow are asked for.
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
     if options.pixel.pixel.is_some() {
         let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
+        return Err(Usage(why.to_owned()).into());
+    }
+    if args.animate {
+        let why =
+            "this program plays no frames: --animate is for chapters that do, such as 14_animation";
         return Err(Usage(why.to_owned()).into());
     }
     app::files::check(args, &Instruments::new(options.clone()))?;

@@ -34,6 +34,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
+    /// With --headless, --frames and --out FILE.png: write all frames, as a picture that moves
+    #[arg(long, requires = "headless")]
+    pub animate: bool,
+
     /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
     /// whatever theirs; a name given again acts after all before it
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use anyhow::Result;
 
+use super::animated::{self, Animated};
 use super::{Args, Program, Progress, Run, Watch, files};
 
-/// Renders the frames of a sample, and writes the last one.
+/// Renders the frames of a sample, and writes the last one, or all of them where they are to move.
 ///
 /// # Errors
 /// On wrong arguments ([`Usage`](crate::usage::Usage)), if anything fails, or if validation had something to
@@ -14,12 +15,14 @@ use super::{Args, Program, Progress, Run, Watch, files};
 pub fn run(program: &Program, args: &Args, watch: &mut dyn Watch) -> Result<()> {
     let start = Instant::now();
     files::check(args, watch)?;
+    animated::check(args)?;
     watch.check(args)?;
     let mut run = Run::new(program, args, watch, start)?;
     if args.list_controls {
         return run.list_controls();
     }
     watch.begin(&mut run)?;
+    let mut animated = args.animate.then(|| Animated::begin(&mut run)).transpose()?;
     run.sample.changed(&run.gpu)?;
     let frames = run.frames.clone();
     let count = frames.iter().map(|range| u64::from(range.end - range.start)).sum();
@@ -30,12 +33,18 @@ pub fn run(program: &Program, args: &Args, watch: &mut dyn Watch) -> Result<()> 
         }
         run.render(index, &mut || watch.band())?;
         watch.frame(&run, index)?;
+        if let Some(animated) = &mut animated {
+            animated.add(&run.picture()?)?;
+        }
         progress.step();
     }
     drop(progress);
     let picture = watch.picture(&run)?;
     if let Some(out) = &args.out {
-        picture.map_or_else(|| run.picture(), Ok)?.save(out)?;
+        match animated {
+            Some(animated) => animated.save(out)?,
+            None => picture.map_or_else(|| run.picture(), Ok)?.save(out)?,
+        }
     }
     watch.end(&run)?;
     run.close()

@@ -1,5 +1,6 @@
 //! A program around a sample: arguments, controls, a headless run or a window, a picture.
 
+mod animated;
 mod args;
 pub mod bands;
 pub mod chart;

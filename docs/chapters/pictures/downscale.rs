@@ -7,8 +7,11 @@ use common::app::Picture;
 /// How wide a page shows a picture, in pixels.
 const WIDTH: u32 = 960;
 
-/// How many times larger than shown a run's picture is, in each direction: a whole number.
+/// How many times larger than shown a run's picture is, in each direction: a whole number. One that moves is not shrunk.
 pub fn times(arguments: &[String]) -> u32 {
+    if arguments.iter().any(|word| word == "--animate") {
+        return 1;
+    }
     let size = arguments.iter().position(|word| word == "--size");
     let size = size.and_then(|index| arguments.get(index + 1)?.split_once('x'));
     let Some(width) = size.and_then(|(width, _)| width.parse::<u32>().ok()) else { return 1 };
@@ -42,6 +45,7 @@ mod tests {
         let sizes = ["960x600", "1920x1200", "2880x900", "1000x600", "480x300", "x", "0x0"];
         assert_eq!(sizes.map(of), [1, 2, 3, 1, 1, 1, 1]);
         assert_eq!(times(&["--size".to_owned()]), 1);
+        assert_eq!(times(&["--size", "1920x1200", "--animate"].map(str::to_owned)), 1);
     }
 
     #[test]

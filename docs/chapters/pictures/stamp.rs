@@ -51,18 +51,33 @@ fn stamp(file: &Path) -> Result<BTreeMap<String, String>> {
 pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<Vec<u8>> {
     let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
     let mut pixels = vec![0; reader.output_buffer_size().context("the picture is too large")?];
-    let frame = reader.next_frame(&mut pixels)?;
+    let animation = reader.info().animation_control().copied();
+    let (width, height) = reader.info().size();
+    let (color, depth) = reader.output_color_type();
     let mut bytes = BufWriter::new(Vec::new());
-    let mut encoder = png::Encoder::new(&mut bytes, frame.width, frame.height);
-    encoder.set_color(frame.color_type);
-    encoder.set_depth(frame.bit_depth);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
     encoder.set_compression(png::Compression::High);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    if let Some(control) = animation {
+        encoder.set_animated(control.num_frames, control.num_plays)?;
+        encoder.set_blend_op(png::BlendOp::Over)?;
+    }
     for (key, text) in [(COMMAND, command), (SOURCES, hash), (DEVICE, device)] {
         encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
     }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels[..frame.buffer_size()])?;
+    for _ in 0..animation.map_or(1, |control| control.num_frames) {
+        let size = reader.next_frame(&mut pixels)?.buffer_size();
+        if let Some(frame) = reader.info().frame_control().filter(|_| animation.is_some()) {
+            writer.reset_frame_position()?;
+            writer.set_frame_dimension(frame.width, frame.height)?;
+            writer.set_frame_position(frame.x_offset, frame.y_offset)?;
+            writer.set_frame_delay(frame.delay_num, frame.delay_den)?;
+        }
+        writer.write_image_data(&pixels[..size])?;
+    }
     writer.finish()?;
     bytes.flush()?;
     Ok(bytes.into_inner()?)

@@ -1,0 +1,121 @@
+//! Where every piece is at a time, in frames: a function of that time, and of nothing else.
+
+use glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
+
+use super::shutter::Pose;
+
+/// Whose a piece is, and what it is.
+pub const SIDES: [&str; 2] = ["white", "black"];
+pub const KINDS: [&str; 7] = ["pawn", "rook", "knight", "bishop", "queen", "king", "ball"];
+
+/// Frames that a piece is under way.
+pub const UNDER_WAY: u32 = 34;
+
+// ANCHOR: leg
+/// A piece on its way: from here to there, in these frames.
+pub struct Leg {
+    pub begin: u32,
+    pub from: Vec3,
+    pub to: Vec3,
+    pub lift: f32,
+    pub becomes: Option<usize>,
+}
+
+impl Leg {
+    /// The place at a time that is not before the first.
+    fn at(&self, time: f64) -> Vec3 {
+        let part = self.part(time);
+        let (across, up) = match self.lift > 0.0 {
+            true => (smooth((part - 0.2) / 0.6), smooth(part / 0.35) * smooth((1.0 - part) / 0.35)),
+            false => (smooth(part), 0.0),
+        };
+        self.from.lerp(self.to, across) + up * self.lift * Vec3::Y
+    }
+
+    /// The part of it that is over.
+    fn part(&self, time: f64) -> f32 {
+        (time - f64::from(self.begin)) as f32 / UNDER_WAY as f32
+    }
+
+    /// How far a piece that is lifted has turned, in degrees; it arrives as it set out.
+    fn turned(&self, time: f64, turns: u32) -> f32 {
+        let across = smooth((self.part(time) - 0.2) / 0.6);
+        if self.lift > 0.0 && across < 1.0 { 360.0 * turns as f32 * across } else { 0.0 }
+    }
+}
+
+/// From 0 to 1 without a jerk at either end.
+fn smooth(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+// ANCHOR_END: leg
+
+/// A piece through a whole game: its side and kind by number, where it stands at first, and its legs in order.
+pub struct Piece {
+    pub side: usize,
+    pub kind: usize,
+    pub home: Vec3,
+    pub legs: Vec<Leg>,
+}
+
+/// All pieces, and the last frame.
+pub struct Motion {
+    pub pieces: Vec<Piece>,
+    pub last: u32,
+}
+
+/// A piece at a time: its kind, for a pawn may have become a queen, and its place.
+pub struct Placed {
+    pub side: usize,
+    pub kind: usize,
+    /// Degrees about the vertical.
+    pub yaw: f32,
+    pub place: Vec3,
+}
+
+impl Placed {
+    pub fn pose(&self) -> Pose {
+        Pose { place: self.place, rotation: Quat::from_rotation_y(self.yaw.to_radians()) }
+    }
+
+    pub fn at(&self) -> Affine3A {
+        let matrix3 = Mat3A::from_rotation_y(self.yaw.to_radians());
+        Affine3A { matrix3, translation: Vec3A::from(self.place) }
+    }
+}
+
+impl Motion {
+    // ANCHOR: time
+    /// Every piece at a time, in their order; those that are lifted turn so many times on their way.
+    pub fn at(&self, time: f64, turns: u32) -> impl Iterator<Item = Placed> {
+        self.pieces.iter().map(move |piece| {
+            let begun = piece.legs.partition_point(|leg| f64::from(leg.begin) <= time);
+            let (done, last) = (&piece.legs[..begun.saturating_sub(1)], piece.legs[..begun].last());
+            let place = last.map_or(piece.home, |leg| leg.at(time));
+            let arrived = last.filter(|leg| time >= f64::from(leg.begin + UNDER_WAY));
+            // A pawn is another piece from the frame on in which it arrives.
+            let became = done.iter().chain(arrived).filter_map(|leg| leg.becomes).next_back();
+            let (side, kind) = (piece.side, became.unwrap_or(piece.kind));
+            // Pieces are modelled facing +x. They look at the other side, and a little past it.
+            let yaw = [140.0, -40.0][side] + last.map_or(0.0, |leg| leg.turned(time, turns));
+            Placed { side, kind, yaw, place }
+        })
+    }
+    // ANCHOR_END: time
+
+    /// The most pieces that are under way at any time, seen through a shutter that is open for so many frames.
+    pub fn most_under_way(&self, shutter: f32) -> usize {
+        let legs = || self.pieces.iter().flat_map(|piece| &piece.legs);
+        let begins = legs().map(|leg| leg.begin);
+        // The most are under way when one has just set out.
+        let open = begins.map(|begin| {
+            let within = |leg: &&Leg| {
+                let ended = f64::from(leg.begin + UNDER_WAY) + f64::from(shutter);
+                leg.begin <= begin && f64::from(begin) <= ended
+            };
+            legs().filter(within).count()
+        });
+        open.max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,49 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/false_color.glsl"
+#include "mover.glsl"
+
+// How often the intersection shader was called.
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Calls { uint count; };
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    Movers movers;
+    Calls calls;
+    DirectionalLight light;
+    uint samples;    // of a pixel
+    uint moments;    // that what moves is there for
+    uint frame;      // of the game
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_TRIANGLE = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
+const uint SHOW_SHADOW = 5;
+const uint SHOW_ORIGIN = 6;
+const uint SHOW_SMEAR = 7;
+
+layout(constant_id = 1) const uint TIMES = 2;
+const uint TIMES_MIDDLE = 0;
+const uint TIMES_RANDOM = 1;
+const uint TIMES_STRATA = 2;
+
+layout(constant_id = 2) const uint METHOD = 1;
+const uint METHOD_MOMENTS = 0;
+const uint METHOD_SWEPT = 1;
+
+layout(constant_id = 4) const uint COUNTING = 0;
+const uint COUNTING_OFF = 0;
+const uint COUNTING_ON = 1;
+
+// What marks the custom index of what is under way.
+const uint UNDER_WAY = 0x800000;
+// The hit kind of a triangle that the intersection shader has moved.
+const uint HIT_MOVED = 1;

@@ -1,0 +1,26 @@
+// The time of a sample, and which instances its rays see.
+#include "common/random.glsl"
+#include "common/ray_time.glsl"
+
+// What else than in chapters before a number is for.
+const uint DIMENSION_TIME = 2;
+
+// ANCHOR: time
+// The time of a pixel's sample: 0 when the shutter opens, and less than 1.
+float sample_time(uvec2 pixel, uint i) {
+    float u = random(pixel, i, push.frame, DIMENSION_TIME).x;
+    switch (TIMES) {
+        case TIMES_MIDDLE: return 0.5;
+        case TIMES_RANDOM: return u;
+        // One time in each of as many equal parts of the shutter's time as there are samples.
+        default: return min((float(i) + u) / float(push.samples), 0.99999994);
+    }
+}
+// ANCHOR_END: time
+
+// ANCHOR: mask
+// Which instances a ray of this time sees.
+uint mask_of(float time) {
+    return METHOD == METHOD_MOMENTS ? 1u << uint(time * float(push.moments)) : 0xff;
+}
+// ANCHOR_END: mask

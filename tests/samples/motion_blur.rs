@@ -1,0 +1,35 @@
+//! 23_motion_blur: what is seen while the shutter is open is what closed forms and many moments say, and without a
+//! shutter the picture is its parent's.
+
+mod claims;
+mod smear;
+
+#[allow(dead_code)]
+#[path = "../../samples/23_motion_blur/legs.rs"]
+mod legs;
+#[allow(dead_code)]
+#[path = "../../samples/23_motion_blur/motion.rs"]
+mod motion;
+#[allow(dead_code)]
+#[path = "../../samples/23_motion_blur/shutter.rs"]
+mod shutter;
+#[allow(dead_code)]
+#[path = "../../samples/23_motion_blur/turned.rs"]
+mod turned;
+
+use common::app::Picture;
+use run::{golden, render};
+
+const NAME: &str = "23_motion_blur";
+
+fn picture(size: &str, arguments: &[&str], sets: &[&str]) -> Picture {
+    let sets = sets.iter().flat_map(|&set| ["--set", set]);
+    render(NAME, size, &arguments.iter().copied().chain(sets).collect::<Vec<_>>()).picture
+}
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    let picture = picture("240x150", &[], &["frame=934", "shutter=2"]);
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &picture, 0.002);
+}
