@@ -60,7 +60,7 @@ fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
 /// and no more than the outer one; and each end of that time may cost a sample.
 #[test]
 fn the_smear_of_a_ball_is_its_closed_form() {
-    let file = assets().join("games/ball.legs");
+    let file = run::root().join("tests/data/ball.legs");
     let motion = legs::open(&file).unwrap();
     let [open, close] = ends(&motion, 16).map(|placed| placed.place.as_dvec3() + BALL * DVec3::Y);
     // Between two corners, along and around, lies half the angle of a cell.
