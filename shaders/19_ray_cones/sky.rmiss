@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "footprint.glsl"
+#include "seen.glsl"
 
 layout(location = 0) rayPayloadInEXT Seen seen;
 
