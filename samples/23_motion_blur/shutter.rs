@@ -37,7 +37,7 @@ pub fn between([open, close]: [Pose; 2], part: f32, kind: Between) -> Affine3A {
         Affine3A { matrix3, translation: translation.into() }
     };
     match kind {
-        // On the straight way from quaternion to quaternion, and back to length 1: about one axis, and almost evenly.
+        // On the straight way from quaternion to quaternion, and back to length 1: about one axis; evenly if the angle is small.
         Between::Rotation => {
             let mixed = open.rotation + (close.rotation - open.rotation) * part;
             matrix(mixed.normalize())

@@ -4,6 +4,7 @@ use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu, order};
 use common::scene::{
     InstanceRecord, Material, Model, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
+    triangle_order,
 };
 use glam::{Affine3A, Mat3A, Vec3};
 
@@ -25,6 +26,8 @@ pub struct World {
     pub kinds: Vec<usize>,
     standing: Vec<Standing>,
     host: Scene,
+    /// How many triangles each mesh is built from.
+    primitives: Vec<u32>,
     _records: Buffer,
 }
 
@@ -77,9 +80,11 @@ impl World {
             ..scene.meshes[mesh]
         };
         let records: Vec<_> = pieces.chain(still).map(record).collect();
+        let primitives = |mesh| triangle_order(gpu, mesh, options).len() as u32;
+        let primitives = host.model.meshes.iter().map(primitives).collect();
         let records = Buffer::with_data(gpu, "instance records", &records, input_usage())?;
         let addresses = SceneAddresses { instances: records.address.into(), ..scene.addresses };
-        Ok(Self { scene, motion, addresses, kinds, standing, host, _records: records })
+        Ok(Self { scene, motion, addresses, kinds, standing, host, primitives, _records: records })
     }
 
     // ANCHOR: shown
@@ -120,8 +125,9 @@ impl World {
         counts.max().unwrap_or(0)
     }
 
+    /// How many a mesh is built from: its own, in order, some of them perhaps twice.
     pub fn triangles(&self, mesh: usize) -> u32 {
-        self.host.model.meshes[mesh].triangles.len() as u32
+        self.primitives[mesh]
     }
 
     /// The box around a mesh in its place.

@@ -155,6 +155,13 @@ impl Composition {
         self.spheres.iter().filter(|sphere| sphere.moves != Vec3::ZERO).count()
     }
 
+    /// Whether a material may become glass: neither a strand nor what moves wears it.
+    pub fn may_be_glass(&self, material: u32) -> bool {
+        let moves = |sphere: &Sphere| sphere.material == material && sphere.moves != Vec3::ZERO;
+        !self.strands.segments.iter().any(|segment| segment.material == material)
+            && !self.spheres.iter().any(moves)
+    }
+
     /// The finishes, if any material in use has one; shaders read no others.
     pub fn finishes_to_read(&self) -> &[Finish] {
         let plain = self.finishes.iter().all(|finish| *finish == Finish::NONE);

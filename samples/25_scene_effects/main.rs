@@ -72,7 +72,7 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures().primitive_culling_where_offered()
+        Requirements::ray_tracing().textures().mipmaps().primitive_culling_where_offered()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {

@@ -19,10 +19,12 @@ impl Demo {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         c.one_of("material", &mut self.material, &names);
         let chosen = names[self.material as usize];
-        let materials = &mut self.scene.scene.model.materials;
-        let Some(material) = materials.iter_mut().find(|m| m.name == chosen) else { return };
+        let materials = &self.scene.scene.model.materials;
+        let Some(number) = materials.iter().position(|m| m.name == chosen) else { return };
+        let may_be_glass = self.scene.may_be_glass(number as u32);
+        let material = &mut self.scene.scene.model.materials[number];
         let mut glass = is_glass(material);
-        if c.checkbox("glass", &mut glass) {
+        if may_be_glass && c.checkbox("glass", &mut glass) {
             material.illumination = if glass { 7 } else { 2 };
             if glass && material.refraction == 1.0 {
                 material.refraction = 1.5;

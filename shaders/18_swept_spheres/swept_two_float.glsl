@@ -108,6 +108,8 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmi
         vec2 beyond_b = ff_add(start_b, side * ff_mul(half_b, n));
         bool is_a = k.x > 0.0 ? inside_a.x >= 0.0 && beyond_a.x <= 0.0 : !by_b;
         bool is_b = k.x > 0.0 ? inside_b.x >= 0.0 && beyond_b.x >= 0.0 : by_b;
+        is_a = is_a && !(inside_a.x == 0.0 && bend.x < 0.0 && side * n.x > 0.0);
+        is_b = is_b && !(inside_b.x == 0.0 && bend.x < 0.0 && side * n.x < 0.0);
         vec2 start = mid.t;
         vec2 way;
         if (is_a || is_b) {

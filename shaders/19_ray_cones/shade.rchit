@@ -67,7 +67,8 @@ void main() {
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     hit.normal = faceforward(normal, -hit.face, normal);
 
-    hit.color = material.base_color;
+    // What has no texture has no level.
+    hit.color = SHOW == SHOW_LEVEL ? vec3(0.2) : material.base_color;
     if (material.base_texture >= 0) {
         int index = material.base_texture;
         Row row = chosen(instance, triangle, hit.face, vec2(textureSize(textures[nonuniformEXT(index)], 0)));

@@ -39,6 +39,12 @@ void main() {
     }
 #endif
     hit = report(point, outward, own, curvature, number);
+#if defined(EFFECT_PATTERNS) && defined(EFFECT_SPHERES) && defined(EFFECT_MOTION_BLUR)
+    // A pattern moves with its ball.
+    if (gl_HitKindEXT == KIND_SPHERE && finish_of(number).pattern != PATTERN_PLAIN) {
+        hit.color = point - time_of(gl_RayTminEXT) * push.world.spheres.at[gl_PrimitiveID].moves;
+    }
+#endif
 #if defined(CHANCES) && defined(EFFECT_SPHERES)
     if (gl_HitKindEXT == KIND_SPHERE && push.world.emitters.column_count > 0) {
         hit.emitter = push.world.emitters.sphere_ids.at[gl_PrimitiveID];

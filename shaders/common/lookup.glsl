@@ -18,7 +18,10 @@ float level_of(float texels) {
 // (Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems, 2019).
 // The mapping stretches areas; lengths by the root of that.
 float texels_of_cone(float width, float cosine, Mapping mapping, vec2 size) {
-    float stretch = sqrt(length(cross(mapping.u, mapping.v)) * size.x * size.y);
+    // In units of the larger gradient, so that no square is too large or too small.
+    float most = max(length(mapping.u), length(mapping.v));
+    float area = length(cross(mapping.u / max(most, 1e-30), mapping.v / max(most, 1e-30)));
+    float stretch = most * sqrt(area * size.x * size.y);
     return width / max(abs(cosine), GRAZING) * stretch;
 }
 // ANCHOR_END: cone

@@ -182,6 +182,9 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, 
         precise float beyond_b = dot(at_b.p, u) + side * half_b * n + delta * q;
         bool is_a = k > 0.0 ? half_a >= 0.0 && beyond_a <= 0.0 : !by_b;
         bool is_b = k > 0.0 ? half_b >= 0.0 && beyond_b >= 0.0 : by_b;
+        // Through a tip a line within the cone goes once: it enters the body there, or it leaves.
+        is_a = is_a && !(half_a == 0.0 && bend < 0.0 && side * n > 0.0);
+        is_b = is_b && !(half_b == 0.0 && bend < 0.0 && side * n < 0.0);
         if (is_a || is_b) {
             Foot own = is_a ? at_a : at_b;
             float way = side * (is_a ? half_a : half_b);

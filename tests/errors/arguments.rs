@@ -68,12 +68,14 @@ fn frames_that_cannot_be_animated() {
             "--animate takes at most 3600 frames, a minute; not 3601",
         ),
         (&["--animate", "--frames", "4", "--out", "a.png"], "shows nothing that moves"),
+        (&["--animate", "--frames", "1", "--out", "a.png"], "two frames or more"),
     ] {
         refused(arguments, 2, &[words]);
     }
     for (name, arguments, words) in [
         ("01_foundation", &["--animate"][..], "this program plays no frames"),
         ("14_animation", &["--compare", "flag=rebuilt|updated"], "leave one of both out"),
+        ("14_animation", &["--set", "play=off"], "play=off stops it: leave that out"),
         ("14_animation", &["--pixel", "1,1"], "cannot be used with '--out <FILE>'"),
     ] {
         let frames = ["--animate", "--frames", "4", "--out", "a.png"];

@@ -21,6 +21,7 @@ fn many_bands_give_the_same_bytes_as_few() {
         ("17_ray_query_raster", &[]),
         ("21_heightfield", &[]),
         ("22_solids", &[]),
+        ("23_motion_blur", &["frame=934", "play=off", "shutter=2", "samples=4"]),
         ("24_accuracy", &[]),
         ("25_scene_effects", &["scene=soft evening"]),
         ("26_leaving_a_surface", &[]),

@@ -100,6 +100,7 @@ fn all_rungs_by_the_driver() {
     for (name, wrong) in RUNGS.iter().zip(all_wrong) {
         held.insert(format!("all.{name}.wrong"), json!(wrong));
     }
+    rays_go_through_tips(&gpu);
     if cases::seed().is_none() {
         figures::hold("18_swept_spheres/rungs", Value::Object(held));
     }
@@ -119,6 +120,23 @@ fn two_rungs_in_the_worst_arithmetic() {
     let families = FAMILIES.map(|family| Exact::new(cases(family)));
     for rung in [1, TOP] {
         asked(&gpu, rung, &families, 64.0);
+    }
+    rays_go_through_tips(&gpu);
+}
+
+/// A line through a tip enters the body there or leaves it, and goes on.
+fn rays_go_through_tips(gpu: &Gpu) {
+    let cases = cases::through_tips();
+    for rung in [1, TOP] {
+        for (case, found) in cases.iter().zip(ask(gpu, rung as u32, &cases)) {
+            let exact = case.swept.intersect(&case.ray);
+            let (Some(exact), Some(found)) = (exact, found) else {
+                assert_eq!(exact.is_some(), found.is_some(), "{}: {case:?}", RUNGS[rung]);
+                continue;
+            };
+            let off = ulp_error(found.t, exact.t);
+            assert!(off <= 8.0, "{}: {case:?}: {found:?}, exact {exact:?}", RUNGS[rung]);
+        }
     }
 }
 

@@ -59,6 +59,9 @@ pub fn check(args: &Args) -> Result<(), Usage> {
             "--animate shows one frame after the other: say how many, --frames N".to_owned(),
         );
     }
+    if args.frames < 2 {
+        return wrong("--animate needs two frames or more: --frames N; not 1".to_owned());
+    }
     if args.frames > MOST {
         let frames = args.frames;
         return wrong(format!("--animate takes at most {MOST} frames, a minute; not {frames}"));
@@ -72,14 +75,18 @@ impl Animated {
     /// # Errors
     /// [`Usage`] if the sample shows nothing that moves, or renders no frames one after the other.
     pub fn begin(run: &mut Run) -> Result<Self> {
-        if run.sample.playback().is_none() {
+        let Some(playback) = run.sample.playback() else {
             let what = "--animate is for chapters that play frames, such as 14_animation";
             return Err(Usage(format!("{} shows nothing that moves: {what}", run.name)).into());
+        };
+        if !playback.playing {
+            let what = "--animate shows what is played, and play=off stops it: leave that out";
+            return Err(Usage(what.to_owned()).into());
         }
         let count = run.args.frames;
         if run.frames.len() != 1 || run.frames[0] != (0..count) || run.apart {
-            let what = "--animate shows the frames of --frames, and this run renders others";
-            return Err(Usage(format!("{what}: leave one of both out")).into());
+            let what = "--animate shows the frames of --frames one after the other, and another option has this run";
+            return Err(Usage(format!("{what} render other frames: leave one of both out")).into());
         }
         Self::new(run.args.size.width, run.args.size.height, count)
     }

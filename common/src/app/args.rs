@@ -59,7 +59,7 @@ pub struct Args {
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model (.obj) instead of the chapter's own; 14 takes legs of pieces instead (.legs), 25 also scene files (.toml)
+    /// Open this model (.obj) instead of the chapter's own; 14 and 23 take legs of pieces instead (.legs), 25 also scene files (.toml)
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 

@@ -197,7 +197,7 @@ fn strata_are_better_than_chance() {
     figures::hold("23_motion_blur/error", held);
 }
 
-/// The device's own way compiles: a ray with a time, and the time in a hit shader.
+/// The device's own way compiles: a ray with a time.
 #[test]
 fn the_extension_compiles() {
     let text = include_str!("nv.rgen");

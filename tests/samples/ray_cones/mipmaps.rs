@@ -33,12 +33,12 @@ fn level(number: u32, side: u32) -> Vec<[f64; 3]> {
     let nonuniform = "#extension GL_EXT_nonuniform_qualifier : require\n";
     let tracing = "#extension GL_EXT_ray_tracing : require";
     replace_line(shaders.path(), file, tracing, &format!("{tracing}\n{nonuniform}"));
-    let footprint = "#include \"footprint.glsl\"";
-    let lookup = format!("{footprint}\n#include \"lookup.glsl\"");
-    replace_line(shaders.path(), file, footprint, &lookup);
+    let seen = "#include \"seen.glsl\"";
+    let table = format!("{seen}\nlayout(set = 1, binding = 0) uniform sampler2D textures[];");
+    replace_line(shaders.path(), file, seen, &table);
     let texel =
         format!("vec4(textureLod(textures[1], (vec2(id) + 0.5) / {side}.0, {number}.0).rgb, 1.0)");
-    replace_line(shaders.path(), file, "sum / float(push.rays * push.rays)", &texel);
+    replace_line(shaders.path(), file, "sum / float(side * side)", &texel);
     let mut command = command(NAME);
     let size = format!("{side}x{side}");
     let run = render_by(command.env("SHADERS", shaders.path()), &size, &[]);

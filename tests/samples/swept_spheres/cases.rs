@@ -124,6 +124,29 @@ fn case(family: &str, random: &mut Random) -> Case {
     Case { ray, swept }
 }
 
+/// Rays exactly along an axis with a tip, first or last: from the tip, from inside, and from outside at both ends.
+pub fn through_tips() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (axis, tip_first) in
+        [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|a| [(a, true), (a, false)])
+    {
+        let (tip, thick) = (0.75 * axis, -1.25 * axis);
+        let ends = if tip_first { [tip, thick] } else { [thick, tip] };
+        let radii = if tip_first { [0.0, 0.5] } else { [0.5, 0.0] };
+        for (from, to) in [
+            (tip, thick),
+            (0.25 * axis, tip),
+            (0.25 * axis, thick),
+            (-1.5 * axis, thick),
+            (4.0 * axis, tip),
+            (-4.0 * axis, thick),
+        ] {
+            cases.push(Case { ray: towards(from, to), swept: Swept { ends, radii } });
+        }
+    }
+    cases
+}
+
 /// A seed of one's own: with `SEED=7` the tests hunt in cases that nobody has seen.
 pub fn seed() -> Option<u64> {
     std::env::var("SEED").ok().map(|seed| seed.parse().expect("SEED is a whole number"))
