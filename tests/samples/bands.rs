@@ -6,7 +6,7 @@ use run::{bits, render};
 fn many_bands_give_the_same_bytes_as_few() {
     // What a first frame costs is not known before: its first band is one row. The second frame is its like,
     // and so small that on any but the busiest machine it is one band.
-    let choices: [(&str, &[&str]); 21] = [
+    let choices: [(&str, &[&str]); 22] = [
         ("02_basic", &[]),
         ("03_any_hit", &["mode=random", "samples=2"]),
         ("04_jitter_camera", &["accumulate=off", "jitter=off"]),
