@@ -73,12 +73,12 @@ fn frames_that_cannot_be_animated() {
         refused(arguments, 2, &[words]);
     }
     for (name, arguments, words) in [
-        ("01_foundation", &["--animate"][..], "this program plays no frames"),
+        ("01_foundation", &[][..], "this program plays no frames"),
         ("14_animation", &["--compare", "flag=rebuilt|updated"], "leave one of both out"),
         ("14_animation", &["--set", "play=off"], "play=off stops it: leave that out"),
         ("14_animation", &["--pixel", "1,1"], "cannot be used with '--out <FILE>'"),
     ] {
-        let frames = ["--animate", "--frames", "4", "--out", "a.png"];
+        let frames = ["--headless", "--animate", "--frames", "4", "--out", "a.png"];
         let (code, line) = run::refused(name, &[arguments, &frames].concat());
         assert!(code == 2 && line.contains(words), "{name}: {line}");
     }
