@@ -265,7 +265,7 @@ fn text(set: Effects, random: &mut Random) -> String {
             );
         }
         let (x, z) = (n(-2.5, 2.5), n(-2.0, 3.0));
-        if has(SweptSpheres) {
+        if has(SweptSpheres) && material != "crystal" {
             text += &format!(
                 "[[strand]]\nnodes = [[{x}, 0.3, {z}, 0.2], [{x}, {}, {z}, 0.1], [{}, 1.1, {z}, 0]]\n\
                  material = \"{material}\"\n",
