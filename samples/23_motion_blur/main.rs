@@ -3,6 +3,7 @@
 //! New since 14_animation: a shutter; a time for each sample, in strata; what is under way in the top level once for
 //! each moment, or swept, with its triangles moved by an intersection shader; rotations between two poses.
 
+#[path = "../14_animation/legs.rs"]
 mod legs;
 mod levels;
 mod motion;

@@ -5,7 +5,7 @@ mod claims;
 mod smear;
 
 #[allow(dead_code)]
-#[path = "../../samples/23_motion_blur/legs.rs"]
+#[path = "../../samples/14_animation/legs.rs"]
 mod legs;
 #[allow(dead_code)]
 #[path = "../../samples/23_motion_blur/motion.rs"]

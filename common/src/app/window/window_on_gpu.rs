@@ -57,6 +57,8 @@ impl WindowOnGpu {
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);
+        // Frames may take long, and then a click does: press and release come with different frames.
+        context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
         Ok(Self {
             painter: Painter::new(&gpu, &swapchain)?,
             swapchain,
