@@ -2,6 +2,7 @@
 //! shutter the picture is its parent's.
 
 mod claims;
+mod hard;
 mod smear;
 
 #[allow(dead_code)]
