@@ -6,6 +6,7 @@ mod hard;
 mod smear;
 
 #[allow(dead_code)]
+#[expect(clippy::duplicate_mod, reason = "to 14 it is a part of its own")]
 #[path = "../../samples/14_animation/legs.rs"]
 mod legs;
 #[allow(dead_code)]
