@@ -1,0 +1,2 @@
+//! 30 · Own tree: placeholder of the branch, replaced before it is merged.
+fn main() {}

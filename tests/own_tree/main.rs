@@ -1,0 +1,1 @@
+//! 30_own_tree: trees held to what they promise.
