@@ -41,3 +41,29 @@ pub struct Tree {
     /// A permutation of the primitives: each lies in just one leaf.
     pub order: Vec<u32>,
 }
+
+impl Tree {
+    /// How many nodes lie on the longest way from the root to a leaf: a walk leaves at most one child behind
+    /// at each of them.
+    pub fn depth(&self) -> u32 {
+        let mut deepest = 0;
+        let mut rest = vec![(0, 1)];
+        while let Some((at, depth)) = rest.pop() {
+            deepest = depth.max(deepest);
+            let inner = self.nodes[at as usize].children.iter();
+            let inner = inner.filter(|child| child.count == 0 && child.low.x <= child.high.x);
+            rest.extend(inner.map(|child| (child.first, depth + 1)));
+        }
+        deepest
+    }
+
+    /// The nodes with all numbers moved on: as they stand in an array of many trees.
+    pub fn placed(&self, first_node: u32, first_primitive: u32) -> impl Iterator<Item = Node> {
+        self.nodes.iter().map(move |node| Node {
+            children: node.children.map(|child| {
+                let offset = if child.count == 0 { first_node } else { first_primitive };
+                Child { first: child.first + offset, ..child }
+            }),
+        })
+    }
+}

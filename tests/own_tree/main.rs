@@ -1,1 +1,5 @@
-//! 30_own_tree: trees held to what they promise.
+//! 30_own_tree: trees and walks held to what they promise.
+
+mod hunts;
+mod rate;
+mod rig;
