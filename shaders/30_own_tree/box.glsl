@@ -18,8 +18,9 @@ struct Ray {
 Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
     float farthest = max(max(abs(origin.x), abs(origin.y)), abs(origin.z)) + reach;
     float grown = BOXES == BOXES_BOUND ? growth * farthest : BOXES == BOXES_GUESS ? 1e-5 : 0.0;
-    vec3 shift = mix(vec3(-grown), vec3(grown), greaterThanEqual(direction, vec3(0.0)));
-    return Ray(origin, direction, clamp(1.0 / direction, -LARGEST, LARGEST), shift);
+    // A component may be 0, or -0: its sign is what the walls are chosen by, in both.
+    vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0)));
+    return Ray(origin, direction, side * min(1.0 / abs(direction), LARGEST), side * grown);
 }
 // ANCHOR_END: ray
 

@@ -100,9 +100,9 @@ pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
         let from = middle + half * 0.3 * random.in_cube();
         let mut origin = from.as_vec3();
         let mut direction = (target - origin.as_dvec3()).as_vec3();
-        // Along an axis, or nearly: in the wall of a box, or across it by little.
+        // Across an axis, or nearly so: in the wall of a box, or through it by little.
         let axis = random.below(12);
-        if axis < 3 {
+        if axis < 3 && (target[axis] - middle[axis]).abs() < 0.3 * half[axis] {
             origin[axis] = target.as_vec3()[axis];
             direction[axis] = [0.0, -0.0, 1e-30, direction.length() * 1e-8][random.below(4)];
         }
