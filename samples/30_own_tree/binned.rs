@@ -145,31 +145,28 @@ fn split(part: &mut [Primitive], most: u64) -> usize {
     }
     let grid = Grid::around(part);
     if let Some((axis, plane)) = Bins::of(part, &grid).best() {
-        let middle = partition(part, |primitive| grid.bin(&primitive.hull, axis) < plane);
+        let middle = partition(part, |one| grid.place(&one.hull, axis) < plane as f32);
         if middle.max(part.len() - middle) as u64 <= most {
             return middle;
         }
     }
     let middle = part.len() / 2;
-    let place = |one: &Primitive| one.hull.middle(grid.longest);
+    let place = |one: &Primitive| one.hull.half_middle(grid.longest);
     part.select_nth_unstable_by(middle, |a, b| {
         place(a).total_cmp(&place(b)).then(a.index.cmp(&b.index))
     });
     middle
 }
 
-/// Puts those first of which `is_first` is true, and says how many they are.
+/// Puts those first of which `is_first` is true, and says how many they are. Each is moved, whether it must
+/// be or not: a processor guesses wrong half the time what such a question is answered, and that takes longer.
 fn partition(part: &mut [Primitive], is_first: impl Fn(&Primitive) -> bool) -> usize {
-    let (mut low, mut high) = (0, part.len());
-    while low < high {
-        if is_first(&part[low]) {
-            low += 1;
-        } else {
-            high -= 1;
-            part.swap(low, high);
-        }
+    let mut firsts = 0;
+    for i in 0..part.len() {
+        part.swap(firsts, i);
+        firsts += usize::from(is_first(&part[firsts]));
     }
-    low
+    firsts
 }
 // ANCHOR_END: split
 
@@ -187,7 +184,8 @@ struct Grid {
 // ANCHOR: bins
 impl Grid {
     fn around(part: &[Primitive]) -> Self {
-        let middle = |one: &Primitive| Hull::point([0, 1, 2].map(|axis| one.hull.middle(axis)));
+        let middle =
+            |one: &Primitive| Hull::point([0, 1, 2].map(|axis| one.hull.half_middle(axis)));
         let middles = part.iter().fold(Hull::EMPTY, |hull, one| hull.join(&middle(one)));
         let axes = [0, 1, 2];
         let sides = axes.map(|axis| middles.side(axis));
@@ -200,9 +198,13 @@ impl Grid {
         Self { low: axes.map(|axis| middles.low(axis)), density, longest, bins }
     }
 
+    /// Where a primitive is, in bins from the first's start.
+    fn place(&self, hull: &Hull, axis: usize) -> f32 {
+        (hull.half_middle(axis) - self.low[axis]) * self.density[axis]
+    }
+
     fn bin(&self, hull: &Hull, axis: usize) -> usize {
-        let bin = (hull.middle(axis) - self.low[axis]) * self.density[axis];
-        (bin as usize).min(self.bins - 1)
+        (self.place(hull, axis) as usize).min(self.bins - 1)
     }
 }
 

@@ -26,14 +26,14 @@ impl Hull {
 
     /// Half its surface area. In 64 bits, where no square of a 32-bit number is lost or infinite.
     pub fn half_area(&self) -> f64 {
-        let [x, y, z] = [0, 1, 2].map(|axis| -f64::from(self.0[axis + 4]) - f64::from(self.0[axis]));
+        let [x, y, z] =
+            [0, 1, 2].map(|axis| -f64::from(self.0[axis + 4]) - f64::from(self.0[axis]));
         x * y + y * z + z * x
     }
 
-    /// The middle along an axis.
-    pub fn middle(&self, axis: usize) -> f32 {
-        // Halved before they are added: the sum of two finite numbers may not be finite.
-        self.0[axis] * 0.5 - self.0[axis + 4] * 0.5
+    /// Half the middle along an axis: so it is finite, and so is the way from one to another.
+    pub fn half_middle(&self, axis: usize) -> f32 {
+        self.0[axis] * 0.25 - self.0[axis + 4] * 0.25
     }
 
     /// How long it is along an axis.

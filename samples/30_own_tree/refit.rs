@@ -86,7 +86,10 @@ mod tests {
         let bounds = cubes(9, |i| Vec3::Y * i as f32);
         let built = binned(&bounds);
         let mut tree = built.clone();
-        for lost in [vec![(Vec3::NAN, Vec3::NAN); 9], [bounds[..4].to_vec(), vec![(Vec3::ZERO, Vec3::INFINITY); 5]].concat()] {
+        for lost in [
+            vec![(Vec3::NAN, Vec3::NAN); 9],
+            [bounds[..4].to_vec(), vec![(Vec3::ZERO, Vec3::INFINITY); 5]].concat(),
+        ] {
             refit(&mut tree, &lost);
             assert!(cost(&tree).is_finite());
         }

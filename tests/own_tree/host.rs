@@ -16,14 +16,20 @@ fn every_triangle_of_the_chess_set_lies_in_its_tree() {
         check(&reinserted(tree.clone(), &bounds, 2), &bounds).unwrap();
         assert_eq!(quantised(&tree.nodes).unwrap().len(), tree.nodes.len());
         let (cost, depth, bytes) = (cost(&tree), depth(&tree), bytes_per_primitive(&tree));
-        println!("{:14} {:7} triangles: cost {cost:.1}, depth {depth}, {bytes:.0} bytes each", triangles.name, bounds.len());
+        println!(
+            "{:14} {:7} triangles: cost {cost:.1}, depth {depth}, {bytes:.0} bytes each",
+            triangles.name,
+            bounds.len()
+        );
     }
 }
 
 #[test]
 #[ignore = "by hand: takes times"]
 fn times_of_builds() {
-    println!("primitives  binned  reinserted(1)  refit  quantised: ms; cost, cost reinserted(1), depth, bytes");
+    println!(
+        "primitives  binned  reinserted(1)  refit  quantised: ms; cost, cost reinserted(1), depth, bytes"
+    );
     for count in [1_000, 10_000, 100_000, 1_000_000] {
         let bounds = scenes::random_triangles(count).bounds();
         let (build, mut tree) = best(5, || binned(black_box(&bounds)));
@@ -32,7 +38,10 @@ fn times_of_builds() {
         let (packing, _) = best(5, || quantised(black_box(&tree.nodes)).unwrap());
         println!(
             "{count:10} {build:8.2} {again:9.1} {boxes:8.2} {packing:8.2}; {:6.2} {:6.2} {} {:.1}",
-            cost(&tree), cost(&better), depth(&tree), bytes_per_primitive(&tree)
+            cost(&tree),
+            cost(&better),
+            depth(&tree),
+            bytes_per_primitive(&tree)
         );
     }
     for triangles in scenes::chess() {

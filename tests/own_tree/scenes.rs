@@ -33,7 +33,10 @@ pub fn chess() -> Vec<Triangles> {
     });
     let world = Triangles { name: "chess".to_owned(), list: world.collect() };
     let meshes = model.meshes.iter();
-    meshes.map(|mesh| Triangles { name: mesh.name.clone(), list: list(mesh) }).chain([world]).collect()
+    meshes
+        .map(|mesh| Triangles { name: mesh.name.clone(), list: list(mesh) })
+        .chain([world])
+        .collect()
 }
 
 /// Triangles at random places in a cube, a few hundredths of it in size for 100,000, and smaller if more.

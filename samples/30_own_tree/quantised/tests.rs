@@ -58,8 +58,26 @@ fn flat_huge_tiny_and_subnormal_boxes_are_held() {
     let tiny = f32::from_bits(1);
     let least = f32::MIN_POSITIVE;
     let numbers = [
-        0.0, -0.0, 1.0, 1.0f32.next_up(), 1.0f32.next_down(), 1e9, 1e9f32.next_up(), 255.0, 256.0, 1e30, REACH,
-        1e-18, 1e-30, least, least.next_down(), least.next_up(), 1.5 * least, 2.0 * least, tiny, 3.0 * tiny,
+        0.0,
+        -0.0,
+        1.0,
+        1.0f32.next_up(),
+        1.0f32.next_down(),
+        1e9,
+        1e9f32.next_up(),
+        255.0,
+        256.0,
+        1e30,
+        REACH,
+        1e-18,
+        1e-30,
+        least,
+        least.next_down(),
+        least.next_up(),
+        1.5 * least,
+        2.0 * least,
+        tiny,
+        3.0 * tiny,
     ];
     let numbers: Vec<f32> = numbers.into_iter().flat_map(|x: f32| [x, -x]).collect();
     let spans = numbers.iter().flat_map(|&a| numbers.iter().map(move |&b| (a.min(b), a.max(b))));
@@ -131,9 +149,9 @@ fn span(exponents: Range<i32>) -> impl Strategy<Value = (f32, f32)> {
 }
 
 fn any_box() -> impl Strategy<Value = Bounds> {
-    prop::array::uniform3(prop_oneof![span(-149..125), span(-3..3), span(-149..-120)]).prop_map(|spans| {
-        (Vec3::from(spans.map(|span| span.0)), Vec3::from(spans.map(|span| span.1)))
-    })
+    prop::array::uniform3(prop_oneof![span(-149..125), span(-3..3), span(-149..-120)]).prop_map(
+        |spans| (Vec3::from(spans.map(|span| span.0)), Vec3::from(spans.map(|span| span.1))),
+    )
 }
 
 proptest! {

@@ -44,7 +44,8 @@ fn a_bad_tree_becomes_a_good_one() {
 #[test]
 fn each_round_makes_it_better_or_ends() {
     let bounds = row(777);
-    let costs: Vec<f64> = (0..8).map(|rounds| cost(&reinserted(bad(&bounds, false), &bounds, rounds))).collect();
+    let costs: Vec<f64> =
+        (0..8).map(|rounds| cost(&reinserted(bad(&bounds, false), &bounds, rounds))).collect();
     println!("{costs:.2?}");
     assert!(costs.windows(2).all(|pair| pair[1] <= pair[0]));
 }
@@ -58,7 +59,8 @@ fn none_is_deeper_than_the_stack() {
         check(&reinserted(chain.clone(), &bounds, rounds), &bounds).unwrap();
     }
     // Where each that is put in would best lie below all others.
-    let nested: Vec<Bounds> = (1..5000).map(|i| Vec3::splat(1.01f32.powi(i))).map(|at| (-at, at)).collect();
+    let nested: Vec<Bounds> =
+        (1..5000).map(|i| Vec3::splat(1.01f32.powi(i))).map(|at| (-at, at)).collect();
     let tree = reinserted(binned(&nested), &nested, 10);
     check(&tree, &nested).unwrap();
     println!("nested: depth {}", depth(&tree));
