@@ -88,7 +88,7 @@ impl Sample for Demo {
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
-        let scene = OwnScene::new(gpu, &scene, own_tree::median)?;
+        let scene = OwnScene::new(gpu, &scene, own_tree::binned)?;
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         let constants = Constants {
             show: Show::Picture,

@@ -6,7 +6,7 @@ use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
 
-use crate::{Bounds, Node, Tree};
+use crate::{Bounds, Node, Tree, depth};
 
 common::shader_struct! {
     /// The corners of a triangle in its mesh's space, at its position in the tree's order. 36 bytes.
@@ -148,12 +148,12 @@ impl TreesOnGpu {
             reach,
         };
         let head = Buffer::with_data(gpu, "where the trees are", &[head], USAGE)?;
-        let deepest = trees.iter().map(Tree::depth).max().unwrap_or(0);
+        let deepest = trees.iter().map(depth).max().unwrap_or(0);
         Ok(Self {
             address: head.address.into(),
             orders: trees.into_iter().map(|tree| tree.order).collect(),
             // One more for the other instances of a leaf of the top tree.
-            stack: top.depth() + 1 + deepest,
+            stack: depth(&top) + 1 + deepest,
             bytes,
             _buffers: [buffer, head],
         })

@@ -153,7 +153,7 @@ pub fn hunted() -> Vec<(String, Scene)> {
 pub fn hunt(rungs: &[Rungs], count: usize, seed: u64) -> Vec<Count> {
     let mut counts: Vec<Count> = rungs.iter().map(|_| Count::default()).collect();
     for (_, scene) in hunted() {
-        let rig = Rig::new(&scene, own_tree::median);
+        let rig = Rig::new(&scene, own_tree::binned);
         let given = rays(&scene, count, seed);
         let mut by_all = std::collections::BTreeMap::new();
         for (rungs, total) in rungs.iter().zip(&mut counts) {

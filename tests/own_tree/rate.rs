@@ -38,7 +38,7 @@ fn secondary(given: &[Given], answers: &[Answer], to: impl FnMut() -> Vec3, any:
 }
 
 pub fn compare(name: &str, scene: &Scene, rounds: usize) {
-    let rig = Rig::beside_the_device(scene, own_tree::median);
+    let rig = Rig::beside_the_device(scene, own_tree::binned);
     let walk = rig.pipeline(By::Walk, BEST);
     let query = rig.pipeline(By::Query, BEST);
     let given = primary(scene, [960, 600]);
