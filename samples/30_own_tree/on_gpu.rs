@@ -6,7 +6,7 @@ use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
 
-use crate::{Bounds, Node, Tree, depth};
+use crate::{Bounds, Node, Quantised, Tree, depth, quantised};
 
 common::shader_struct! {
     /// The corners of a triangle in its mesh's space, at its position in the tree's order. 36 bytes.
@@ -45,6 +45,8 @@ common::shader_struct! {
     pub struct Trees {
         /// The nodes of all trees; node 0 is the root of the top tree.
         pub nodes: Address<Node>,
+        /// The same nodes, quantised.
+        pub packed: Address<Quantised>,
         /// The triangles of all meshes.
         pub corners: Address<Corners>,
         /// The instances.
@@ -134,16 +136,19 @@ impl TreesOnGpu {
         let of_boxes = bounds.iter().map(|(low, high)| low.abs().max(high.abs()).max_element());
         let reach = of_boxes.fold(reach as f32, f32::max);
         let bytes = [size_of_val(&nodes[..]), size_of_val(&corners[..]), size_of_val(&placed[..])];
-        let arrays: [&[u8]; 3] = [
+        let packed = quantised(&nodes)?;
+        let arrays: [&[u8]; 4] = [
             bytemuck::cast_slice(&nodes),
+            bytemuck::cast_slice(&packed),
             bytemuck::cast_slice(&corners),
             bytemuck::cast_slice(&placed),
         ];
         let (buffer, at) = Buffer::with_arrays(gpu, "trees", arrays, USAGE)?;
         let head = Trees {
             nodes: at[0].into(),
-            corners: at[1].into(),
-            placed: at[2].into(),
+            packed: at[1].into(),
+            corners: at[2].into(),
+            placed: at[3].into(),
             growth: (GROWTH * growth) as f32,
             reach,
         };
@@ -152,8 +157,8 @@ impl TreesOnGpu {
         Ok(Self {
             address: head.address.into(),
             orders: trees.into_iter().map(|tree| tree.order).collect(),
-            // One more for the other instances of a leaf of the top tree.
-            stack: depth(&top) + 1 + deepest,
+            // And the end, the other instances of a leaf of the top tree, and the way back from one.
+            stack: depth(&top) + 3 + deepest,
             bytes,
             _buffers: [buffer, head],
         })

@@ -15,6 +15,9 @@ const uint TRIANGLES_MOELLER = 0;
 const uint TRIANGLES_WATERTIGHT = 1;
 const uint TRIANGLES_TWO_FLOAT = 2;
 
+// Whether nodes are read in 36 bytes.
+layout(constant_id = 6) const bool QUANTISED = false;
+
 // As many entries as the deepest way through both trees: no walk needs more.
 layout(constant_id = 3) const uint STACK = 64;
 

@@ -39,7 +39,7 @@ bool is_nearer(Ray ray, Corners corners, inout float nearest) {
 }
 // ANCHOR_END: triangle
 
-uint packed(Child child) {
+uint entry_of(Child child) {
     return child.first | child.count << FIRST_BITS;
 }
 
@@ -67,14 +67,14 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
         uint count = entry >> FIRST_BITS;
         if (count == 0) {
             // ANCHOR: node
-            Node node = trees.nodes.at[first];
+            Node node = QUANTISED ? unpacked(trees.packed.at[first]) : trees.nodes.at[first];
             met.boxes++;
             visit(trees, node, inside);
             float a = entered(ray, node.children[0], met.t);
             float b = entered(ray, node.children[1], met.t);
             if (min(a, b) < MISSED) {
-                uint near = packed(node.children[0]);
-                uint far = packed(node.children[1]);
+                uint near = entry_of(node.children[0]);
+                uint far = entry_of(node.children[1]);
                 // The near child comes first: what is found there may spare the far one.
                 if (max(a, b) < MISSED) {
                     stack[height++] = b < a ? near : far;

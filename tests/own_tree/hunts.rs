@@ -180,7 +180,7 @@ fn no_hit_is_lost_by_boxes_with_a_bound() {
 #[ignore = "by hand: counts for long"]
 fn the_table_of_what_is_lost() {
     let rungs: Vec<_> = (0..3)
-        .flat_map(|triangles| (0..5).map(move |boxes| Rungs { boxes, triangles }))
+        .flat_map(|triangles| (0..5).map(move |boxes| Rungs { boxes, triangles, quantised: false }))
         .collect();
     let rays = std::env::var("RAYS").ok().and_then(|text| text.parse().ok()).unwrap_or(100_000);
     for (rungs, count) in rungs.iter().zip(hunt(&rungs, rays, 7)) {

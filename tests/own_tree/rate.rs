@@ -4,7 +4,7 @@ use common::glam::{DVec3, Vec3};
 use common::scene::Scene;
 use reference::random::Random;
 
-use crate::rig::{Answer, BEST, By, Given, NOTHING, Rig};
+use crate::rig::{Answer, BEST, By, Given, NOTHING, Rig, Rungs};
 
 /// Rays through the pixels of a picture, in blocks of 8 by 4 as workgroups have them.
 fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
@@ -37,9 +37,18 @@ fn secondary(given: &[Given], answers: &[Answer], to: impl FnMut() -> Vec3, any:
     rays
 }
 
+/// Seconds that processors have worked for this process.
+fn worked() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after = stat.rsplit(')').next().unwrap_or_default();
+    let ticks = after.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<f64>().ok());
+    ticks.sum::<f64>() / 100.0
+}
+
 pub fn compare(name: &str, scene: &Scene, rounds: usize) {
     let rig = Rig::beside_the_device(scene, own_tree::binned);
-    let walk = rig.pipeline(By::Walk, BEST);
+    let quantised = std::env::var("QUANTISED").is_ok();
+    let walk = rig.pipeline(By::Walk, Rungs { quantised, ..BEST });
     let query = rig.pipeline(By::Query, BEST);
     let given = primary(scene, [960, 600]);
     let (answers, _) = rig.answers(&query, By::Query, &given);
@@ -60,8 +69,11 @@ pub fn compare(name: &str, scene: &Scene, rounds: usize) {
         let mut differ = 0;
         let mut steps = 0.0;
         for _ in 0..rounds {
-            let (ours, own) = rig.answers(&walk, By::Walk, &rays);
-            let (theirs, device) = rig.answers(&query, By::Query, &rays);
+            let begun = worked();
+            let (ours, _) = rig.answers(&walk, By::Walk, &rays);
+            let own = worked();
+            let (theirs, _) = rig.answers(&query, By::Query, &rays);
+            let (own, device) = ((own - begun) * 1e3, (worked() - own) * 1e3);
             ratios.push(device / own);
             rates.push(rays.len() as f64 / own / 1e3);
             let hit = |answer: &Answer| answer.instance;
@@ -80,5 +92,30 @@ pub fn compare(name: &str, scene: &Scene, rounds: usize) {
 #[test]
 #[ignore = "by hand: takes times"]
 fn walks_beside_queries() {
-    compare("chess", &Scene::chess().expect("the chess set"), 9);
+    let scene = Scene::chess().expect("the chess set");
+    let scene = if std::env::var("FLAT").is_ok() { flat(&scene) } else { scene };
+    compare("chess", &scene, 5);
+}
+
+/// The same world as one mesh in one place.
+fn flat(scene: &Scene) -> Scene {
+    let mut flat = scene.clone();
+    flat.instances.truncate(1);
+    let mut mesh = scene.model.meshes[0].clone();
+    mesh.vertices.clear();
+    mesh.triangles.clear();
+    for instance in &scene.instances {
+        let of = &scene.model.meshes[instance.mesh];
+        let first = mesh.vertices.len() as u32;
+        mesh.triangles.extend(of.triangles.iter().map(|t| t.map(|i| i + first)));
+        mesh.vertices.extend(of.vertices.iter().map(|v| {
+            let mut v = *v;
+            v.position = instance.transform.transform_point3(v.position);
+            v
+        }));
+    }
+    flat.model.meshes = vec![mesh];
+    flat.instances[0].mesh = 0;
+    flat.instances[0].transform = common::glam::Affine3A::IDENTITY;
+    flat
 }

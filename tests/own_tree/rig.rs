@@ -55,6 +55,7 @@ pub enum By {
 pub struct Rungs {
     pub boxes: u32,
     pub triangles: u32,
+    pub quantised: bool,
 }
 
 pub const BARE: u32 = 0;
@@ -66,7 +67,7 @@ pub const MOELLER: u32 = 0;
 pub const WATERTIGHT: u32 = 1;
 pub const TWO_FLOAT: u32 = 2;
 
-pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT };
+pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
 
 pub struct Rig {
     pub gpu: Gpu,
@@ -111,6 +112,7 @@ impl Rig {
             .constant(1, rungs.boxes)
             .constant(2, rungs.triangles)
             .constant(3, self.own.trees.stack)
+            .constant(6, u32::from(rungs.quantised))
             .push_constants::<Launch>();
         let builder = match by {
             By::Walk => builder,
