@@ -40,8 +40,7 @@ impl OwnScene {
         let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, USAGE)?;
         let triangles = model.meshes.iter().map(|mesh| &mesh.triangles);
         let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", triangles, USAGE)?;
-        let (orders, at_orders) =
-            Buffer::with_arrays(gpu, "triangle order", &trees.orders, USAGE)?;
+        let (orders, at_orders) = Buffer::with_arrays(gpu, "triangle order", &trees.orders, USAGE)?;
         let records = instances.iter().map(|instance| InstanceRecord {
             vertices: at_vertices[instance.mesh].into(),
             triangles: at_triangles[instance.mesh].into(),

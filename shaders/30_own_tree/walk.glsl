@@ -57,67 +57,66 @@ void visit(Trees trees, Node node, uint inside);
 Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
     Met met = Met(tmax, NOTHING, NOTHING, 0, 0);
     Ray ray = ray_through(origin, direction, trees.growth, trees.reach);
+    uint inside = NOTHING;    // which instance the walk is in
     uint stack[STACK];
     uint height = 0;
-    uint floor = 0;                    // below it, the stack belongs to the top tree
-    uint inside = NOTHING;             // which instance the walk is in
-    uint entry = 0;                    // the top tree's root
+    uint floor = 0;           // below it the stack belongs to the top tree
+    uint entry = 0;           // the top tree's root
     while (true) {
-        uint first = entry & FIRST_MASK;
-        uint count = entry >> FIRST_BITS;
-        if (count == 0) {
-            // ANCHOR: node
-            Node node = QUANTISED ? unpacked(trees.packed.at[first]) : trees.nodes.at[first];
+        // ANCHOR: instance
+        if (entry > FIRST_MASK && inside == NOTHING) {
+            // A leaf of the top tree: the walk goes into its first instance, and comes back for the others.
+            inside = entry & FIRST_MASK;
+            if (entry >> FIRST_BITS > 1) {
+                stack[height++] = entry + 1 - (1 << FIRST_BITS);
+            }
+            floor = height;
+            Placed placed = trees.placed.at[inside];
+            ray = ray_in(placed, origin, direction);
+            entry = placed.root;
+        }
+        // ANCHOR_END: instance
+        // ANCHOR: node
+        if (entry <= FIRST_MASK) {
+            Node node = QUANTISED ? unpacked(trees.packed.at[entry]) : trees.nodes.at[entry];
             met.boxes++;
             visit(trees, node, inside);
             float a = entered(ray, node.children[0], met.t);
             float b = entered(ray, node.children[1], met.t);
-            if (min(a, b) < MISSED) {
-                uint near = entry_of(node.children[0]);
-                uint far = entry_of(node.children[1]);
-                // The near child comes first: what is found there may spare the far one.
-                if (max(a, b) < MISSED) {
-                    stack[height++] = b < a ? near : far;
-                }
-                entry = b < a ? far : near;
-                continue;
+            uint near = b < a ? entry_of(node.children[1]) : entry_of(node.children[0]);
+            uint far = b < a ? entry_of(node.children[0]) : entry_of(node.children[1]);
+            // The near child comes first: what is found there may spare the far one.
+            if (max(a, b) < MISSED) {
+                stack[height++] = far;
             }
-            // ANCHOR_END: node
-        } else if (inside == NOTHING) {
-            // ANCHOR: instance
-            if (count > 1) {
-                stack[height++] = (first + 1) | (count - 1) << FIRST_BITS;
-            }
-            inside = first;
-            floor = height;
-            Placed placed = trees.placed.at[first];
-            ray = ray_in(placed, origin, direction);
-            entry = placed.root;
-            continue;
-            // ANCHOR_END: instance
-        } else {
-            // ANCHOR: leaf
-            for (uint position = first; position < first + count; position++) {
+            entry = min(a, b) < MISSED ? near : NOTHING;
+        }
+        // ANCHOR_END: node
+        // ANCHOR: leaf
+        if (entry > FIRST_MASK && entry != NOTHING && inside != NOTHING) {
+            uint first = entry & FIRST_MASK;
+            uint end = first + (entry >> FIRST_BITS);
+            for (uint position = first; position < end; position++) {
                 met.triangles++;
                 if (is_nearer(ray, trees.corners.at[position], met.t)) {
                     met.placed = inside;
                     met.position = position;
                 }
             }
-            if (any && met.placed != NOTHING) {
+            entry = NOTHING;
+        }
+        // ANCHOR_END: leaf
+        // ANCHOR: pop
+        if (entry == NOTHING) {
+            if (height == 0 || (any && met.placed != NOTHING)) {
                 return met;
             }
-            // ANCHOR_END: leaf
+            if (inside != NOTHING && height == floor) {
+                inside = NOTHING;
+                ray = ray_through(origin, direction, trees.growth, trees.reach);
+            }
+            entry = stack[--height];
         }
-        // ANCHOR: pop
-        if (inside != NOTHING && height == floor) {
-            inside = NOTHING;
-            ray = ray_through(origin, direction, trees.growth, trees.reach);
-        }
-        if (height == 0) {
-            return met;
-        }
-        entry = stack[--height];
         // ANCHOR_END: pop
     }
 }

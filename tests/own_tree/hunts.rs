@@ -157,9 +157,9 @@ pub fn hunt(rungs: &[Rungs], count: usize, seed: u64) -> Vec<Count> {
         let given = rays(&scene, count, seed);
         let mut by_all = std::collections::BTreeMap::new();
         for (rungs, total) in rungs.iter().zip(&mut counts) {
-            let all = by_all.entry(rungs.triangles).or_insert_with(|| {
-                rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0
-            });
+            let all = by_all
+                .entry(rungs.triangles)
+                .or_insert_with(|| rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0);
             let walked = rig.answers(&rig.pipeline(By::Walk, *rungs), By::Walk, &given).0;
             total.add(&walked, all);
         }

@@ -25,7 +25,12 @@ fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
 }
 
 /// From where rays have met something: to the light, or anywhere.
-fn secondary(given: &[Given], answers: &[Answer], to: impl FnMut() -> Vec3, any: u32) -> Vec<Given> {
+fn secondary(
+    given: &[Given],
+    answers: &[Answer],
+    to: impl FnMut() -> Vec3,
+    any: u32,
+) -> Vec<Given> {
     let mut to = to;
     let mut rays = Vec::new();
     for (ray, answer) in given.iter().zip(answers) {
@@ -35,14 +40,6 @@ fn secondary(given: &[Given], answers: &[Answer], to: impl FnMut() -> Vec3, any:
         }
     }
     rays
-}
-
-/// Seconds that processors have worked for this process.
-fn worked() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let after = stat.rsplit(')').next().unwrap_or_default();
-    let ticks = after.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<f64>().ok());
-    ticks.sum::<f64>() / 100.0
 }
 
 pub fn compare(name: &str, scene: &Scene, rounds: usize) {
@@ -69,22 +66,27 @@ pub fn compare(name: &str, scene: &Scene, rounds: usize) {
         let mut differ = 0;
         let mut steps = 0.0;
         for _ in 0..rounds {
-            let begun = worked();
-            let (ours, _) = rig.answers(&walk, By::Walk, &rays);
-            let own = worked();
-            let (theirs, _) = rig.answers(&query, By::Query, &rays);
-            let (own, device) = ((own - begun) * 1e3, (worked() - own) * 1e3);
+            let (ours, own) = rig.answers(&walk, By::Walk, &rays);
+            let (theirs, device) = rig.answers(&query, By::Query, &rays);
             ratios.push(device / own);
             rates.push(rays.len() as f64 / own / 1e3);
             let hit = |answer: &Answer| answer.instance;
-            differ = ours.iter().zip(&theirs).filter(|(a, b)| (hit(a) == NOTHING) != (hit(b) == NOTHING)).count();
+            differ = ours
+                .iter()
+                .zip(&theirs)
+                .filter(|(a, b)| (hit(a) == NOTHING) != (hit(b) == NOTHING))
+                .count();
             steps = ours.iter().map(|a| f64::from(a.count)).sum::<f64>() / rays.len() as f64;
         }
         ratios.sort_by(f64::total_cmp);
         rates.sort_by(f64::total_cmp);
         println!(
             "{name} {kind}: {:.2} times as fast ({:.2} to {:.2}); {:.2} million rays a second; {steps:.1} steps; {differ} of {} differ",
-            ratios[rounds / 2], ratios[rounds / 4], ratios[3 * rounds / 4], rates[rounds / 2], rays.len()
+            ratios[rounds / 2],
+            ratios[rounds / 4],
+            ratios[3 * rounds / 4],
+            rates[rounds / 2],
+            rays.len()
         );
     }
 }
