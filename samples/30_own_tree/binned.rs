@@ -158,8 +158,8 @@ fn split(part: &mut [Primitive], most: u64) -> usize {
     middle
 }
 
-/// Puts those first of which `is_first` is true, and says how many they are. Each is moved, whether it must
-/// be or not: a processor guesses wrong half the time what such a question is answered, and that takes longer.
+/// Puts those first of which `is_first` is true, and says how many they are. Each is moved, whether it must be
+/// or not: a processor would guess the answers, and half its guesses would be wrong.
 fn partition(part: &mut [Primitive], is_first: impl Fn(&Primitive) -> bool) -> usize {
     let mut firsts = 0;
     for i in 0..part.len() {
@@ -181,7 +181,7 @@ struct Grid {
     bins: usize,
 }
 
-// ANCHOR: bins
+// ANCHOR: grid
 impl Grid {
     fn around(part: &[Primitive]) -> Self {
         let middle =
@@ -207,6 +207,7 @@ impl Grid {
         (self.place(hull, axis) as usize).min(self.bins - 1)
     }
 }
+// ANCHOR_END: grid
 
 /// What lies in the bins along each axis: the box around it, and how many.
 struct Bins<'a> {
@@ -214,6 +215,7 @@ struct Bins<'a> {
     grid: &'a Grid,
 }
 
+// ANCHOR: bins
 impl<'a> Bins<'a> {
     fn of(part: &[Primitive], grid: &'a Grid) -> Self {
         let mut bins = [[(Hull::EMPTY, 0); BINS]; 3];
@@ -250,13 +252,15 @@ impl<'a> Bins<'a> {
         best.1
     }
 }
+// ANCHOR_END: bins
 
+// ANCHOR: add
 /// Adds a bin to those so far, and says what they cost: area times count; ∞ where there are none.
 fn add(so_far: &mut (Hull, u32), bin: &(Hull, u32)) -> f64 {
     *so_far = (so_far.0.join(&bin.0), so_far.1 + bin.1);
     if so_far.1 == 0 { f64::INFINITY } else { so_far.0.half_area() * f64::from(so_far.1) }
 }
-// ANCHOR_END: bins
+// ANCHOR_END: add
 
 #[cfg(test)]
 mod tests;

@@ -30,7 +30,10 @@ impl Hull {
             [0, 1, 2].map(|axis| -f64::from(self.0[axis + 4]) - f64::from(self.0[axis]));
         x * y + y * z + z * x
     }
+}
+// ANCHOR_END: hull
 
+impl Hull {
     /// Half the middle along an axis: so it is finite, and so is the way from one to another.
     pub fn half_middle(&self, axis: usize) -> f32 {
         self.0[axis] * 0.25 - self.0[axis + 4] * 0.25
@@ -52,7 +55,6 @@ impl Hull {
         Self([x, y, z, 0.0, -x, -y, -z, 0.0])
     }
 }
-// ANCHOR_END: hull
 
 impl From<Bounds> for Hull {
     fn from((low, high): Bounds) -> Self {

@@ -139,7 +139,9 @@ impl Linked {
             self[parent].children = [new, self.other(parent, old)];
         }
     }
+    // ANCHOR_END: links
 
+    // ANCHOR: renew
     /// Measures a part of two anew. Whether it has changed, and by how much its area has shrunk.
     fn renew(&mut self, at: u32) -> (bool, f64) {
         let [a, b] = self[at].children;
@@ -163,7 +165,7 @@ impl Linked {
         }
         all
     }
-    // ANCHOR_END: links
+    // ANCHOR_END: renew
 
     /// The tree for a shader, small parts folded into leaves.
     pub fn into_tree(self) -> Tree {

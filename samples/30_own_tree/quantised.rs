@@ -119,7 +119,9 @@ impl Grid {
         let mut grids = steps.map(|step| Self { origin, step });
         grids.find(|grid| grid.is_at_least(255, high)).expect("the steps go beyond REACH")
     }
+    // ANCHOR_END: grid
 
+    // ANCHOR: places
     /// Whether a place on the grid is never above a number, however its sum is rounded.
     fn is_at_most(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
@@ -152,12 +154,12 @@ impl Grid {
         (self.near(x).saturating_sub(2)..255).find(|&q| self.is_at_least(q, x)).unwrap_or(255)
     }
 
-    /// A place at most two off, and not below the exact one's floor.
+    /// The place below a number, or the one after it: a division in 64 bits rounds up to a whole number at most.
     fn near(self, x: f32) -> u8 {
         ((f64::from(x) - f64::from(self.origin)) / f64::from(self.step)) as u8
     }
 }
-// ANCHOR_END: grid
+// ANCHOR_END: places
 
 #[cfg(test)]
 mod tests;

@@ -14,10 +14,12 @@ use crate::tree::{Bounds, Tree};
 /// Parts for which a thread searches at a time.
 const SEARCHED: u32 = 512;
 
-/// A tree over the same primitives, at most as dear, and no deeper than [`DEPTH`] or the tree that it was. It
-/// ends early if no part has a better place. The same bytes however many threads there are.
+/// A better tree over the same primitives, no deeper than [`DEPTH`], after some rounds, or fewer if no part has
+/// a better place any more. The same bytes however many threads there are.
 ///
-/// Leaves are taken apart before, and made anew in the end. Boxes are made anew from `bounds`.
+/// Leaves are taken apart before, and made anew in the end. Each move makes the sum of all areas smaller that
+/// the tree has meanwhile; the cost of the tree with its leaves follows it, but no move is held to that.
+/// Boxes are made anew from `bounds`.
 ///
 /// # Panics
 /// If the tree is none over these boxes: see [`check`](crate::check()).
