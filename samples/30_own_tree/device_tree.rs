@@ -1,7 +1,7 @@
 //! What a build on the device leaves there, and the memory that it needs meanwhile.
 
 use anyhow::{Result, ensure};
-use ash::vk::{self, BufferUsageFlags as Usage};
+use ash::vk::BufferUsageFlags as Usage;
 use common::glam::Vec3;
 use common::gpu::{Address, Buffer, Gpu};
 

@@ -3,8 +3,7 @@
 
 use anyhow::{Result, ensure};
 use ash::vk;
-use common::glam::Vec3;
-use common::gpu::{Address, Buffer, ComputePipeline, Gpu, ShaderStruct, barrier};
+use common::gpu::{Address, ComputePipeline, Gpu, ShaderStruct, barrier};
 use common::scene::Vertex;
 
 use crate::device_tree::{Bounds, Corners, DeviceTree, Extent, Scratch};
@@ -161,8 +160,8 @@ impl DeviceBuilder {
         let code = Code { vertices, triangles, extents, keys, values, count };
         self.each(cmd, &self.morton, &code, count)?;
         // A whole number of workgroups' rounds.
-        let length = count.div_ceil(MOST_SHARES).max(LEAST_SHARE).next_multiple_of(WIDTH);
-        let shares = count.div_ceil(length);
+        let share_length = count.div_ceil(MOST_SHARES).max(LEAST_SHARE).next_multiple_of(WIDTH);
+        let shares = count.div_ceil(share_length);
         // To and fro, so that the third of three steps ends where the values are wanted.
         let (mut from, mut to) = ((keys, values), (other_keys, original));
         for step in 0..3 {
@@ -174,7 +173,7 @@ impl DeviceBuilder {
                 counts: scratch.counts,
                 totals: scratch.totals,
                 count,
-                length,
+                share_length,
                 shares,
                 shift: step * BITS,
             };
@@ -275,7 +274,7 @@ common::shader_struct! {
         counts: Address,
         totals: Address,
         count: u32,
-        length: u32,
+        share_length: u32,
         shares: u32,
         shift: u32,
     }

@@ -4,12 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "corners.glsl"
 #include "extent.glsl"
+#include "index.glsl"
 
 // Where the centres of all triangles lie. In a first step each workgroup finds it out for its share; in a second
 // one workgroup puts these together.
-
-const uint WIDTH = 64;
-layout(local_size_x = WIDTH) in;
 
 layout(push_constant, scalar) uniform Reduce {
     Vertices vertices;

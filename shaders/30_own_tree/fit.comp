@@ -9,8 +9,6 @@
 // The boxes of each node's children. A child is a range of positions, and a few boxes of the pyramid cover it: so no
 // node waits for another, as it would if boxes were handed up the tree by who comes last (Karras 2012, section 4).
 
-layout(local_size_x = 64) in;
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ends { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Nodes { Node at[]; };
 

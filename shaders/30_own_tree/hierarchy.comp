@@ -10,8 +10,6 @@
 // Which node lies above which: from sorted keys, all nodes at once (Karras, "Maximizing Parallelism in the
 // Construction of BVHs, Octrees, and k-d Trees", High Performance Graphics 2012, section 4).
 
-layout(local_size_x = 64) in;
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Keys { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ends { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Nodes { Node at[]; };

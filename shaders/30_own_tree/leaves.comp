@@ -7,8 +7,6 @@
 
 // The corners of the triangle at each position, and the box around it.
 
-layout(local_size_x = 64) in;
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ordered { Corners at[]; };
 
 layout(push_constant, scalar) uniform Leaves {

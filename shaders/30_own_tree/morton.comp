@@ -9,8 +9,6 @@
 // A key for each triangle, such that neighbours in the order of the keys are mostly neighbours in space: the Morton
 // code of its centre (Morton 1966), the bits of three coordinates in turns.
 
-layout(local_size_x = 64) in;
-
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint at[]; };
 
 layout(push_constant, scalar) uniform Code {

@@ -8,8 +8,6 @@
 // Boxes around pairs of boxes, around pairs of those, and so on: a level lies behind the one below it, and has half as
 // many. Three levels a dispatch, since no invocation needs what another one makes.
 
-layout(local_size_x = 64) in;
-
 layout(push_constant, scalar) uniform Level {
     Boxes boxes;    // of the level below
     uint count;     // of these

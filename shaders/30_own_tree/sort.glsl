@@ -1,9 +1,9 @@
 // A step of a radix sort: by ten bits of the keys, from the lowest to the highest in three steps. Keys that have
 // the same ten bits stay in the order that they come in, which is that of the bits below.
 
-const uint WIDTH = 64;
+#include "index.glsl"
+
 const uint DIGITS = 1024;
-layout(local_size_x = WIDTH) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint at[]; };
 
@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Sort {
     Words counts;       // of each digit, for each share
     Words totals;       // of each digit
     uint count;
-    uint length;        // of a share: the keys of one workgroup
+    uint share_length;  // how many keys a workgroup has
     uint shares;
     uint shift;
 } push;
@@ -25,9 +25,9 @@ uint digit(uint key) {
 }
 
 uint share_begin() {
-    return gl_WorkGroupID.x * push.length;
+    return gl_WorkGroupID.x * push.share_length;
 }
 
 uint share_end() {
-    return min(share_begin() + push.length, push.count);
+    return min(share_begin() + push.share_length, push.count);
 }
