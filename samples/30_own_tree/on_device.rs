@@ -11,8 +11,10 @@ use crate::tree::Node;
 
 /// The folder of the shaders.
 const NAME: &str = "30_own_tree";
-/// Invocations of a workgroup: two of the words in which a step of the sort notes them.
+/// Invocations of a workgroup.
 const WIDTH: u32 = 64;
+/// The same where keys are sorted: one for each bit of a word.
+const SORT_WIDTH: u32 = 32;
 /// Values of the ten bits that a step of the sort goes by: three steps for the 30 bits of a key.
 pub(crate) const DIGITS: u32 = 1024;
 const BITS: u32 = DIGITS.trailing_zeros();
@@ -160,7 +162,8 @@ impl DeviceBuilder {
         let code = Code { vertices, triangles, extents, keys, values, count };
         self.each(cmd, &self.morton, &code, count)?;
         // A whole number of workgroups' rounds.
-        let share_length = count.div_ceil(MOST_SHARES).max(LEAST_SHARE).next_multiple_of(WIDTH);
+        let share_length =
+            count.div_ceil(MOST_SHARES).max(LEAST_SHARE).next_multiple_of(2 * SORT_WIDTH);
         let shares = count.div_ceil(share_length);
         // To and fro, so that the third of three steps ends where the values are wanted.
         let (mut from, mut to) = ((keys, values), (other_keys, original));
@@ -178,7 +181,7 @@ impl DeviceBuilder {
                 shift: step * BITS,
             };
             self.pass(cmd, &self.count, &push, shares)?;
-            self.pass(cmd, &self.scan, &push, DIGITS / WIDTH)?;
+            self.pass(cmd, &self.scan, &push, DIGITS / SORT_WIDTH)?;
             self.pass(cmd, &self.scatter, &push, shares)?;
             (from, to) = (to, from);
         }

@@ -38,9 +38,8 @@ int shared_prefix(uint key, int i, int j, int count) {
 
 // ANCHOR: range
 // A node's range begins or ends at the node's own index. It grows to the side where the keys are more alike, as far as
-// they share more bits than the node and its neighbour on the other side.
-int other_end(uint key, int i, int side, int count) {
-    int outside = shared_prefix(key, i, i - side, count);
+// they share more bits with the node's key than its neighbour on the other side does, which is outside.
+int other_end(uint key, int i, int side, int outside, int count) {
     int most = 2;
     while (shared_prefix(key, i, i + most * side, count) > outside) {
         most *= 2;
@@ -89,8 +88,9 @@ void main() {
         return;
     }
     uint key = push.keys.at[i];
-    int side = shared_prefix(key, i, i + 1, count) > shared_prefix(key, i, i - 1, count) ? 1 : -1;
-    int end = other_end(key, i, side, count);
+    int before = shared_prefix(key, i, i - 1, count), after = shared_prefix(key, i, i + 1, count);
+    int side = after > before ? 1 : -1;
+    int end = other_end(key, i, side, min(before, after), count);
     int middle = split(key, i, side, end, count);
     push.nodes.at[i].children = Child[2](
         child(middle, middle == min(i, end)),

@@ -1,4 +1,4 @@
-// The shape of all workgroups, and which invocation of a dispatch this is.
+// The shape of most workgroups, and which invocation of a dispatch this is.
 
 const uint WIDTH = 64;
 layout(local_size_x = WIDTH) in;

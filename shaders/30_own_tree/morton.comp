@@ -32,10 +32,12 @@ uint spread(uint bits) {
     return (bits | bits << 2) & 0x09249249;
 }
 
-// Halved before they are subtracted: the difference of two finite numbers may not be finite.
+// The cells are cubes: were they as flat as the whole, boxes would be longer. All is halved before it is subtracted:
+// the difference of two finite numbers may not be finite.
 uint morton(vec3 centre, Extent all) {
-    vec3 side = 0.5 * all.high - 0.5 * all.low;
-    vec3 part = (0.5 * centre - 0.5 * all.low) / mix(vec3(1.0), side, greaterThan(side, vec3(0.0)));
+    vec3 sides = 0.5 * all.high - 0.5 * all.low;
+    float side = max(max(sides.x, sides.y), sides.z);
+    vec3 part = (0.5 * centre - 0.5 * all.low) / (side > 0.0 ? side : 1.0);
     // What lies on the far side belongs to the last of 1024 cells.
     uvec3 cell = min(uvec3(1024.0 * part), uvec3(1023));
     return min(spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z), NOT_FINITE - 1);

@@ -6,32 +6,32 @@
 
 // The third part: each key goes behind all of a lower digit, and behind those of its own that come before it.
 
-shared uint next[DIGITS];              // where the next key of each digit goes
+// How many rows of keys are sorted at a time: more wait less for each other, and take more memory.
+const uint ROWS = 2;
+shared uint next[DIGITS];         // where the next key of each digit goes
+shared uint who[DIGITS][ROWS];    // which invocations have a key of each digit in each row, a bit for each
 shared uint sums[WIDTH];
-const uint WORDS = WIDTH / 32;
-shared uint who[DIGITS][WORDS];        // which invocations have a key of each digit, a bit for each
 
 // ANCHOR: begin
-// Where this share's first key of each digit goes.
+// Where this share's first key of each digit goes: an invocation adds up the digits of its own, and then what the
+// invocations before it have.
 void begin() {
-    const uint self = gl_LocalInvocationIndex;
     const uint EACH = DIGITS / WIDTH;
+    const uint first = gl_LocalInvocationIndex * EACH;
     uint sum = 0;
-    for (uint d = self * EACH; d < (self + 1) * EACH; d++) {
-        next[d] = sum;
+    for (uint d = first; d < first + EACH; d++) {
+        next[d] = sum + push.counts.at[gl_WorkGroupID.x * DIGITS + d];
         sum += push.totals.at[d];
-        for (uint word = 0; word < WORDS; word++) {
-            who[d][word] = 0;
-        }
+        who[d] = uint[ROWS](0, 0);
     }
-    sums[self] = sum;
+    sums[gl_LocalInvocationIndex] = sum;
     barrier();
     uint lower = 0;
-    for (uint other = 0; other < self; other++) {
+    for (uint other = 0; other < gl_LocalInvocationIndex; other++) {
         lower += sums[other];
     }
-    for (uint d = self * EACH; d < (self + 1) * EACH; d++) {
-        next[d] += lower + push.counts.at[gl_WorkGroupID.x * DIGITS + d];
+    for (uint d = first; d < first + EACH; d++) {
+        next[d] += lower;
     }
     barrier();
 }
@@ -39,37 +39,42 @@ void begin() {
 
 // ANCHOR: scatter
 // Invocations work in no order, and keys of one digit must stay in theirs. So each sets a bit; and how many bits
-// lie below its own is how many such keys come before it.
+// there are before its own is how many such keys come before it.
 void main() {
-    const uint self = gl_LocalInvocationIndex;
+    const uint self = gl_LocalInvocationIndex, bit = 1u << self;
     begin();
-    for (uint i = share_begin(); i < share_end(); i += WIDTH) {
-        bool has_key = i + self < share_end();
-        uint key = has_key ? push.keys.at[i + self] : 0;
-        uint d = digit(key);
-        uint bit = 1u << self % 32;
-        if (has_key) {
-            atomicOr(who[d][self / 32], bit);
+    for (uint i = share_begin(); i < share_end(); i += ROWS * WIDTH) {
+        uint key[ROWS], before[ROWS], all[ROWS];
+        bool has_key[ROWS];
+        for (uint row = 0; row < ROWS; row++) {
+            uint at = i + row * WIDTH + self;
+            has_key[row] = at < share_end();
+            key[row] = has_key[row] ? push.keys.at[at] : 0;
+            if (has_key[row]) {
+                atomicOr(who[digit(key[row])][row], bit);
+            }
         }
         barrier();
-        uint before = 0, all = 0;
-        for (uint word = 0; word < WORDS; word++) {
-            uint bits = who[d][word];
-            uint lower = word < self / 32 ? bits : word == self / 32 ? bits & bit - 1 : 0;
-            before += bitCount(lower);
-            all += bitCount(bits);
-        }
-        if (has_key) {
-            uint place = next[d] + before;
-            push.sorted_keys.at[place] = key;
-            push.sorted_values.at[place] = push.values.at[i + self];
+        for (uint row = 0; row < ROWS; row++) {
+            uint d = digit(key[row]);
+            before[row] = bitCount(who[d][row] & bit - 1);
+            all[row] = 0;
+            for (uint other = 0; other < ROWS; other++) {
+                before[row] += other < row ? bitCount(who[d][other]) : 0;
+                all[row] += bitCount(who[d][other]);
+            }
+            if (has_key[row]) {
+                uint place = next[d] + before[row];
+                push.sorted_keys.at[place] = key[row];
+                push.sorted_values.at[place] = push.values.at[i + row * WIDTH + self];
+            }
         }
         barrier();
         // The last of each digit tidies up for all of them.
-        if (has_key && before + 1 == all) {
-            next[d] += all;
-            for (uint word = 0; word < WORDS; word++) {
-                who[d][word] = 0;
+        for (uint row = 0; row < ROWS; row++) {
+            if (has_key[row] && before[row] + 1 == all[row]) {
+                next[digit(key[row])] += all[row];
+                who[digit(key[row])] = uint[ROWS](0, 0);
             }
         }
         barrier();

@@ -1,7 +1,9 @@
 // A step of a radix sort: by ten bits of the keys, from the lowest to the highest in three steps. Keys that have
 // the same ten bits stay in the order that they come in, which is that of the bits below.
 
-#include "index.glsl"
+// One bit of a word for each invocation.
+const uint WIDTH = 32;
+layout(local_size_x = WIDTH) in;
 
 const uint DIGITS = 1024;
 

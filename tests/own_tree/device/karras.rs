@@ -19,12 +19,12 @@ pub fn codes(shape: &Shape) -> Vec<u32> {
     let known = || centres.iter().flatten().copied();
     let low = known().fold(Vec3::INFINITY, Vec3::min);
     let high = known().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let side = (0.5 * high - 0.5 * low).max_element();
+    let side = if side > 0.0 { side } else { 1.0 };
     let code = |centre: Vec3| {
         let cell = [0, 1, 2].map(|axis| {
-            let side = 0.5 * high[axis] - 0.5 * low[axis];
             let part = 0.5 * centre[axis] - 0.5 * low[axis];
-            let part = if side > 0.0 { part / side } else { part };
-            ((1024.0 * part) as u32).min(1023)
+            ((1024.0 * (part / side)) as u32).min(1023)
         });
         // A bit of x, of y, of z, from the highest to the lowest.
         let bits = (0..10).rev().flat_map(|bit| cell.map(|number| number >> bit & 1));
