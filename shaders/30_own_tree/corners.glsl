@@ -32,10 +32,6 @@ Bounds box_of(Corners t) {
 }
 // ANCHOR_END: box_of
 
-bool is_somewhere(Bounds box) {
-    return box.low.x <= box.high.x;
-}
-
 // Halved before they are added: the sum of two finite corners may not be finite.
 vec3 centre(Bounds box) {
     return 0.5 * box.low + 0.5 * box.high;

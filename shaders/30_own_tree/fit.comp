@@ -43,6 +43,12 @@ Bounds box_around(uint first, uint end) {
     return box;
 }
 
+void set_box(uint node, uint child, Bounds box) {
+    bool is_empty = !is_somewhere(box);
+    push.nodes.at[node].children[child].low = is_empty ? no_child().low : box.low;
+    push.nodes.at[node].children[child].high = is_empty ? no_child().high : box.high;
+}
+
 void main() {
     uint i = invocation();
     if (i >= push.nodes_count || push.ends.at[i] == NO_NODE) {
@@ -50,11 +56,7 @@ void main() {
     }
     uint end = push.ends.at[i];
     uint middle = push.nodes.at[i].children[0].first + 1;
-    Bounds left = box_around(min(i, end), middle);
-    Bounds right = box_around(middle, max(i, end) + 1);
-    push.nodes.at[i].children[0].low = left.low;
-    push.nodes.at[i].children[0].high = left.high;
-    push.nodes.at[i].children[1].low = right.low;
-    push.nodes.at[i].children[1].high = right.high;
+    set_box(i, 0, box_around(min(i, end), middle));
+    set_box(i, 1, box_around(middle, max(i, end) + 1));
 }
 // ANCHOR_END: fit

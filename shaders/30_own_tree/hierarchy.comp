@@ -2,7 +2,6 @@
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-#include "bounds.glsl"
 #include "node.glsl"
 #include "extent.glsl"
 #include "index.glsl"
@@ -69,9 +68,10 @@ int split(uint key, int i, int side, int end, int count) {
 }
 // ANCHOR_END: split
 
+// Without a box, until its primitives' boxes are known.
 Child child(int first, bool is_leaf) {
-    Bounds box = nowhere();    // until its primitives' boxes are known
-    return Child(box.low, first, box.high, is_leaf ? 1 : 0);
+    Child none = no_child();
+    return Child(none.low, first, none.high, is_leaf ? 1 : 0);
 }
 
 void main() {

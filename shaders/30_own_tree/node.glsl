@@ -13,3 +13,9 @@ struct Node {
     Child children[2];
 };
 // ANCHOR_END: node
+
+// Nothing, in a box that no ray meets.
+Child no_child() {
+    const float INFINITE = uintBitsToFloat(0x7f800000u);
+    return Child(vec3(INFINITE), 0, vec3(-INFINITE), 0);
+}

@@ -5,17 +5,20 @@ mod karras;
 mod shapes;
 mod times;
 
+use std::sync::Arc;
+
 use ash::vk::BufferUsageFlags as Usage;
 use common::gpu::{Buffer, Gpu, GpuOptions, Requirements};
 use common::scene::{Scene, Vertex};
 use glam::{Vec2, Vec3};
+use instruments::arithmetic::Arithmetic;
 use karras::{NOT_FINITE, codes, hierarchy};
 use own_tree::{Child, Corners, DeviceBuilder, DeviceTree, Node, Scratch, Triangles};
 use shapes::Shape;
 
-fn gpu(validate: bool) -> Gpu {
-    let requirements = Requirements::ray_tracing();
-    Gpu::new(&GpuOptions { requirements, validate, ..GpuOptions::default() }).unwrap()
+fn gpu(validate: bool, arithmetic: Arithmetic) -> Gpu {
+    let (requirements, emulation) = (Requirements::ray_tracing(), Arc::new(arithmetic));
+    Gpu::new(&GpuOptions { requirements, validate, emulation, ..GpuOptions::default() }).unwrap()
 }
 
 /// Triangles on the device, for a build.
@@ -94,7 +97,11 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
-        let gpu = gpu(true);
+        Self::with(Arithmetic::Driver)
+    }
+
+    fn with(arithmetic: Arithmetic) -> Self {
+        let gpu = gpu(true, arithmetic);
         let builder = DeviceBuilder::new(&gpu).unwrap();
         let scratch = Scratch::new(&gpu, 100_000).unwrap();
         Self { gpu, builder, scratch }
@@ -360,6 +367,28 @@ fn builds_and_refits_in_one_submission_wait_for_each_other() {
         check(shape, &Built::read(tree));
     }
     bench.is_silent();
+}
+
+#[test]
+fn boxes_are_exact_in_the_worst_arithmetic() {
+    if !run::has_worst_arithmetic() {
+        return;
+    }
+    let bench = Bench::with(Arithmetic::WorstByPlace);
+    let mut broken = shapes::soup(500, 8);
+    broken.vertices[100].x = f32::NAN;
+    for shape in [shapes::soup(3000, 2), shapes::cloth(30, 20), shapes::halving(300), broken] {
+        bench.checked(&shape);
+    }
+    bench.checked(&shapes::soup(500, 3).scaled(1e9));
+}
+
+#[test]
+#[ignore = "by hand: takes 2 GB of memory"]
+fn more_triangles_than_one_row_of_workgroups_has_invocations_for() {
+    let (bench, count) = (Bench::new(), 65_535 * 64 + 1000);
+    let scratch = Scratch::new(&bench.gpu, count).unwrap();
+    Bench { scratch, ..bench }.checked(&shapes::soup(count, 1));
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn of_driver(gpu: &Gpu, input: &Uploaded, vertex_count: u32) -> f64 {
 #[test]
 #[ignore = "by hand: takes times"]
 fn builds_and_refits_beside_the_drivers_own() {
-    let gpu = gpu(false);
+    let gpu = gpu(false, Arithmetic::Driver);
     let builder = DeviceBuilder::new(&gpu).unwrap();
     println!(
         "{}\n{:>10} {:>10} {:>10} {:>10}  ms",
