@@ -2,6 +2,7 @@
 
 mod device_tree;
 mod on_device;
+mod pushes;
 mod tree;
 
 pub use device_tree::{Corners, DeviceTree, MOST_TRIANGLES, Scratch};

@@ -3,11 +3,10 @@
 
 use anyhow::{Result, ensure};
 use ash::vk;
-use common::gpu::{Address, ComputePipeline, Gpu, ShaderStruct, barrier};
-use common::scene::Vertex;
+use common::gpu::{ComputePipeline, Gpu, ShaderStruct, barrier};
 
-use crate::device_tree::{Bounds, Corners, DeviceTree, Extent, Scratch};
-use crate::tree::Node;
+use crate::device_tree::{Bounds, DeviceTree, Scratch};
+use crate::pushes::{Code, Fit, Hierarchy, Leaves, Level, Reduce, Sort};
 
 /// The folder of the shaders.
 const NAME: &str = "30_own_tree";
@@ -30,7 +29,7 @@ const ROW: u32 = 65_535;
 /// Triangles on the device.
 #[derive(Clone, Copy)]
 pub struct Triangles {
-    /// Address of the first [`Vertex`].
+    /// Address of the first [`Vertex`](common::scene::Vertex).
     pub vertices: vk::DeviceAddress,
     /// Address of the first triangle's three `u32`, each a vertex's position.
     pub triangles: vk::DeviceAddress,
@@ -241,86 +240,4 @@ pub(crate) fn bytes<T>(count: u32) -> u64 {
 fn pipeline<Push: ShaderStruct>(gpu: &Gpu, shader: &str) -> Result<ComputePipeline> {
     let builder = ComputePipeline::builder(NAME).compute(shader).push_constants::<Push>();
     builder.build_compute(gpu)
-}
-
-common::shader_struct! {
-    /// For `extent.comp`.
-    struct Reduce {
-        vertices: Address<Vertex>,
-        triangles: Address,
-        extents: Address<Extent>,
-        count: u32,
-        shares: u32,
-        is_last: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For `morton.comp`.
-    struct Code {
-        vertices: Address<Vertex>,
-        triangles: Address,
-        extents: Address<Extent>,
-        keys: Address,
-        values: Address,
-        count: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For the parts of a step of the sort.
-    struct Sort {
-        keys: Address,
-        values: Address,
-        sorted_keys: Address,
-        sorted_values: Address,
-        counts: Address,
-        totals: Address,
-        count: u32,
-        share_length: u32,
-        shares: u32,
-        shift: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For `hierarchy.comp`.
-    struct Hierarchy {
-        keys: Address,
-        extents: Address<Extent>,
-        nodes: Address<Node>,
-        ends: Address,
-        nodes_count: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For `leaves.comp`.
-    struct Leaves {
-        vertices: Address<Vertex>,
-        triangles: Address,
-        original: Address,
-        corners: Address<Corners>,
-        boxes: Address<Bounds>,
-        count: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For `pyramid.comp`.
-    struct Level {
-        boxes: Address<Bounds>,
-        count: u32,
-    }
-}
-
-common::shader_struct! {
-    /// For `fit.comp`.
-    struct Fit {
-        nodes: Address<Node>,
-        ends: Address,
-        boxes: Address<Bounds>,
-        nodes_count: u32,
-        count: u32,
-    }
 }
