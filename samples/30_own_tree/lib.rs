@@ -1,10 +1,14 @@
 //! Trees of boxes over primitives: what a shader walks to find the few that a ray can meet.
 
 mod binned;
+mod builder;
 mod check;
+mod device_tree;
 mod hull;
 mod linked;
+mod on_device;
 mod on_gpu;
+mod pushes;
 mod quality;
 mod quantised;
 mod refit;
@@ -14,9 +18,12 @@ mod subtree;
 mod tree;
 
 pub use binned::binned;
+pub use builder::Builder;
 pub use check::{DEPTH, LEAF, check};
+pub use device_tree::{Corners, DeviceTree, MOST_TRIANGLES, Scratch};
 pub use hull::has_place;
-pub use on_gpu::{Corners, Placed, Trees, TreesOnGpu, USAGE};
+pub use on_device::{DeviceBuilder, Triangles};
+pub use on_gpu::{Placed, Trees, TreesOnGpu, USAGE};
 pub use quality::{INTERSECTION, TRAVERSAL, bytes_per_primitive, cost, depth};
 pub use quantised::{Quantised, quantised};
 pub use refit::refit;

@@ -13,14 +13,17 @@ use common::gpu::{
 use common::scene::{Camera, CameraBasis, DirectionalLight, Scene, SceneAddresses, Sun};
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::{Vec2, Vec3};
-use own_tree::{OwnScene, Trees};
+use own_tree::{Builder, OwnScene, Trees};
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
 }
 
 struct Demo {
+    source: Scene,
     scene: OwnScene,
+    builder: Builder,
+    built_by: Builder,
     pipelines: Variants<Constants, ComputePipeline>,
     camera: Camera,
     sun: Sun,
@@ -46,12 +49,18 @@ common::shader_enum! {
     enum Triangles: TRIANGLES { Moeller, Watertight, TwoFloat = "two-float" }
 }
 
+common::shader_enum! {
+    /// How many bytes of a node are read.
+    enum Nodes { Floats = "64 bytes", Quantised = "36 bytes" }
+}
+
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
     boxes: Boxes,
     triangles: Triangles,
+    nodes: Nodes,
     /// How many entries the stack has.
     stack: u32,
 }
@@ -86,24 +95,38 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let scene = setup.scene_or(Scene::chess)?;
-        let camera = scene.camera;
-        let scene = OwnScene::new(gpu, &scene, own_tree::binned)?;
+        let source = setup.scene_or(Scene::chess)?;
+        let camera = source.camera;
+        let builder = Builder::Reinserted;
+        let scene = OwnScene::new(gpu, &source, builder)?;
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         let constants = Constants {
             show: Show::Picture,
             boxes: Boxes::Bound,
             triangles: Triangles::Watertight,
+            nodes: Nodes::Floats,
             stack: scene.trees.stack,
         };
         let view = View { pixel: Vec2::splat(0.5), step: 20, size: 0.25 };
-        Ok(Self { scene, pipelines: Variants::default(), camera, sun, constants, view })
+        Ok(Self {
+            source,
+            scene,
+            builder,
+            built_by: builder,
+            pipelines: Variants::default(),
+            camera,
+            sun,
+            constants,
+            view,
+        })
     }
 
     // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
+        c.choice("tree", &mut self.builder);
+        c.choice("nodes", &mut self.constants.nodes);
         c.choice("boxes", &mut self.constants.boxes);
         c.choice("triangles", &mut self.constants.triangles);
         c.slider("box size", &mut self.view.size, 0.01..=10.0);
@@ -113,6 +136,15 @@ impl Sample for Demo {
         c.camera(&mut self.camera);
     }
     // ANCHOR_END: controls
+
+    fn changed(&mut self, gpu: &Gpu) -> Result<()> {
+        if self.builder != self.built_by {
+            self.scene.rebuild(gpu, &self.source, self.builder)?;
+            self.built_by = self.builder;
+            self.constants.stack = self.scene.trees.stack;
+        }
+        Ok(())
+    }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -144,6 +176,7 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .constant(1, constants.boxes)
         .constant(2, constants.triangles)
         .constant(3, constants.stack)
+        .constant(6, constants.nodes)
         .binding(Binding::StorageImage)
         .textures(textures)
         .push_constants::<Push>()

@@ -6,19 +6,7 @@ use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
 
-use crate::{Bounds, Node, Quantised, Tree, depth, quantised};
-
-common::shader_struct! {
-    /// The corners of a triangle in its mesh's space, at its position in the tree's order. 36 bytes.
-    pub struct Corners {
-        /// The first corner.
-        pub a: Vec3,
-        /// The second.
-        pub b: Vec3,
-        /// The third.
-        pub c: Vec3,
-    }
-}
+use crate::{Builder, Corners, Node, Quantised, Tree, depth, quantised};
 
 common::shader_struct! {
     /// An instance, at its position in the top tree's order. 116 bytes.
@@ -78,14 +66,14 @@ pub const USAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl TreesOnGpu {
-    /// Builds the trees of a scene by `build`, and uploads them. An instance whose matrix cannot be inverted is
+    /// Builds the trees of a scene and uploads them. An instance whose matrix cannot be inverted is
     /// left out: no ray meets what has no extent.
     ///
     /// # Errors
     /// If memory is short, or a leaf's position takes more than 28 bits.
-    pub fn new(gpu: &Gpu, scene: &Scene, build: impl Fn(&[Bounds]) -> Tree) -> Result<Self> {
+    pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
         let meshes = &scene.model.meshes;
-        let trees: Vec<_> = meshes.iter().map(|mesh| build(&mesh.triangle_bounds())).collect();
+        let trees = meshes.iter().map(|mesh| builder.of(gpu, mesh)).collect::<Result<Vec<_>>>()?;
         // ANCHOR: top
         let there = (0..scene.instances.len()).filter(|&number| {
             let matrix = inverse(&scene.instances[number]);
@@ -94,7 +82,7 @@ impl TreesOnGpu {
         let there: Vec<_> = there.collect();
         let bounds: Vec<_> =
             there.iter().map(|&number| scene.instance_bounds(&scene.instances[number])).collect();
-        let top = build(&bounds);
+        let top = builder.over(&bounds);
         // ANCHOR_END: top
 
         // ANCHOR: pack

@@ -8,7 +8,7 @@ use common::bytemuck::cast_slice;
 use common::gpu::{Buffer, Gpu, Texels, TextureTable};
 use common::scene::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
 
-use crate::{Bounds, Tree, TreesOnGpu, USAGE};
+use crate::{Builder, TreesOnGpu, USAGE};
 
 /// A scene in device memory, with trees.
 pub struct OwnScene {
@@ -22,20 +22,38 @@ pub struct OwnScene {
 }
 
 impl OwnScene {
-    /// Uploads a scene and builds its trees by `build`.
+    /// Uploads a scene and builds its trees.
     ///
     /// # Errors
     /// If memory is short.
-    pub fn new(gpu: &Gpu, scene: &Scene, build: impl Fn(&[Bounds]) -> Tree) -> Result<Self> {
-        let Scene { model, instances, .. } = scene;
-        let textures = model.textures.iter().map(|texture| Texels {
+    pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
+        let textures = scene.model.textures.iter().map(|texture| Texels {
             name: &texture.name,
             extent: vk::Extent2D { width: texture.width, height: texture.height },
             rgba: &texture.rgba,
             srgb: texture.srgb,
         });
         let textures = TextureTable::new(gpu, &textures.collect::<Vec<_>>(), false)?;
-        let trees = TreesOnGpu::new(gpu, scene, build)?;
+        Self::build(gpu, scene, builder, Arc::new(textures))
+    }
+
+    /// Builds everything but the textures again; pipelines stay valid.
+    ///
+    /// # Errors
+    /// As [`OwnScene::new`].
+    pub fn rebuild(&mut self, gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<()> {
+        *self = Self::build(gpu, scene, builder, self.textures.clone())?;
+        Ok(())
+    }
+
+    fn build(
+        gpu: &Gpu,
+        scene: &Scene,
+        builder: Builder,
+        textures: Arc<TextureTable>,
+    ) -> Result<Self> {
+        let Scene { model, instances, .. } = scene;
+        let trees = TreesOnGpu::new(gpu, scene, builder)?;
         let vertices = model.meshes.iter().map(|mesh| &mesh.vertices);
         let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, USAGE)?;
         let triangles = model.meshes.iter().map(|mesh| &mesh.triangles);
@@ -54,6 +72,6 @@ impl OwnScene {
         let (records, at) = Buffer::with_arrays(gpu, "records", records, USAGE)?;
         let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
         let buffers = [vertices, triangles, orders, records];
-        Ok(Self { trees, textures: Arc::new(textures), addresses, _buffers: buffers })
+        Ok(Self { trees, textures, addresses, _buffers: buffers })
     }
 }

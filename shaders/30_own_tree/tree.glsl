@@ -1,18 +1,5 @@
-// A tree of boxes as the shaders read it, and what its leaves hold.
-
-// ANCHOR: node
-// A box, and what lies in it: the node `first`, or `count` primitives from the position `first` on.
-struct Child {
-    vec3 low;
-    uint first;
-    vec3 high;
-    uint count;           // 0 for a node
-};
-
-struct Node {
-    Child children[2];
-};                        // 64 bytes
-// ANCHOR_END: node
+// Trees as a walk reads them: nodes, triangles and instances, all by address.
+#include "node.glsl"
 
 // ANCHOR: quantised
 // The same node in 36 bytes: its boxes stand on a grid of its own, whose steps are powers of two. So a product
@@ -40,13 +27,6 @@ Node unpacked(Quantised node) {
     return full;
 }
 // ANCHOR_END: quantised
-
-// The corners of a triangle, in the order of the tree: the triangles of a leaf lie side by side.
-struct Corners {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-};
 
 // ANCHOR: placed
 // An instance: a leaf of the top tree leads to it, and it leads to the tree of its mesh.

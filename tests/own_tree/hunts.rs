@@ -3,6 +3,7 @@
 
 use common::glam::{DVec3, Vec2, Vec3};
 use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
+use own_tree::Builder;
 use reference::random::Random;
 
 use crate::rig::{Answer, BEST, By, Given, NOTHING, Rig, Rungs};
@@ -153,7 +154,7 @@ pub fn hunted() -> Vec<(String, Scene)> {
 pub fn hunt(rungs: &[Rungs], count: usize, seed: u64) -> Vec<Count> {
     let mut counts: Vec<Count> = rungs.iter().map(|_| Count::default()).collect();
     for (_, scene) in hunted() {
-        let rig = Rig::new(&scene, own_tree::binned);
+        let rig = Rig::new(&scene, Builder::Reinserted);
         let given = rays(&scene, count, seed);
         let mut by_all = std::collections::BTreeMap::new();
         for (rungs, total) in rungs.iter().zip(&mut counts) {

@@ -1,5 +1,6 @@
 //! 30_own_tree: trees and walks held to what they promise.
 
+mod device;
 mod host;
 mod hunts;
 mod peer;

@@ -2,6 +2,7 @@
 
 use common::glam::{DVec3, Vec3};
 use common::scene::Scene;
+use own_tree::Builder;
 use reference::random::Random;
 
 use crate::rig::{Answer, BEST, By, Given, NOTHING, Rig, Rungs};
@@ -43,7 +44,7 @@ fn secondary(
 }
 
 pub fn compare(name: &str, scene: &Scene, rounds: usize) {
-    let rig = Rig::beside_the_device(scene, own_tree::binned);
+    let rig = Rig::beside_the_device(scene, Builder::Reinserted);
     let quantised = std::env::var("QUANTISED").is_ok();
     let walk = rig.pipeline(By::Walk, Rungs { quantised, ..BEST });
     let query = rig.pipeline(By::Query, BEST);

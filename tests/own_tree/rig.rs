@@ -5,7 +5,7 @@ use common::gpu::{
     Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOnGpu, SceneOptions};
-use own_tree::{Bounds, OwnScene, Tree, Trees, USAGE};
+use own_tree::{Builder, OwnScene, Trees, USAGE};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
@@ -87,26 +87,21 @@ pub struct Rig {
 
 impl Rig {
     /// For walks alone.
-    pub fn new(scene: &Scene, build: impl Fn(&[Bounds]) -> Tree) -> Self {
-        Self::make(scene, build, false, true)
+    pub fn new(scene: &Scene, builder: Builder) -> Self {
+        Self::make(scene, builder, false, true)
     }
 
     /// For walks and queries; without validation, which would be timed.
-    pub fn beside_the_device(scene: &Scene, build: impl Fn(&[Bounds]) -> Tree) -> Self {
-        Self::make(scene, build, true, false)
+    pub fn beside_the_device(scene: &Scene, builder: Builder) -> Self {
+        Self::make(scene, builder, true, false)
     }
 
-    fn make(
-        scene: &Scene,
-        build: impl Fn(&[Bounds]) -> Tree,
-        queries: bool,
-        validate: bool,
-    ) -> Self {
+    fn make(scene: &Scene, builder: Builder, queries: bool, validate: bool) -> Self {
         let requirements = Requirements::ray_tracing().textures();
         let requirements = if queries { requirements.ray_query() } else { requirements };
         let options = GpuOptions { requirements, validate, ..GpuOptions::default() };
         let gpu = Gpu::new(&options).expect("there is a device");
-        let own = OwnScene::new(&gpu, scene, build).expect("it has room");
+        let own = OwnScene::new(&gpu, scene, builder).expect("it has room");
         let levels = queries
             .then(|| SceneOnGpu::new(&gpu, scene, SceneOptions::default()).expect("it has room"));
         Self { gpu, own, levels, instances: scene.instances.len() as u32 }

@@ -58,6 +58,13 @@ pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, STORAGE));
 }
 
+/// What compute shaders wrote becomes visible to the next compute shader, which may also write what they read: the
+/// passes of a computation, on any device, whether it can trace rays or not.
+pub fn pass_to_pass(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::COMPUTE_SHADER, Access::SHADER_STORAGE_WRITE);
+    memory(gpu, cmd, written, (Stage::COMPUTE_SHADER, STORAGE));
+}
+
 /// What earlier traces read and wrote in a buffer comes before a transfer clears it.
 pub fn trace_to_fill(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), FILL);
