@@ -1,1 +1,8 @@
-//! 30_own_tree: trees held to what they promise.
+//! 30_own_tree: trees and walks held to what they promise.
+
+mod host;
+mod hunts;
+mod peer;
+mod rate;
+mod rig;
+mod scenes;
