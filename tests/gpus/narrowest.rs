@@ -78,7 +78,7 @@ pub fn quiet(what: &str, output: Output) -> String {
 
 /// The report of a small headless run.
 #[track_caller]
-fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Value {
+pub fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Value {
     let mut command = narrow.command(sample);
     command.args(["--headless", "--validate", "--report", "-"]).args(arguments);
     if !arguments.contains(&"--size") {

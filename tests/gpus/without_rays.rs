@@ -10,7 +10,7 @@ use run::layer::Layer;
 
 use ash::{khr, vk};
 
-use super::narrowest::{in_child, quiet};
+use super::narrowest::{in_child, quiet, runs};
 
 /// What the layer is told: all of ray tracing is hidden, and the device is one of those that Macs have.
 const FAULTS: &str = "no-ray-tracing,portability";
@@ -26,11 +26,13 @@ common::shader_struct! {
 }
 
 #[test]
-fn every_chapter_that_traces_is_refused_by_the_extensions_that_it_lacks() {
+fn what_traces_is_refused_by_the_extensions_that_it_lacks_and_what_computes_runs() {
     let narrow = Layer::narrow(FAULTS);
     let extensions = ["VK_KHR_acceleration_structure", "VK_KHR_ray_tracing_pipeline"];
     for sample in run::chapters() {
         if WITHOUT.contains(&sample.as_str()) {
+            let report = runs(&narrow, &sample, &[]);
+            assert_eq!(report["limits"]["max_ray_recursion_depth"], 0, "{report}");
             continue;
         }
         let mut list = narrow.command(&sample);

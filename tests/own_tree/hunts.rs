@@ -157,9 +157,9 @@ pub fn hunt(rungs: &[Rungs], count: usize, seed: u64) -> Vec<Count> {
         let given = rays(&scene, count, seed);
         let mut by_all = std::collections::BTreeMap::new();
         for (rungs, total) in rungs.iter().zip(&mut counts) {
-            let all = by_all.entry(rungs.triangles).or_insert_with(|| {
-                rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0
-            });
+            let all = by_all
+                .entry(rungs.triangles)
+                .or_insert_with(|| rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0);
             let walked = rig.answers(&rig.pipeline(By::Walk, *rungs), By::Walk, &given).0;
             total.add(&walked, all);
         }
@@ -179,9 +179,8 @@ fn no_hit_is_lost_by_boxes_with_a_bound() {
 #[test]
 #[ignore = "by hand: counts for long"]
 fn the_table_of_what_is_lost() {
-    let rungs: Vec<_> = (0..3)
-        .flat_map(|triangles| (0..5).map(move |boxes| Rungs { boxes, triangles }))
-        .collect();
+    let rungs: Vec<_> =
+        (0..3).flat_map(|triangles| (0..5).map(move |boxes| Rungs { boxes, triangles })).collect();
     let rays = std::env::var("RAYS").ok().and_then(|text| text.parse().ok()).unwrap_or(100_000);
     for (rungs, count) in rungs.iter().zip(hunt(&rungs, rays, 7)) {
         println!("triangles {} boxes {}: {count:?}", rungs.triangles, rungs.boxes);

@@ -25,7 +25,12 @@ fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
 }
 
 /// From where rays have met something: to the light, or anywhere.
-fn secondary(given: &[Given], answers: &[Answer], to: impl FnMut() -> Vec3, any: u32) -> Vec<Given> {
+fn secondary(
+    given: &[Given],
+    answers: &[Answer],
+    to: impl FnMut() -> Vec3,
+    any: u32,
+) -> Vec<Given> {
     let mut to = to;
     let mut rays = Vec::new();
     for (ray, answer) in given.iter().zip(answers) {
@@ -65,14 +70,22 @@ pub fn compare(name: &str, scene: &Scene, rounds: usize) {
             ratios.push(device / own);
             rates.push(rays.len() as f64 / own / 1e3);
             let hit = |answer: &Answer| answer.instance;
-            differ = ours.iter().zip(&theirs).filter(|(a, b)| (hit(a) == NOTHING) != (hit(b) == NOTHING)).count();
+            differ = ours
+                .iter()
+                .zip(&theirs)
+                .filter(|(a, b)| (hit(a) == NOTHING) != (hit(b) == NOTHING))
+                .count();
             steps = ours.iter().map(|a| f64::from(a.count)).sum::<f64>() / rays.len() as f64;
         }
         ratios.sort_by(f64::total_cmp);
         rates.sort_by(f64::total_cmp);
         println!(
             "{name} {kind}: {:.2} times as fast ({:.2} to {:.2}); {:.2} million rays a second; {steps:.1} steps; {differ} of {} differ",
-            ratios[rounds / 2], ratios[rounds / 4], ratios[3 * rounds / 4], rates[rounds / 2], rays.len()
+            ratios[rounds / 2],
+            ratios[rounds / 4],
+            ratios[3 * rounds / 4],
+            rates[rounds / 2],
+            rays.len()
         );
     }
 }

@@ -121,7 +121,12 @@ impl Rig {
     }
 
     /// The answer to each ray, and the milliseconds that they took.
-    pub fn answers(&self, pipeline: &ComputePipeline, by: By, given: &[Given]) -> (Vec<Answer>, f64) {
+    pub fn answers(
+        &self,
+        pipeline: &ComputePipeline,
+        by: By,
+        given: &[Given],
+    ) -> (Vec<Answer>, f64) {
         let rays = Buffer::with_data(&self.gpu, "rays", given, USAGE).expect("room for rays");
         let size = size_of::<Answer>() * given.len();
         let usage = USAGE | ash::vk::BufferUsageFlags::TRANSFER_SRC;
