@@ -91,7 +91,7 @@ common::shader_struct! {
 
 impl Sample for Demo {
     fn requirements() -> Requirements {
-        Requirements::ray_tracing().textures()
+        Requirements::compute().textures()
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {

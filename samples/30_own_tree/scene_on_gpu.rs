@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use anyhow::Result;
-use ash::vk;
-use common::bytemuck::cast_slice;
-use common::gpu::{Buffer, Gpu, Texels, TextureTable};
-use common::scene::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
+use common::gpu::{Buffer, Gpu, TextureTable};
+use common::scene::{Scene, SceneAddresses, SceneOnGpu};
 
-use crate::{Builder, TreesOnGpu, USAGE};
+use crate::{Builder, TreesOnGpu};
 
 /// A scene in device memory, with trees.
 pub struct OwnScene {
@@ -18,7 +16,7 @@ pub struct OwnScene {
     pub textures: Arc<TextureTable>,
     /// Where shaders find the rest.
     pub addresses: SceneAddresses,
-    _buffers: [Buffer; 4],
+    _buffers: Vec<Buffer>,
 }
 
 impl OwnScene {
@@ -27,14 +25,7 @@ impl OwnScene {
     /// # Errors
     /// If memory is short.
     pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
-        let textures = scene.model.textures.iter().map(|texture| Texels {
-            name: &texture.name,
-            extent: vk::Extent2D { width: texture.width, height: texture.height },
-            rgba: &texture.rgba,
-            srgb: texture.srgb,
-        });
-        let textures = TextureTable::new(gpu, &textures.collect::<Vec<_>>(), false)?;
-        Self::build(gpu, scene, builder, Arc::new(textures))
+        Self::build(gpu, scene, builder, None)
     }
 
     /// Builds everything but the textures again; pipelines stay valid.
@@ -42,7 +33,7 @@ impl OwnScene {
     /// # Errors
     /// As [`OwnScene::new`].
     pub fn rebuild(&mut self, gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<()> {
-        *self = Self::build(gpu, scene, builder, self.textures.clone())?;
+        *self = Self::build(gpu, scene, builder, Some(self.textures.clone()))?;
         Ok(())
     }
 
@@ -50,28 +41,11 @@ impl OwnScene {
         gpu: &Gpu,
         scene: &Scene,
         builder: Builder,
-        textures: Arc<TextureTable>,
+        textures: Option<Arc<TextureTable>>,
     ) -> Result<Self> {
-        let Scene { model, instances, .. } = scene;
         let trees = TreesOnGpu::new(gpu, scene, builder)?;
-        let vertices = model.meshes.iter().map(|mesh| &mesh.vertices);
-        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, USAGE)?;
-        let triangles = model.meshes.iter().map(|mesh| &mesh.triangles);
-        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", triangles, USAGE)?;
-        let (orders, at_orders) = Buffer::with_arrays(gpu, "triangle order", &trees.orders, USAGE)?;
-        let records = instances.iter().map(|instance| InstanceRecord {
-            vertices: at_vertices[instance.mesh].into(),
-            triangles: at_triangles[instance.mesh].into(),
-            original: at_orders[instance.mesh].into(),
-            material: instance.material as u32,
-            mesh: instance.mesh as u32,
-        });
-        let records: Vec<_> = records.collect();
-        let materials: Vec<_> = model.materials.iter().map(MaterialRecord::from).collect();
-        let records = [cast_slice::<_, u8>(&records), cast_slice(&materials)];
-        let (records, at) = Buffer::with_arrays(gpu, "records", records, USAGE)?;
-        let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
-        let buffers = [vertices, triangles, orders, records];
+        let (addresses, textures, buffers) =
+            SceneOnGpu::without_levels(gpu, scene, &trees.orders, textures)?;
         Ok(Self { trees, textures, addresses, _buffers: buffers })
     }
 }
