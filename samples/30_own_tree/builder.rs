@@ -4,9 +4,7 @@ use anyhow::Result;
 use common::gpu::{Buffer, Gpu};
 use common::scene::Mesh;
 
-use crate::{
-    Bounds, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, USAGE, binned, reinserted,
-};
+use crate::{Bounds, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, binned, reinserted};
 
 common::shader_enum! {
     /// How the trees of meshes are built. The tree over the instances is built on the host.
@@ -47,8 +45,8 @@ impl Builder {
 /// The device's tree. It is read back only to be packed with the others: a program that builds anew in each frame
 /// would walk it where it lies.
 fn on_device(gpu: &Gpu, mesh: &Mesh) -> Result<Tree> {
-    let vertices = Buffer::with_data(gpu, "vertices", &mesh.vertices, USAGE)?;
-    let triangles = Buffer::with_data(gpu, "triangles", &mesh.triangles, USAGE)?;
+    let vertices = Buffer::with_data(gpu, "vertices", &mesh.vertices, Buffer::ADDRESSED)?;
+    let triangles = Buffer::with_data(gpu, "triangles", &mesh.triangles, Buffer::ADDRESSED)?;
     let count = mesh.triangles.len() as u32;
     let list = Triangles { vertices: vertices.address, triangles: triangles.address, count };
     let (tree, scratch) = (DeviceTree::new(gpu, count)?, Scratch::new(gpu, count)?);

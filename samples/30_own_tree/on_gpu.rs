@@ -1,7 +1,6 @@
 //! A scene's trees in device memory: one for each mesh, and one over its instances.
 
 use anyhow::{Result, ensure};
-use ash::vk;
 use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
@@ -58,12 +57,6 @@ pub struct TreesOnGpu {
     pub bytes: [usize; 3],
     _buffers: [Buffer; 2],
 }
-
-/// What every buffer here is for: shaders read it by address.
-pub const USAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
-    vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS.as_raw()
-        | vk::BufferUsageFlags::STORAGE_BUFFER.as_raw(),
-);
 
 impl TreesOnGpu {
     /// Builds the trees of a scene and uploads them. An instance whose matrix cannot be inverted is
@@ -131,7 +124,7 @@ impl TreesOnGpu {
             bytemuck::cast_slice(&corners),
             bytemuck::cast_slice(&placed),
         ];
-        let (buffer, at) = Buffer::with_arrays(gpu, "trees", arrays, USAGE)?;
+        let (buffer, at) = Buffer::with_arrays(gpu, "trees", arrays, Buffer::ADDRESSED)?;
         let head = Trees {
             nodes: at[0].into(),
             packed: at[1].into(),
@@ -140,7 +133,7 @@ impl TreesOnGpu {
             growth: (GROWTH * growth) as f32,
             reach,
         };
-        let head = Buffer::with_data(gpu, "where the trees are", &[head], USAGE)?;
+        let head = Buffer::with_data(gpu, "where the trees are", &[head], Buffer::ADDRESSED)?;
         let deepest = trees.iter().map(depth).max().unwrap_or(0);
         Ok(Self {
             address: head.address.into(),

@@ -5,7 +5,7 @@ use common::gpu::{
     Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOnGpu, SceneOptions};
-use own_tree::{Builder, OwnScene, Trees, USAGE};
+use own_tree::{Builder, OwnScene, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
@@ -132,9 +132,10 @@ impl Rig {
         by: By,
         given: &[Given],
     ) -> (Vec<Answer>, f64) {
-        let rays = Buffer::with_data(&self.gpu, "rays", given, USAGE).expect("room for rays");
+        let rays =
+            Buffer::with_data(&self.gpu, "rays", given, Buffer::ADDRESSED).expect("room for rays");
         let size = size_of::<Answer>() * given.len();
-        let usage = USAGE | ash::vk::BufferUsageFlags::TRANSFER_SRC;
+        let usage = Buffer::ADDRESSED | ash::vk::BufferUsageFlags::TRANSFER_SRC;
         let answers = Buffer::new(&self.gpu, "answers", size as u64, usage).expect("room");
         let launch = Launch {
             trees: self.own.trees.address,
