@@ -5,7 +5,7 @@ use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
 
-use crate::{Builder, Corners, Node, Quantised, Tree, depth, quantised};
+use crate::{Builder, Corners, Node, Quantised, depth, quantised};
 
 common::shader_struct! {
     /// An instance, at its position in the top tree's order. 116 bytes.

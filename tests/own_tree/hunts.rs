@@ -1,12 +1,17 @@
 //! Rays that hunt for lost hits: through edges and corners of closed meshes, along walls of boxes, far from
 //! the origin. Every triangle in turn, with the same test, says what there is to find.
 
-use common::glam::{DVec3, Vec2, Vec3};
+use common::glam::{DVec3, Vec2};
 use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
 use own_tree::Builder;
 use reference::random::Random;
 
-use crate::rig::{Answer, BEST, By, Given, NOTHING, Rig, Rungs};
+use run::figures;
+use serde_json::Map;
+
+use crate::rig::{
+    Answer, BARE, BEST, By, EXACT, Given, MOELLER, NOTHING, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
+};
 
 /// A closed mesh whose corners lie on a sphere, seen from inside by rays: each of them meets it once.
 pub fn ball(splits: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
@@ -180,16 +185,24 @@ fn no_hit_is_lost_by_boxes_with_a_bound() {
 #[test]
 #[ignore = "by hand: counts for long"]
 fn the_table_of_what_is_lost() {
-    let rungs: Vec<_> = (0..3)
-        .flat_map(|triangles| (0..5).map(move |boxes| Rungs { boxes, triangles, quantised: false }))
-        .collect();
-    let rays = std::env::var("RAYS").ok().and_then(|text| text.parse().ok()).unwrap_or(100_000);
-    for (rungs, count) in rungs.iter().zip(hunt(&rungs, rays, 7)) {
-        println!("triangles {} boxes {}: {count:?}", rungs.triangles, rungs.boxes);
+    let mut rungs = Vec::new();
+    for triangles in [MOELLER, WATERTIGHT, TWO_FLOAT] {
+        rungs.extend((BARE..=EXACT).map(|boxes| Rungs { boxes, triangles, quantised: false }));
     }
-}
-
-/// A ray without end, for tests of other things.
-pub fn ray(origin: Vec3, direction: Vec3) -> Given {
-    Given { origin, tmax: 1e30, direction, any: 0 }
+    let counts = hunt(&rungs, 100_000, 7);
+    let triangles = ["moeller", "watertight", "two-float"];
+    let boxes = ["bare", "guess", "ize", "bound", "two-float"];
+    let mut figures = Map::new();
+    figures.insert("rays".to_owned(), counts[0].rays.into());
+    for (index, count) in counts.iter().enumerate() {
+        let name = format!("{}.{}", triangles[index / 5], boxes[index % 5]);
+        println!("{name}: {count:?}");
+        figures.insert(format!("{name}.lost"), count.lost.into());
+        figures.insert(format!("{name}.farther"), count.farther.into());
+        if index % 5 == 0 {
+            figures.insert(format!("{}.leaks", triangles[index / 5]), count.leaks.into());
+            figures.insert(format!("{}.doubled", triangles[index / 5]), count.doubled.into());
+        }
+    }
+    figures::hold("30_own_tree/lost", figures.into());
 }

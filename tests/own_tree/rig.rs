@@ -59,8 +59,6 @@ pub struct Rungs {
 }
 
 pub const BARE: u32 = 0;
-pub const GUESS: u32 = 1;
-pub const IZE: u32 = 2;
 pub const BOUND: u32 = 3;
 pub const EXACT: u32 = 4;
 pub const MOELLER: u32 = 0;
