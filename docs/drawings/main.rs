@@ -16,6 +16,7 @@ mod rays;
 mod shadows;
 mod shapes;
 mod sheet;
+mod shutter;
 mod squares;
 mod structures;
 mod table;
@@ -48,6 +49,8 @@ const DRAWINGS: &[Drawing] = &[
     ("shadow_lift", shadows::lift),
     ("shader_binding_table", table::chapter_13),
     ("shader_calls", calls::shader_calls),
+    ("shutter_methods", shutter::methods),
+    ("shutter_times", shutter::times),
     ("slabs", shapes::slabs),
     ("swept", shapes::swept),
     ("solid_angles", lights::solid_angles),

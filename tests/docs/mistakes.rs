@@ -11,7 +11,7 @@ use std::time::Duration;
 use crate::fixture::{Fixture, run};
 
 /// The chapters that have mistakes in their shaders.
-const PROGRAMS: [&str; 9] = [
+const PROGRAMS: [&str; 13] = [
     "02_basic",
     "03_any_hit",
     "04_jitter_camera",
@@ -20,7 +20,11 @@ const PROGRAMS: [&str; 9] = [
     "07_multi_closest_hit",
     "08_intersection",
     "09_instancing",
+    "19_ray_cones",
     "22_solids",
+    "23_motion_blur",
+    "34_lights",
+    "35_soft_shadows",
 ];
 
 fn tool(arguments: &[&str]) -> (i32, String, String) {

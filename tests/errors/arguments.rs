@@ -23,6 +23,11 @@ fn options() {
         ),
         (&["--frames=-1"], "invalid value '-1' for '--frames <N>'"),
         (&["--frames", "-1"], "invalid value '-1' for '--frames <N>'"),
+        (
+            &["--save", "a.sums"],
+            "--save a.sums: it keeps sums of samples: say which, --samples A..B; a picture is written by --out FILE",
+        ),
+        (&["--save", "a.png"], "say which, --samples A..B; a picture is written by --out FILE"),
         (&["--samples", "-1..4"], "invalid value '-1..4' for '--samples <A..B>'"),
         (&["--frames", "many"], "invalid value 'many' for '--frames <N>'"),
         (&["--scene", ""], "a value is required for '--scene <FILE>'"),

@@ -404,7 +404,6 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&picture, 1, &["text' is there already, and is no file of sums: choose another name"]);
     let out = ["--samples", "0..4", "--resume", name, "--save", name, "--report", name];
     refused(&out, 2, &["--resume and --report both name '"]);
-    refused(&["--headless", "--save", name], 2, &["--samples <A..B>"]);
     let picture = ["--samples", "0..4", "--save", "part.PNG"];
     refused(&picture, 2, &["--save part.PNG: sums of samples are no picture"]);
     refused(&["--samples", "0..4", "--frames", "4"], 2, &["cannot be used with"]);

@@ -2,9 +2,11 @@
 //! shutter the picture is its parent's.
 
 mod claims;
+mod hard;
 mod smear;
 
 #[allow(dead_code)]
+#[expect(clippy::duplicate_mod, reason = "to 14 it is a part of its own")]
 #[path = "../../samples/14_animation/legs.rs"]
 mod legs;
 #[allow(dead_code)]

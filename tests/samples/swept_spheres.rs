@@ -286,6 +286,54 @@ fn the_wrong_normal_is_a_number_everywhere() {
     assert!(shown.pixels.iter().flatten().all(|number| number.is_finite()));
 }
 
+/// The hit shader that the page shows for the device's own swept spheres: its function runs here, on our shapes.
+#[test]
+fn the_hit_shader_for_the_extension_has_the_surface_s_normal() {
+    let text = include_str!("swept_spheres/nv.rchit");
+    let (_, function) = text.split_once("// ANCHOR: normal\n").unwrap();
+    let (function, _) = function.split_once("// ANCHOR_END: normal").unwrap();
+    let mut exact = Vec::new();
+    let mut rows = [const { String::new() }; 3];
+    for (family, count) in [("everyday", 48), ("swallowed", 16)] {
+        let hits = cases(family).into_iter().filter_map(|case| {
+            let hit = case.swept.intersect(&case.ray)?;
+            Some((case.swept, case.ray.at(hit.t).as_vec3()))
+        });
+        for (swept, p) in hits.take(count) {
+            let [a, b] = swept.ends;
+            for (row, v) in rows.iter_mut().zip([p, a.as_vec3(), b.as_vec3()]) {
+                *row += &format!("vec3({:?}, {:?}, {:?}), ", v.x, v.y, v.z);
+            }
+            exact.push((swept, swept.normal(p.as_dvec3())));
+        }
+    }
+    assert_eq!(exact.len(), 64);
+    let radii = exact.iter().map(|(swept, _)| swept.radii);
+    let radii: String = radii.map(|[r, q]| format!("vec2({r:?}, {q:?}), ")).collect();
+    let [p, a, b] = rows.map(|row| format!("vec3[]({})", row.trim_end_matches(", ")));
+    let declared = format!(
+        "{function}
+         const vec3 POINTS[64] = {p};
+         const vec3 FIRST[64] = {a};
+         const vec3 SECOND[64] = {b};
+         const vec2 RADII[64] = vec2[]({});",
+        radii.trim_end_matches(", ")
+    );
+    let body = "
+        vec3 ends[2] = vec3[](FIRST[at.x], SECOND[at.x]);
+        float radii[2] = float[](RADII[at.x].x, RADII[at.x].y);
+        answer = vec4(normal_at(POINTS[at.x], ends, radii), 1.0);";
+    let found = run::evaluate(&declared, body, "64x1");
+    let mut most: f64 = 0.0;
+    for (i, (&[x, y, z, _], (swept, normal))) in found.pixels.iter().zip(&exact).enumerate() {
+        let off = (DVec3::new(x.into(), y.into(), z.into()) - *normal).length();
+        most = most.max(off);
+        // A place a unit across is rounded to 2^-24 of it, over a radius of 0.05.
+        assert!(off < 2e-5, "{i}: off by {off}, {swept:?}");
+    }
+    println!("off by {most:.1e} at most");
+}
+
 /// The ray through the middle meets the very point that a chain ends in.
 #[test]
 fn a_tip_has_a_normal_and_a_colour() {

@@ -1,6 +1,7 @@
 //! Shaders as the samples read them: each compiles, is used, and has its structures as Rust has them.
 
 mod audit;
+mod extensions;
 mod promises;
 
 use std::collections::BTreeSet;

@@ -41,7 +41,7 @@ impl Options {
     pub fn are_none(&self) -> bool {
         let Self { report, compare, sums, compile_for, pixel, arithmetic } = self;
         let told = report.report.is_some() || report.compiler_figures;
-        let rendered = compare.compare.is_some() || sums.samples.is_some();
+        let rendered = compare.compare.is_some() || sums.samples.is_some() || sums.save.is_some();
         let compiled = compile_for.compile_for.is_some();
         let printed = pixel.pixel.is_some();
         !(told || rendered || compiled || printed) && arithmetic.or_seeded() == Arithmetic::Driver

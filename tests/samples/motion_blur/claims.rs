@@ -196,12 +196,3 @@ fn strata_are_better_than_chance() {
     assert!(slopes[1] < -0.85, "{slopes:?}");
     figures::hold("23_motion_blur/error", held);
 }
-
-/// The device's own way compiles: a ray with a time.
-#[test]
-fn the_extension_compiles() {
-    let text = include_str!("nv.rgen");
-    let words = common::gpu::shader::to_spirv("nv.rgen", text, &[]).unwrap();
-    // OpTraceRayMotionNV, as SPIR-V numbers it.
-    assert!(words.iter().any(|word| word & 0xffff == 5339), "no trace with a time");
-}

@@ -32,7 +32,7 @@ pub struct Options {
     pub samples: Option<Range<u32>>,
 
     /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
-    #[arg(long, value_name = "FILE", requires = "samples")]
+    #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
 
     /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
@@ -49,12 +49,18 @@ fn seconds(text: &str) -> Result<u64, String> {
 }
 
 impl Options {
-    /// Refuses sums where one would look for a picture, which no viewer opens; and a render that would keep
-    /// nothing of its samples, perhaps after days.
+    /// Refuses sums of no samples; sums where one would look for a picture, which no viewer opens; and a render that
+    /// would keep nothing of its samples, perhaps after days.
     ///
     /// # Errors
     /// [`Usage`], with what would be right.
     pub fn check(&self, is_kept: bool) -> Result<(), Usage> {
+        if let (Some(path), None) = (&self.save, &self.samples) {
+            let path = path.display();
+            return Err(Usage(format!(
+                "--save {path}: it keeps sums of samples: say which, --samples A..B; a picture is written by --out FILE"
+            )));
+        }
         let others = ["png", "exr", "jpg", "jpeg", "tif", "tiff", "json"];
         if let Some(path) = &self.save {
             let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
