@@ -11,7 +11,7 @@ struct Ray {
     vec3 origin;
     vec3 direction;
     vec3 inverse;
-    vec3 shift;           // by how much boxes grow, with the direction's sign
+    float growth;         // by how much boxes grow
 };
 
 // `growth` is for a coordinate of 1; `reach` is the largest coordinate in the tree.
@@ -20,7 +20,7 @@ Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
     float grown = BOXES == BOXES_BOUND ? growth * farthest : BOXES == BOXES_GUESS ? 1e-5 : 0.0;
     // A component may be 0, or -0: its sign is what the walls are chosen by, in both.
     vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0)));
-    return Ray(origin, direction, side * min(1.0 / abs(direction), LARGEST), side * grown);
+    return Ray(origin, direction, side * min(1.0 / abs(direction), LARGEST), grown);
 }
 // ANCHOR_END: ray
 
@@ -29,10 +29,13 @@ Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
 // is the near one; so a box whose low corner lies above its high one is missed by all rays.
 float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
     bvec3 up = greaterThanEqual(ray.direction, vec3(0.0));
-    precise vec3 near = (mix(high, low, up) - ray.origin - ray.shift) * ray.inverse;
-    precise vec3 far = (mix(low, high, up) - ray.origin + ray.shift) * ray.inverse;
-    float enter = max(max(near.x, near.y), max(near.z, 0.0));
-    float leave = min(min(far.x, far.y), min(far.z, tmax));
+    precise vec3 to_low = low - ray.origin - ray.growth;
+    precise vec3 to_high = high - ray.origin + ray.growth;
+    precise vec3 near = mix(to_high, to_low, up) * ray.inverse;
+    precise vec3 far = mix(to_low, to_high, up) * ray.inverse;
+    // In a row that begins with a number: then a processor need not look out for what is none at each step.
+    float enter = max(near.x, max(near.y, max(near.z, 0.0)));
+    float leave = min(far.x, min(far.y, min(far.z, min(tmax, LARGEST))));
     if (BOXES == BOXES_IZE || BOXES == BOXES_BOUND) {
         precise float later = leave * SLACK;
         leave = later;

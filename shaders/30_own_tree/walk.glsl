@@ -77,7 +77,8 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
         }
         // ANCHOR_END: instance
         // ANCHOR: node
-        if (entry <= FIRST_MASK) {
+        // Two nodes a turn, for there are many more of them than of anything else.
+        for (uint step = 0; step < 2 && entry <= FIRST_MASK; step++) {
             Node node = QUANTISED ? unpacked(trees.packed.at[entry]) : trees.nodes.at[entry];
             met.boxes++;
             visit(trees, node, inside);
@@ -85,11 +86,11 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
             float b = entered(ray, node.children[1], met.t);
             uint near = b < a ? entry_of(node.children[1]) : entry_of(node.children[0]);
             uint far = b < a ? entry_of(node.children[0]) : entry_of(node.children[1]);
-            // The near child comes first: what is found there may spare the far one.
-            if (max(a, b) < MISSED) {
-                stack[height++] = far;
-            }
-            entry = min(a, b) < MISSED ? near : NOTHING;
+            // The near child comes first: what is found there may spare the far one. That is written in any case,
+            // which spares a branch, and counts only if both are met.
+            stack[height] = far;
+            height += a < MISSED && b < MISSED ? 1 : 0;
+            entry = a < MISSED || b < MISSED ? near : NOTHING;
         }
         // ANCHOR_END: node
         // ANCHOR: leaf
