@@ -73,7 +73,7 @@ fn compute_a_picture() {
     let orders = orders.map(|mesh| (0..mesh.triangles.len() as u32).rev().collect::<Vec<_>>());
     let orders: Vec<_> = orders.collect();
     let (addresses, textures, _buffers) =
-        SceneOnGpu::without_levels(&gpu, &scene, &orders).expect("the scene's buffers");
+        SceneOnGpu::without_levels(&gpu, &scene, &orders, None).expect("the scene's buffers");
     let pipeline = ComputePipeline::builder("without_rays")
         .compute("corners.comp")
         .workgroup(0, [8, 4])

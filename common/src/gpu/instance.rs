@@ -182,6 +182,6 @@ mod tests {
                 "/usr/local/lib/libMoltenVK.dylib",
             ]
         );
-        assert_eq!(elsewhere("linux", Some("/opt/vulkan".into())), [PathBuf::new(); 0]);
+        assert!(elsewhere("linux", Some("/opt/vulkan".into())).is_empty());
     }
 }
