@@ -45,6 +45,9 @@ common::shader_struct! {
     }
 }
 
+/// The shader that answers any rays, from a buffer to a buffer: what tests ask.
+pub const RAYS: &str = "rays.comp";
+
 /// The trees of a scene on the device.
 pub struct TreesOnGpu {
     /// Of the [`Trees`].

@@ -5,7 +5,7 @@ use common::gpu::{
     Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOnGpu, SceneOptions};
-use own_tree::{Builder, OwnScene, Trees};
+use own_tree::{Builder, OwnScene, RAYS, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
@@ -108,7 +108,7 @@ impl Rig {
     /// A pipeline that answers rays.
     pub fn pipeline(&self, by: By, rungs: Rungs) -> ComputePipeline {
         let builder = ComputePipeline::builder(NAME)
-            .compute("rays.comp")
+            .compute(RAYS)
             .workgroup(4, [256, 1])
             .constant(1, rungs.boxes)
             .constant(2, rungs.triangles)
