@@ -12,6 +12,9 @@ const FRAME: u32 = 934;
 /// What they are for: `DIMENSION_TIME` of the chapter.
 const DIMENSION: u32 = 2;
 
+/// A time of the shutter, from the number of a sample and a random number.
+type TimeOf = dyn Fn(u32, f64) -> f64;
+
 /// The number that `random` of `common/random.glsl` gives a sample of a pixel: a hash, and 24 of its bits.
 fn random([x, y]: [u32; 2], sample: u32) -> f64 {
     let mut v = [x | y << 16, sample, FRAME, DIMENSION]
@@ -40,7 +43,7 @@ pub fn times() -> String {
     let mut s = Sheet::new([840, 262], "When eight samples of a pixel look, in four pixels");
     let strata = |i: u32, u: f64| (f64::from(i) + u) / f64::from(COUNT);
     let random_times = |_: u32, u: f64| u;
-    let panels: [(&str, &dyn Fn(u32, f64) -> f64, f64); 2] =
+    let panels: [(&str, &TimeOf, f64); 2] =
         [("random", &random_times, 40.0), ("in strata", &strata, 448.0)];
     let (top, row, wide) = (88.0, 32.0, 352.0);
     for (name, time, left) in panels {

@@ -158,7 +158,7 @@ fn corners_of(mesh: &Mesh, triangle: u32) -> Corners {
 /// The matrix of an instance, as it is: a product in 64 bits rounds nothing that matters here.
 fn matrix(instance: &Instance) -> DAffine3 {
     let of = &instance.transform;
-    let column = |v: common::glam::Vec3A| DVec3::from(Vec3::from(v).as_dvec3());
+    let column = |v: common::glam::Vec3A| Vec3::from(v).as_dvec3();
     DAffine3::from_cols(
         column(of.matrix3.x_axis),
         column(of.matrix3.y_axis),

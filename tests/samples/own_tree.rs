@@ -95,6 +95,6 @@ fn neither_an_extension_nor_an_acceleration_structure_is_asked_for() {
 
 #[test]
 fn a_step_that_there_is_not_is_refused_in_one_line() {
-    let (code, line) = refused(NAME, &["--set", "walk step=0"]);
+    let (code, line) = refused(NAME, &["--headless", "--set", "walk step=0"]);
     assert!(code == 2 && line.contains("walk step"), "{code}: {line}");
 }
