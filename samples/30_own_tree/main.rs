@@ -180,6 +180,7 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .binding(Binding::StorageImage)
         .textures(textures)
         .push_constants::<Push>()
+        .rounding_to_nearest_even(gpu)
         .build_compute(gpu)
 }
 // ANCHOR_END: pipeline

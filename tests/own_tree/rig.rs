@@ -114,7 +114,8 @@ impl Rig {
             .constant(2, rungs.triangles)
             .constant(3, self.own.trees.stack)
             .constant(6, u32::from(rungs.quantised))
-            .push_constants::<Launch>();
+            .push_constants::<Launch>()
+            .rounding_to_nearest_even(&self.gpu);
         let builder = match by {
             By::Walk => builder,
             By::All => builder.define("BY_ALL", 1),
