@@ -72,8 +72,8 @@ impl TreesOnGpu {
         let trees = meshes.iter().map(|mesh| builder.of(gpu, mesh)).collect::<Result<Vec<_>>>()?;
         // ANCHOR: top
         let there = (0..scene.instances.len()).filter(|&number| {
-            let matrix = inverse(&scene.instances[number]);
-            matrix.is_finite()
+            let columns = columns(&inverse(&scene.instances[number]));
+            columns.iter().all(|column| column.is_finite())
         });
         let there: Vec<_> = there.collect();
         let bounds: Vec<_> =
@@ -141,8 +141,8 @@ impl TreesOnGpu {
         Ok(Self {
             address: head.address.into(),
             orders: trees.into_iter().map(|tree| tree.order).collect(),
-            // And the end, the other instances of a leaf of the top tree, and the way back from one.
-            stack: depth(&top) + 3 + deepest,
+// And the other instances of a leaf of the top tree, and the far child that is written before it counts.
+            stack: depth(&top) + 2 + deepest,
             bytes,
             _buffers: [buffer, head],
         })

@@ -9,17 +9,19 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 vec2 weights_at(Corners corners, vec3 origin, vec3 direction) {
     uint axis = longest_axis(direction);
     vec3 d = permuted(direction, axis);
-    vec2 slope = d.xy / d.z;
-    vec3 p = permuted(corners.a - origin, axis);
-    vec3 q = permuted(corners.b - origin, axis);
-    vec3 r = permuted(corners.c - origin, axis);
-    vec2 p_flat = p.xy - slope * p.z;
-    vec2 q_flat = q.xy - slope * q.z;
-    vec2 r_flat = r.xy - slope * r.z;
+    precise vec2 slope = d.xy / d.z;
+    precise vec3 p = permuted(corners.a - origin, axis);
+    precise vec3 q = permuted(corners.b - origin, axis);
+    precise vec3 r = permuted(corners.c - origin, axis);
+    precise vec2 p_flat = p.xy - slope * p.z;
+    precise vec2 q_flat = q.xy - slope * q.z;
+    precise vec2 r_flat = r.xy - slope * r.z;
     float u = edge_side(r_flat, q_flat);
     float v = edge_side(p_flat, r_flat);
     float w = edge_side(q_flat, p_flat);
-    return vec2(v, w) / (u + v + w);
+    precise float all = u + v + w;
+    // A triangle seen edge-on, which another test has met: any point of it will do.
+    return all == 0.0 ? vec2(1.0 / 3.0) : vec2(v, w) / all;
 }
 // ANCHOR_END: weights
 

@@ -21,7 +21,9 @@ Node unpacked(Quantised node) {
     vec3 steps = uintBitsToFloat(exponents << 23);
     Node full;
     for (uint i = 0; i < 2; i++) {
-        full.children[i] = Child(corner_of(node, steps, 8 * i), node.first[i],
+        // Nothing has a low byte above the high one. Its box would not stay inside out when boxes grow.
+        bool nothing = (node.boxes[0] >> 8 * i & 0xff) > (node.boxes[0] >> (16 + 8 * i) & 0xff);
+        full.children[i] = nothing ? no_child() : Child(corner_of(node, steps, 8 * i), node.first[i],
             corner_of(node, steps, 16 + 8 * i), node.steps >> (24 + 4 * i) & 0xf);
     }
     return full;
