@@ -20,6 +20,7 @@ mod shutter;
 mod squares;
 mod structures;
 mod table;
+mod walk;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,6 +30,7 @@ use std::process::ExitCode;
 type Drawing = (&'static str, fn() -> String);
 
 const DRAWINGS: &[Drawing] = &[
+    ("30_walk", walk::near_first),
     ("acceleration_structures", structures::two_levels),
     ("acne_and_leak", rays::acne_and_leak),
     ("address_chain", structures::address_chain),

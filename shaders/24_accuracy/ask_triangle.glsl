@@ -1,6 +1,6 @@
 // A ray against a mesh: nine numbers a triangle.
 #include "answer.glsl"
-#include "triangle.glsl"
+#include "common/triangle.glsl"
 
 Answer ask_triangle(uint rung, Query query, Numbers numbers) {
     Answer answer = NO_HIT;

@@ -8,3 +8,5 @@ mod cards;
 mod choice;
 #[cfg(target_os = "linux")]
 mod narrowest;
+#[cfg(target_os = "linux")]
+mod without_rays;

@@ -43,8 +43,8 @@ const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
 // ANCHOR: features
 /// The features without which no device is suitable, and the samples that do without.
 const FEATURES: [(&str, &[&str]); 8] = [
-    ("accelerationStructure", &[]),
-    ("rayTracingPipeline", &[]),
+    ("accelerationStructure", &["30_own_tree"]),
+    ("rayTracingPipeline", &["30_own_tree"]),
     ("bufferDeviceAddress", &[]),
     ("synchronization2", &[]),
     ("scalarBlockLayout", &["01_foundation"]),
@@ -70,7 +70,7 @@ const ALSO: [(&str, &[&str]); 10] = [
 
 /// Standard output of a run that succeeded in silence, and so without a validation message.
 #[track_caller]
-fn quiet(what: &str, output: Output) -> String {
+pub fn quiet(what: &str, output: Output) -> String {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && errors.is_empty(), "{what}: {errors:.2000}");
     String::from_utf8(output.stdout).expect("text")
@@ -78,7 +78,7 @@ fn quiet(what: &str, output: Output) -> String {
 
 /// The report of a small headless run.
 #[track_caller]
-fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Value {
+pub fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Value {
     let mut command = narrow.command(sample);
     command.args(["--headless", "--validate", "--report", "-"]).args(arguments);
     if !arguments.contains(&"--size") {
@@ -305,12 +305,11 @@ fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
 
 /// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
 /// is run again in a child with `--ignored`.
-fn in_child(test: &str, faults: &str) {
+pub fn in_child(test: &str, faults: &str) {
     let narrow = Layer::narrow(faults);
     let this = std::env::current_exe().expect("a running program has a file");
-    let name = format!("narrowest::{test}");
     let output = std::process::Command::new(this)
-        .args(["--exact", &name, "--ignored", "--nocapture"])
+        .args(["--exact", test, "--ignored", "--nocapture"])
         .envs(narrow.environment())
         .env("GPU", "narrow")
         .output()
@@ -321,7 +320,7 @@ fn in_child(test: &str, faults: &str) {
 
 #[test]
 fn without_64_bit_floats_the_worst_arithmetic_is_left_out() {
-    in_child("have_no_64_bit_floats", "");
+    in_child("narrowest::have_no_64_bit_floats", "");
 }
 
 #[test]
@@ -334,7 +333,7 @@ fn have_no_64_bit_floats() {
 
 #[test]
 fn validation_holds_programs_to_the_narrow_limits() {
-    in_child("violate_the_narrow_limits", "");
+    in_child("narrowest::violate_the_narrow_limits", "");
 }
 
 #[test]
@@ -374,7 +373,7 @@ fn violate_the_narrow_limits() {
 
 #[test]
 fn a_limit_that_is_too_low_refuses_a_device_when_devices_are_chosen() {
-    in_child("ask_for_more_than_is_promised", "");
+    in_child("narrowest::ask_for_more_than_is_promised", "");
 }
 
 #[test]
@@ -416,7 +415,7 @@ fn memory_of_the_device_is_not_the_host_s() {
     if run::device::is_software() {
         assert_eq!(map_memory_of_the_device(), (Ok(()), vec![]));
     }
-    in_child("map_what_is_the_device_s_alone", "");
+    in_child("narrowest::map_what_is_the_device_s_alone", "");
 }
 
 #[test]
@@ -431,7 +430,7 @@ fn map_what_is_the_device_s_alone() {
 /// Shaders promise alignments of addresses, and builds ask for some, that a driver gives no buffer by itself.
 #[test]
 fn addressed_buffers_are_aligned_where_the_driver_does_not_ask_for_it() {
-    in_child("address_buffers_of_odd_sizes", "loose-buffers");
+    in_child("narrowest::address_buffers_of_odd_sizes", "loose-buffers");
 }
 
 #[test]

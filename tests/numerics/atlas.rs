@@ -125,7 +125,7 @@ fn a_planted_error_is_seen() {
     assert!(t(&right, "t max")[1] <= 0.5, "{:?}", t(&right, "t max"));
     seams.iter().for_each(|name| assert_eq!(lost(&right, name), 0.0, "{name}"));
 
-    let file = "24_accuracy/triangle.glsl";
+    let file = "common/triangle.glsl";
     let off = "t = uintBitsToFloat(floatBitsToUint(exact.x) + 2);";
     let off = atlas(Some(shaders_with(file, "t = exact.x;", off).path()), &software);
     // Below a power of two an ULP is half of what it is above.

@@ -22,6 +22,7 @@ mod long_renders;
 mod motion_blur;
 mod multi_closest_hit;
 mod opacity_micromaps;
+mod own_tree;
 mod path_tracing;
 mod pixel;
 mod position_fetch;

@@ -211,15 +211,23 @@ fn error_free_sums_demand_rounding_to_nearest() {
     for function in ["two_sum", "two_product", "quick_two_sum", "dot_compensated"] {
         for file in callers(function) {
             // 24 declares the mode itself, in exact.glsl; 25 takes the plane from common.
-            let known =
-                ["12_infinite_plane", "18_swept_spheres", "22_solids", "24_accuracy", "common"];
+            let known = [
+                "12_infinite_plane",
+                "18_swept_spheres",
+                "22_solids",
+                "24_accuracy",
+                "30_own_tree",
+                "common",
+            ];
             let folder = file.split('/').next().expect("a folder");
             assert!(known.contains(&folder), "{file} calls {function}");
         }
     }
     let requirements = Requirements::ray_tracing();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
-    for name in ["12_infinite_plane", "18_swept_spheres", "22_solids", "25_scene_effects"] {
+    for name in
+        ["12_infinite_plane", "18_swept_spheres", "22_solids", "25_scene_effects", "30_own_tree"]
+    {
         // A copy that does not compile once the mode is demanded.
         let shaders = run::copy_of_shaders();
         let file = shaders.path().join("common/error_free.glsl");

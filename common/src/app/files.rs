@@ -61,11 +61,10 @@ pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
     if gpu.limits.fits(size) {
         return Ok(());
     }
-    let (side, rays) =
-        (gpu.limits.core.max_image_dimension2_d, gpu.limits.max_ray_dispatch_invocation_count);
+    let (side, pixels) = (gpu.limits.core.max_image_dimension2_d, gpu.limits.max_pixels());
     let (width, height) = (size.width, size.height);
     Err(Usage(format!(
-        "{width}x{height} is too large for {}: at most {side} a side and {rays} pixels",
+        "{width}x{height} is too large for {}: at most {side} a side and {pixels} pixels",
         gpu.name
     )))
 }

@@ -8,10 +8,16 @@ use ash::vk::{self, AccessFlags2 as Access, PipelineStageFlags2 as Stage};
 use super::Gpu;
 
 fn memory(gpu: &Gpu, cmd: vk::CommandBuffer, from: (Stage, Access), to: (Stage, Access)) {
+    // Nothing builds or traces where no feature of ray tracing is enabled, and then no barrier may name the stages
+    // (VUID-VkMemoryBarrier2-srcStageMask-07946 and the like).
+    let present = |stages: Stage| match gpu.requirements.has_ray_tracing() {
+        true => stages,
+        false => stages & !(BUILD | Stage::RAY_TRACING_SHADER_KHR),
+    };
     let barriers = [vk::MemoryBarrier2::default()
-        .src_stage_mask(from.0)
+        .src_stage_mask(present(from.0))
         .src_access_mask(from.1)
-        .dst_stage_mask(to.0)
+        .dst_stage_mask(present(to.0))
         .dst_access_mask(to.1)];
     let dependency = vk::DependencyInfo::default().memory_barriers(&barriers);
     // SAFETY: cmd is being recorded on this device, with synchronization2 enabled.
@@ -56,6 +62,13 @@ pub fn build_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
 /// What one trace wrote (an accumulation buffer, a list of hits) becomes visible to the next.
 pub fn trace_to_trace(gpu: &Gpu, cmd: vk::CommandBuffer) {
     memory(gpu, cmd, (TRACE, Access::SHADER_STORAGE_WRITE), (TRACE, STORAGE));
+}
+
+/// What compute shaders wrote becomes visible to the next compute shader, which may also write what they read: the
+/// passes of a computation, on any device, whether it can trace rays or not.
+pub fn pass_to_pass(gpu: &Gpu, cmd: vk::CommandBuffer) {
+    let written = (Stage::COMPUTE_SHADER, Access::SHADER_STORAGE_WRITE);
+    memory(gpu, cmd, written, (Stage::COMPUTE_SHADER, STORAGE));
 }
 
 /// What earlier traces read and wrote in a buffer comes before a transfer clears it.

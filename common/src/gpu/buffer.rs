@@ -33,6 +33,10 @@ pub struct Buffer {
 }
 
 impl Buffer {
+    /// The usage of what shaders read or write by address.
+    pub const ADDRESSED: Usage =
+        Usage::from_raw(Usage::SHADER_DEVICE_ADDRESS.as_raw() | Usage::STORAGE_BUFFER.as_raw());
+
     /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
     /// what the device asks of any: [`Limits::address_alignment`](super::Limits::address_alignment).
     ///

@@ -1,4 +1,4 @@
-//! The one `Gpu`: instance, device, queue, allocator and the ray tracing entry points.
+//! The one `Gpu`: instance, device, queue, allocator and the ray tracing entry points, where they are asked for.
 //!
 //! Everything that lives on the device holds a clone, so the device is destroyed last, whatever the
 //! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
@@ -65,9 +65,9 @@ pub struct Gpu(Arc<GpuContext>);
 pub struct GpuContext {
     /// The device's commands.
     pub device: Device,
-    /// `VK_KHR_acceleration_structure`.
+    /// `VK_KHR_acceleration_structure`; each function panics unless the sample has asked for ray tracing.
     pub acceleration_structure: khr::acceleration_structure::Device,
-    /// `VK_KHR_ray_tracing_pipeline`.
+    /// `VK_KHR_ray_tracing_pipeline`; likewise.
     pub ray_tracing_pipeline: khr::ray_tracing_pipeline::Device,
     /// `VK_KHR_push_descriptor`.
     pub push_descriptor: khr::push_descriptor::Device,

@@ -122,6 +122,11 @@ fn judge(
     offered.core = chain.features;
     candidate.features = wanted.features(&offered);
     candidate.extensions = wanted.extensions(&offered);
+    // A device that is not all of Vulkan, as Macs have it, demands that a program says that it knows
+    // (VUID-VkDeviceCreateInfo-pProperties-04451). Nothing that it may lack is used here.
+    if has(khr::portability_subset::NAME) {
+        candidate.extensions.push(khr::portability_subset::NAME);
+    }
 
     // SAFETY: as above.
     let families = unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
@@ -134,9 +139,7 @@ fn judge(
         candidate.queue_family = family as u32;
         limits.timestamp_bits = families[family].timestamp_valid_bits;
     }
-    let carried = [khr::acceleration_structure::NAME, khr::ray_tracing_pipeline::NAME];
-    let is_judged = queue.is_some() && carried.iter().all(|name| has(name));
-    candidate.missing = wanted.missing(has, &offered, is_judged.then_some(&limits));
+    candidate.missing = wanted.missing(has, &offered, queue.is_some().then_some(&limits));
     candidate.limits = limits;
     if queue.is_none() {
         candidate.missing.push("a compute queue".to_owned());

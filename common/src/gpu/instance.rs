@@ -1,7 +1,10 @@
 //! The Vulkan loader, and the instance that is made from it.
 
+use std::ffi::OsString;
+use std::path::PathBuf;
+
 use anyhow::{Context, Result, anyhow};
-use ash::{Entry, Instance, ext, vk};
+use ash::{Entry, Instance, ext, khr, vk};
 use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
 use super::validation::{self, Heard, Messages, Messenger, Way};
@@ -54,15 +57,35 @@ pub struct WindowHandles {
 
 /// Loads the Vulkan loader: the system's, or the library that `VULKAN_LOADER` names.
 fn load() -> Result<Entry> {
+    // SAFETY: the Vulkan loader's initialisation has no preconditions, here and below.
+    let from = |path| unsafe { Entry::load_from(path) };
     let entry = match std::env::var_os("VULKAN_LOADER") {
-        // SAFETY: the Vulkan loader's initialisation has no preconditions, here and below.
-        Some(path) => unsafe { Entry::load_from(path) },
+        Some(path) => from(path),
         // SAFETY: as above.
-        None => unsafe { Entry::load() },
+        None => unsafe { Entry::load() }.or_else(|error| {
+            let elsewhere = elsewhere(std::env::consts::OS, std::env::var_os("VULKAN_SDK"));
+            elsewhere.into_iter().find_map(|path| from(path.into()).ok()).ok_or(error)
+        }),
     };
     entry.map_err(|error| {
         anyhow!("no Vulkan loader ({error}): run ./setup, or install your system's libvulkan")
     })
+}
+
+/// Where the loader lies on a system that does not look there by itself.
+///
+/// macOS looks in none of the folders in which the Vulkan SDK and Homebrew put it
+/// (<https://github.com/KhronosGroup/Vulkan-Samples/issues/1001>,
+/// <https://github.com/KhronosGroup/Vulkan-Hpp/pull/2383>). MoltenVK alone will do, too; but the loader has layers.
+fn elsewhere(system: &str, sdk: Option<OsString>) -> Vec<PathBuf> {
+    if system != "macos" {
+        return Vec::new();
+    }
+    let sdk = sdk.map(PathBuf::from).filter(|sdk| sdk.is_absolute()).map(|sdk| sdk.join("lib"));
+    let folders = sdk.into_iter().chain(["/opt/homebrew/lib", "/usr/local/lib"].map(PathBuf::from));
+    let folders: Vec<_> = folders.collect();
+    let names = ["libvulkan.1.dylib", "libMoltenVK.dylib"];
+    names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name))).collect()
 }
 
 /// Creates an instance that gives objects names: with the validation layer if there are `messages`, and with what a
@@ -84,10 +107,22 @@ fn create(
         layers.push(validation::LAYER.as_ptr());
         extensions.push(messages.way().extension().as_ptr());
     }
+    // Without it the loader hides devices that are not all of Vulkan, as those of Macs; MoltenVK alone, without a
+    // loader, hides nothing and does not know it.
+    let mut flags = vk::InstanceCreateFlags::empty();
+    // SAFETY: the loader is loaded.
+    let offered = unsafe { entry.enumerate_instance_extension_properties(None) };
+    let portability = khr::portability_enumeration::NAME;
+    let is_it = |e: &vk::ExtensionProperties| e.extension_name_as_c_str() == Ok(portability);
+    if offered.is_ok_and(|offered| offered.iter().any(is_it)) {
+        extensions.push(portability.as_ptr());
+        flags |= vk::InstanceCreateFlags::ENUMERATE_PORTABILITY_KHR;
+    }
     let application = vk::ApplicationInfo::default()
         .application_name(c"ray tracing")
         .api_version(vk::API_VERSION_1_3);
     let mut info = vk::InstanceCreateInfo::default()
+        .flags(flags)
         .application_info(&application)
         .enabled_layer_names(&layers)
         .enabled_extension_names(&extensions);
@@ -124,5 +159,29 @@ fn create(
             "the Vulkan loader makes no instance of what is installed: run ./setup, or reinstall your \
              GPU's driver",
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_mac_is_searched_for_the_loader_before_the_driver_alone() {
+        let found = elsewhere("macos", Some("/Users/ada/VulkanSDK/1.4.341.0/macOS".into()));
+        let found: Vec<_> = found.iter().map(|path| path.to_str().unwrap()).collect();
+        assert_eq!(
+            found,
+            [
+                "/Users/ada/VulkanSDK/1.4.341.0/macOS/lib/libvulkan.1.dylib",
+                "/opt/homebrew/lib/libvulkan.1.dylib",
+                "/usr/local/lib/libvulkan.1.dylib",
+                "/Users/ada/VulkanSDK/1.4.341.0/macOS/lib/libMoltenVK.dylib",
+                "/opt/homebrew/lib/libMoltenVK.dylib",
+                "/usr/local/lib/libMoltenVK.dylib",
+            ]
+        );
+        assert!(elsewhere("linux", Some("/opt/vulkan".into())).is_empty());
     }
 }

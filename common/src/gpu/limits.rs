@@ -80,6 +80,19 @@ impl Limits {
         all
     }
 
+    /// Whether the device has ray tracing pipelines, all of which allow a ray.
+    pub fn has_ray_tracing(&self) -> bool {
+        self.max_ray_recursion_depth > 0
+    }
+
+    /// The most pixels of a picture: the rays of one trace, where there are traces.
+    pub fn max_pixels(&self) -> u64 {
+        match self.has_ray_tracing() {
+            true => self.max_ray_dispatch_invocation_count.into(),
+            false => u64::from(self.core.max_image_dimension2_d).pow(2),
+        }
+    }
+
     /// Whether the queue can write timestamps.
     pub fn has_timestamps(&self) -> bool {
         self.timestamp_bits != 0
@@ -126,9 +139,9 @@ impl Limits {
 
     /// Whether a picture may be so large.
     pub fn fits(&self, size: vk::Extent2D) -> bool {
-        let rays = u64::from(size.width) * u64::from(size.height);
+        let pixels = u64::from(size.width) * u64::from(size.height);
         size.width.max(size.height) <= self.core.max_image_dimension2_d
-            && rays <= self.max_ray_dispatch_invocation_count.into()
+            && pixels <= self.max_pixels()
     }
 
     /// The largest size of the same shape that a picture may have, and at most `size`.
@@ -137,7 +150,7 @@ impl Limits {
             return size;
         }
         let [width, height] = [size.width, size.height].map(f64::from);
-        let most = f64::from(self.max_ray_dispatch_invocation_count);
+        let most = self.max_pixels() as f64;
         let side = f64::from(self.core.max_image_dimension2_d);
         let scale = (most / (width * height)).sqrt().min(side / width.max(height));
         let [width, height] = [width, height].map(|side| ((side * scale) as u32).max(1));
@@ -153,6 +166,7 @@ mod tests {
     fn a_size_that_is_too_large_keeps_its_shape() {
         let mut limits = Limits::default();
         limits.core.max_image_dimension2_d = 16_384;
+        limits.ray_tracing_pipeline.max_ray_recursion_depth = 1;
         limits.ray_tracing_pipeline.max_ray_dispatch_invocation_count = 1 << 26;
         let size = |width, height| vk::Extent2D { width, height };
         assert_eq!(limits.fitted(size(960, 600)), size(960, 600));
@@ -163,5 +177,9 @@ mod tests {
             assert!((shape(fitted) / shape(wide) - 1.0).abs() < 0.01, "{fitted:?}");
         }
         assert_eq!(limits.fitted(size(u32::MAX, 1)).height, 1);
+        // Where nothing is traced, no number of rays counts.
+        limits.ray_tracing_pipeline = Default::default();
+        assert!(limits.fits(size(16_384, 16_384)) && !limits.fits(size(16_385, 1)));
+        assert_eq!(limits.fitted(size(32_768, 32_768)), size(16_384, 16_384));
     }
 }

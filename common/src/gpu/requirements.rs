@@ -1,6 +1,6 @@
 //! What a sample asks of a device: Vulkan features and the extensions that carry them.
 //!
-//! Every chapter needs the baseline; a chapter that needs more adds a line in `requirements()`. The
+//! A chapter that needs more than the baseline adds a line in `requirements()`. The
 //! device is created with exactly what was asked, so validation catches a feature used by accident.
 
 use std::ffi::CStr;
@@ -33,8 +33,8 @@ macro_rules! requirement {
     };
 }
 
-/// What every chapter asks for.
-const BASELINE: [Requirement; 5] = [
+/// What tracing rays takes, beyond [`COMPUTE`].
+const RAY_TRACING: [Requirement; 2] = [
     requirement!(
         Some(khr::acceleration_structure::NAME),
         "accelerationStructure",
@@ -45,6 +45,10 @@ const BASELINE: [Requirement; 5] = [
         "rayTracingPipeline",
         ray_tracing_pipeline.ray_tracing_pipeline
     ),
+];
+
+/// What every chapter asks for.
+const COMPUTE: [Requirement; 3] = [
     requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
     requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
     requirement!(None, "synchronization2", vulkan13.synchronization2),
@@ -65,7 +69,8 @@ const TEXTURES: [Requirement; 3] = [
     ),
 ];
 
-/// A list of requirements, begun with [`Requirements::ray_tracing`] and extended by the chapter.
+/// A list of requirements, begun with [`Requirements::ray_tracing`] or [`Requirements::compute`] and extended by
+/// the chapter.
 #[derive(Clone, Default)]
 pub struct Requirements {
     /// How deep `traceRayEXT` has to nest in every pipeline of the sample.
@@ -83,18 +88,36 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    /// The baseline of every chapter: a ray tracing pipeline, acceleration structures, scalar block
-    /// layout, buffer addresses, `synchronization2` and push descriptors; and of the limits, what Vulkan
-    /// promises of each device: a recursion depth of 1, and 128 bytes of push constants.
+    /// The baseline of every chapter that traces rays: that of [`compute`](Self::compute), a ray tracing pipeline
+    /// and acceleration structures; and of the limits, what Vulkan promises of each such device: a recursion depth
+    /// of 1.
     pub fn ray_tracing() -> Self {
+        let mut all = Self { recursion: 1, ..Self::compute() };
+        all.list.splice(0..0, RAY_TRACING);
+        // Acceleration structures depend on deferred host operations, even where none is used.
+        all.extensions.push(khr::deferred_host_operations::NAME);
+        all
+    }
+
+    /// The baseline without ray tracing: compute shaders, scalar block layout, buffer addresses, `synchronization2`
+    /// and push descriptors; and of the limits, what Vulkan promises of each device: 128 bytes of push constants.
+    ///
+    /// Of Vulkan 1.3, `scalarBlockLayout` and the extension `VK_KHR_push_descriptor` alone are a device's free
+    /// choice. MoltenVK 1.4, with which Macs have Vulkan, offers all of it, and what
+    /// [`textures`](Self::textures) adds, from macOS 13 on where the GPU has argument buffers of tier 2 (its
+    /// `MoltenVK_Runtime_UserGuide.md`, and `MVKPhysicalDevice::initFeatures` in `MVKDevice.mm`, read in 1.4.2).
+    pub fn compute() -> Self {
         Self {
-            recursion: 1,
             push_constants: 128,
-            list: BASELINE.to_vec(),
-            // Acceleration structures depend on deferred host operations, even where none is used.
-            extensions: vec![khr::deferred_host_operations::NAME, khr::push_descriptor::NAME],
+            list: COMPUTE.to_vec(),
+            extensions: vec![khr::push_descriptor::NAME],
             ..Self::default()
         }
+    }
+
+    /// Whether acceleration structures are built, and rays traced through them.
+    pub fn has_ray_tracing(&self) -> bool {
+        self.asks_for(khr::acceleration_structure::NAME)
     }
 
     /// Hit shaders that trace rays in turn: a recursion depth beyond the 1 that is promised.
@@ -152,7 +175,11 @@ impl Requirements {
 
     /// Whether shaders may trace rays without a ray tracing pipeline.
     pub fn has_ray_query(&self) -> bool {
-        self.list.iter().any(|requirement| requirement.extension == Some(khr::ray_query::NAME))
+        self.asks_for(khr::ray_query::NAME)
+    }
+
+    fn asks_for(&self, extension: &CStr) -> bool {
+        self.list.iter().any(|requirement| requirement.extension == Some(extension))
     }
 
     /// Triangles that are drawn: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit
@@ -234,7 +261,8 @@ impl Requirements {
 
     /// What a device with these extensions, features and limits lacks, by name; empty if it is suitable.
     ///
-    /// The limits are those of the device, if it has the extensions that bring them.
+    /// The limits are those of the device, if it can be asked for them; one of an extension that is missing is not
+    /// judged.
     pub fn missing(
         &self,
         has_extension: impl Fn(&CStr) -> bool,
@@ -255,7 +283,7 @@ impl Requirements {
         }
         let Some(limits) = limits else { return missing };
         let (depth, bytes) = (limits.max_ray_recursion_depth, limits.core.max_push_constants_size);
-        if self.recursion > depth {
+        if has_extension(khr::ray_tracing_pipeline::NAME) && self.recursion > depth {
             missing.push(format!("maxRayRecursionDepth {} (it has {depth})", self.recursion));
         }
         if self.push_constants > bytes {
@@ -286,6 +314,33 @@ mod tests {
         assert!(
             !missing.contains(&"feature rayTracingPipeline".to_owned()),
             "named by its extension"
+        );
+    }
+
+    #[test]
+    fn compute_alone_asks_for_no_ray_tracing_and_every_other_chapter_names_what_it_lacks() {
+        let is_of_rays = |name: &CStr| {
+            let name = name.to_string_lossy();
+            ["acceleration", "ray", "host"].iter().any(|word| name.contains(word))
+        };
+        let mut limits = Limits::default();
+        limits.core.max_push_constants_size = 128;
+        let missing = |wanted: Requirements| {
+            let offered = wanted.features(&Features::default());
+            wanted.missing(|name| !is_of_rays(name), &offered, Some(&limits))
+        };
+        assert_eq!(missing(Requirements::compute().textures().window()), [""; 0]);
+        assert_eq!(
+            missing(Requirements::ray_tracing()),
+            [
+                "VK_KHR_acceleration_structure",
+                "VK_KHR_deferred_host_operations",
+                "VK_KHR_ray_tracing_pipeline"
+            ]
+        );
+        assert_eq!(
+            missing(Requirements::compute().push_constants(144)),
+            ["maxPushConstantsSize 144 (it has 128)"]
         );
     }
 

@@ -2,10 +2,44 @@
 
 use anyhow::Result;
 
+use ash::vk;
+
 use super::{InstanceRecord, Mesh, Scene, SceneOptions, Vertex, input_usage};
 use crate::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry, Gpu, order};
 
-/// Every mesh of a model in device memory.
+/// Every mesh of a model in device memory, without a bottom level.
+pub(super) struct MeshBuffers {
+    /// Where each mesh lies: what the record of an instance says, but for its material.
+    pub records: Vec<InstanceRecord>,
+    /// What the records point into, vertices last.
+    pub buffers: Vec<Buffer>,
+}
+
+impl MeshBuffers {
+    /// Uploads meshes. Primitive `i` of mesh `m`, as whatever finds it numbers them, is triangle `orders[m][i]`.
+    pub(super) fn new(
+        gpu: &Gpu,
+        meshes: &[Mesh],
+        orders: &[Vec<u32>],
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self> {
+        let vertices = meshes.iter().map(|mesh| &mesh.vertices);
+        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, usage)?;
+        let triangles = meshes.iter().map(|mesh| &mesh.triangles);
+        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", triangles, usage)?;
+        let (original, at_original) = Buffer::with_arrays(gpu, "triangle order", orders, usage)?;
+        let records = (0..meshes.len()).map(|index| InstanceRecord {
+            vertices: at_vertices[index].into(),
+            triangles: at_triangles[index].into(),
+            original: at_original[index].into(),
+            material: 0,
+            mesh: index as u32,
+        });
+        Ok(Self { records: records.collect(), buffers: vec![triangles, original, vertices] })
+    }
+}
+
+/// Every mesh of a model in device memory, and its bottom level.
 pub(super) struct MeshesOnGpu {
     /// One bottom level a mesh.
     pub blas: Vec<AccelerationStructure>,
@@ -20,20 +54,16 @@ impl MeshesOnGpu {
         let meshes = &scene.model.meshes;
         let orders: Vec<_> = meshes.iter().map(|mesh| triangle_order(gpu, mesh, options)).collect();
         let usage = input_usage();
-        let vertices = meshes.iter().map(|mesh| &mesh.vertices);
-        let (vertices, at_vertices) = Buffer::with_arrays(gpu, "vertices", vertices, usage)?;
-        let triangles = meshes.iter().map(|mesh| &mesh.triangles);
-        let (triangles, at_triangles) = Buffer::with_arrays(gpu, "triangles", triangles, usage)?;
-        let (original, at_original) = Buffer::with_arrays(gpu, "triangle order", &orders, usage)?;
+        let MeshBuffers { mut records, mut buffers } =
+            MeshBuffers::new(gpu, meshes, &orders, usage)?;
         // Only the builds read the ordered copy; it is freed at the end of this function.
         let ordered = meshes.iter().zip(&orders).map(in_order);
         let (_ordered, at_ordered) = Buffer::with_arrays(gpu, "ordered triangles", ordered, usage)?;
         let (opaque, fetch) = (opaque(scene), options.position_fetch);
-        let mut records = Vec::with_capacity(meshes.len());
         let mut geometries = Vec::with_capacity(meshes.len());
         for (index, mesh) in meshes.iter().enumerate() {
             geometries.push([Geometry::Triangles {
-                vertices: at_vertices[index],
+                vertices: records[index].vertices.into(),
                 vertex_stride: size_of::<Vertex>() as u64,
                 vertex_count: mesh.vertices.len() as u32,
                 indices: at_ordered[index],
@@ -41,21 +71,17 @@ impl MeshesOnGpu {
                 opaque: opaque[index],
                 no_duplicate_any_hit: options.no_duplicate_any_hit,
             }]);
-            records.push(InstanceRecord {
-                vertices: if fetch { Address::default() } else { at_vertices[index].into() },
-                triangles: at_triangles[index].into(),
-                original: at_original[index].into(),
-                material: 0,
-                mesh: index as u32,
-            });
         }
 
         let options = BuildOptions { compact: true, data_access: fetch, ..BuildOptions::default() };
         let inputs = meshes.iter().zip(&geometries);
         let inputs: Vec<_> = inputs.map(|(mesh, list)| (mesh.name.as_str(), &list[..])).collect();
         let blas = AccelerationStructure::build(gpu, &inputs, options)?;
-        let kept = (!fetch).then_some(vertices);
-        Ok(Self { blas, records, buffers: [triangles, original].into_iter().chain(kept).collect() })
+        if fetch {
+            records.iter_mut().for_each(|record| record.vertices = Address::default());
+            buffers.pop();
+        }
+        Ok(Self { blas, records, buffers })
     }
 }
 

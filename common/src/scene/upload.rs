@@ -8,8 +8,8 @@ use ash::vk;
 use bytemuck::cast_slice;
 use glam::Vec3;
 
-use super::meshes::MeshesOnGpu;
-use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
+use super::meshes::{MeshBuffers, MeshesOnGpu};
+use super::{InstanceRecord, MaterialRecord, Model, Scene, SceneAddresses};
 use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Texels, TextureTable, order};
 
 /// A scene in device memory, ready to be traced.
@@ -60,11 +60,9 @@ impl Default for SceneOptions {
     }
 }
 
-/// Buffers that shaders read by address and builds read their input from.
+/// Buffers that shaders read by address and builds read their input from: for samples that ask for ray tracing.
 pub fn input_usage() -> vk::BufferUsageFlags {
-    vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
-        | vk::BufferUsageFlags::STORAGE_BUFFER
-        | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
+    Buffer::ADDRESSED | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
 }
 
 impl SceneOnGpu {
@@ -73,15 +71,8 @@ impl SceneOnGpu {
     /// # Errors
     /// If memory is short, or an instance's index or record offset takes more than 24 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
-        let textures = scene.model.textures.iter().map(|texture| Texels {
-            name: &texture.name,
-            extent: vk::Extent2D { width: texture.width, height: texture.height },
-            rgba: &texture.rgba,
-            srgb: texture.srgb,
-        });
-        let textures: Vec<_> = textures.collect();
-        let textures = TextureTable::new(gpu, &textures, options.mipmaps)?;
-        Self::build(gpu, scene, options, Arc::new(textures))
+        let textures = textures(gpu, &scene.model, options.mipmaps)?;
+        Self::build(gpu, scene, options, textures)
     }
 
     /// As [`SceneOnGpu::new`], with textures that are on the device already.
@@ -109,27 +100,41 @@ impl SceneOnGpu {
         Ok(())
     }
 
+    /// Uploads a scene without acceleration structures, for a sample that finds hits by itself: where shaders find
+    /// all that they read of a hit, the textures, and the buffers, which are to be kept.
+    ///
+    /// Primitive `i` of mesh `m`, as the sample numbers them, is triangle `orders[m][i]` of the model: what a shader
+    /// finds in the record's `original`. Textures that are `kept` are not uploaded again, and pipelines stay valid.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn without_levels(
+        gpu: &Gpu,
+        scene: &Scene,
+        orders: &[Vec<u32>],
+        kept: Option<Arc<TextureTable>>,
+    ) -> Result<(SceneAddresses, Arc<TextureTable>, Vec<Buffer>)> {
+        let textures = kept.map_or_else(|| textures(gpu, &scene.model, false), Ok)?;
+        let MeshBuffers { records: meshes, mut buffers } =
+            MeshBuffers::new(gpu, &scene.model.meshes, orders, Buffer::ADDRESSED)?;
+        let (records, addresses) = records(gpu, scene, &meshes, Buffer::ADDRESSED)?;
+        buffers.push(records);
+        Ok((addresses, textures, buffers))
+    }
+
     fn build(
         gpu: &Gpu,
         scene: &Scene,
         options: SceneOptions,
         textures: Arc<TextureTable>,
     ) -> Result<Self> {
-        let Scene { model, instances, .. } = scene;
+        let instances = &scene.instances;
         ensure!(instances.len() < 1 << 24, "{} instances are too many", instances.len());
         let offset = instances.iter().map(|instance| instance.record_offset).max().unwrap_or(0);
         ensure!(offset < 1 << 24, "a record offset of {offset} takes more than 24 bits");
         let MeshesOnGpu { blas, records: meshes, mut buffers } =
             MeshesOnGpu::new(gpu, scene, options)?;
-        let records = instances.iter().map(|instance| InstanceRecord {
-            material: instance.material as u32,
-            ..meshes[instance.mesh]
-        });
-        let records: Vec<_> = records.collect();
-        let materials: Vec<_> = model.materials.iter().map(MaterialRecord::from).collect();
-        let records = [cast_slice::<_, u8>(&records), cast_slice(&materials)];
-        let (records, at) = Buffer::with_arrays(gpu, "records", records, input_usage())?;
-        let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
+        let (records, addresses) = records(gpu, scene, &meshes, input_usage())?;
         buffers.push(records);
 
         let tlas = Self::top_level(gpu, scene, options, |index| &blas[instances[index].mesh])?;
@@ -154,6 +159,36 @@ impl SceneOnGpu {
         });
         build_top(gpu, &placed.collect::<Vec<_>>())
     }
+}
+
+/// The textures of a model, in its order.
+fn textures(gpu: &Gpu, model: &Model, mipmaps: bool) -> Result<Arc<TextureTable>> {
+    let textures = model.textures.iter().map(|texture| Texels {
+        name: &texture.name,
+        extent: vk::Extent2D { width: texture.width, height: texture.height },
+        rgba: &texture.rgba,
+        srgb: texture.srgb,
+    });
+    Ok(Arc::new(TextureTable::new(gpu, &textures.collect::<Vec<_>>(), mipmaps)?))
+}
+
+/// The records of instances and materials in one buffer, and where each kind lies.
+fn records(
+    gpu: &Gpu,
+    Scene { model, instances, .. }: &Scene,
+    meshes: &[InstanceRecord],
+    usage: vk::BufferUsageFlags,
+) -> Result<(Buffer, SceneAddresses)> {
+    let records = instances.iter().map(|instance| InstanceRecord {
+        material: instance.material as u32,
+        ..meshes[instance.mesh]
+    });
+    let records: Vec<_> = records.collect();
+    let materials: Vec<_> = model.materials.iter().map(MaterialRecord::from).collect();
+    let records = [cast_slice::<_, u8>(&records), cast_slice(&materials)];
+    let (records, at) = Buffer::with_arrays(gpu, "records", records, usage)?;
+    let addresses = SceneAddresses { instances: at[0].into(), materials: at[1].into() };
+    Ok((records, addresses))
 }
 
 /// Builds a top level from instances that are in the order of the build.

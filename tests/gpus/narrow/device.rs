@@ -1,8 +1,10 @@
 //! A device made and destroyed, and its swapchain.
 
-use ash::vk;
+use std::ffi::CStr;
 
-use crate::{faults, memory, queues};
+use ash::{khr, vk};
+
+use crate::{faults, memory, physical, queues};
 use layer::below;
 
 pub unsafe extern "system" fn create(
@@ -16,6 +18,20 @@ pub unsafe extern "system" fn create(
         let Some(get_proc_addr) = layer::below_device(info) else {
             return vk::Result::ERROR_INITIALIZATION_FAILED;
         };
+        let Ok(shown) = physical::shown(physical) else {
+            return vk::Result::ERROR_INITIALIZATION_FAILED;
+        };
+        let names = (*info).pp_enabled_extension_names;
+        let count = (*info).enabled_extension_count as usize;
+        let mut names: Vec<_> = (0..count).map(|at| CStr::from_ptr(*names.add(at))).collect();
+        let is_shown =
+            |name: &&CStr| shown.iter().any(|e| e.extension_name_as_c_str() == Ok(*name));
+        if !names.iter().all(is_shown) {
+            return vk::Result::ERROR_EXTENSION_NOT_PRESENT;
+        }
+        // What this layer adds, the device below does not know.
+        names.retain(|name| *name != khr::portability_subset::NAME);
+        let names: Vec<_> = names.iter().map(|name| name.as_ptr()).collect();
         // However many families are asked for, the one below serves them all.
         let family = queues::family_below(physical);
         let asked = (*info).p_queue_create_infos;
@@ -26,6 +42,8 @@ pub unsafe extern "system" fn create(
         let narrow = vk::DeviceCreateInfo {
             queue_create_info_count: 1,
             p_queue_create_infos: &raw const queue,
+            enabled_extension_count: names.len() as u32,
+            pp_enabled_extension_names: names.as_ptr(),
             ..*info
         };
         let create = below::instance(physical).core.fp_v1_0().create_device;

@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use ash::vk;
 use layer::Negotiation;
 
-use crate::{device, memory, physical, queues};
+use crate::{device, memory, physical, queues, rays};
 use layer::below;
 
 /// Settles on version 2 of the interface, the present one.
@@ -71,6 +71,8 @@ fn device_function(name: &str) -> Option<*const c_void> {
         "vkAllocateMemory" => memory::allocate as *const c_void,
         "vkFreeMemory" => memory::free as *const c_void,
         "vkMapMemory" => memory::map as *const c_void,
+        "vkCreateBuffer" => rays::create_buffer as *const c_void,
+        "vkCmdPipelineBarrier2" | "vkCmdPipelineBarrier2KHR" => rays::barrier as *const c_void,
         "vkCreateSwapchainKHR" => device::create_swapchain as *const c_void,
         _ => return None,
     })

@@ -13,10 +13,15 @@
 //! - `no-transfer-dst`: images of a window cannot be copied to.
 //! - `out-of-date`: the first swapchain is out of date before it is made.
 //! - `without=FEATURE`: that feature is missing too.
+//! - `no-ray-tracing`: every extension of ray tracing is hidden, with its features and limits; a buffer for it is
+//!   refused, and a barrier that names its stages ends the process.
+//! - `portability`: the device offers `VK_KHR_portability_subset`, as those of Macs do, which has no features here.
 //! - `bar`: the host can map device memory too, as with a resizable BAR.
 //! - `rays=NUMBER`: one trace has at most so many rays, fewer than Vulkan allows a device to say.
 //! - `tell=FILE`: when the device is destroyed, the file gets four numbers: how often was submitted, and how
 //!   many allocations there were of memory in the device, in the host, and in the device but mapped.
+//!
+//! To open the device with an extension that it does not show is an error.
 
 mod device;
 mod entry;
@@ -26,6 +31,7 @@ mod limits;
 mod memory;
 mod physical;
 mod queues;
+mod rays;
 
 /// The layer's name in its manifest.
 pub const NAME: &str = "VK_LAYER_TESTS_narrow";

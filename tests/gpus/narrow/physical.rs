@@ -8,13 +8,32 @@ use crate::{faults, features, limits};
 use layer::below;
 
 /// All that the samples ask for; what is not here, the device does not have.
-const EXTENSIONS: [&CStr; 5] = [
+const EXTENSIONS: [&CStr; 2] = [khr::push_descriptor::NAME, khr::swapchain::NAME];
+
+/// The same of samples that trace rays.
+const RAY_TRACING: [&CStr; 3] = [
     khr::acceleration_structure::NAME,
     khr::deferred_host_operations::NAME,
-    khr::push_descriptor::NAME,
     khr::ray_tracing_pipeline::NAME,
-    khr::swapchain::NAME,
 ];
+
+/// The extensions that the device shows.
+pub fn shown(physical: vk::PhysicalDevice) -> Result<Vec<vk::ExtensionProperties>, vk::Result> {
+    let below = below::instance(physical);
+    // SAFETY: the physical device is alive.
+    let all = unsafe { below.core.enumerate_device_extension_properties(physical)? };
+    let is_shown = |name: &CStr| {
+        EXTENSIONS.contains(&name) || RAY_TRACING.contains(&name) && !faults::has("no-ray-tracing")
+    };
+    let mut shown = all;
+    shown.retain(|own| own.extension_name_as_c_str().is_ok_and(is_shown));
+    if faults::has("portability") {
+        let name = khr::portability_subset::NAME;
+        let own = vk::ExtensionProperties::default().spec_version(1).extension_name(name);
+        shown.push(own.expect("the name is short"));
+    }
+    Ok(shown)
+}
 
 /// # Safety
 /// As Vulkan's, here and below.
@@ -31,16 +50,10 @@ pub unsafe extern "system" fn extensions(
             let ask = below.core.fp_v1_0().enumerate_device_extension_properties;
             return ask(physical, layer, count, properties);
         }
-        let all = match below.core.enumerate_device_extension_properties(physical) {
-            Ok(all) => all,
+        let shown = match shown(physical) {
+            Ok(shown) => shown,
             Err(error) => return error,
         };
-        let shown: Vec<_> = all
-            .into_iter()
-            .filter(|own| {
-                own.extension_name_as_c_str().is_ok_and(|name| EXTENSIONS.contains(&name))
-            })
-            .collect();
         if properties.is_null() {
             *count = shown.len() as u32;
             return vk::Result::SUCCESS;
@@ -71,9 +84,11 @@ pub unsafe extern "system" fn properties2(
     // SAFETY: as above; a structure's type says what it is.
     unsafe {
         let ask = below::instance(physical).core.fp_v1_1().get_physical_device_properties2;
-        ask(physical, properties);
-        limits::core(&mut (*properties).properties);
-        each((*properties).p_next, |link| limits::narrow(link));
+        without_hidden(properties.cast(), || {
+            ask(physical, properties);
+            limits::core(&mut (*properties).properties);
+            each((*properties).p_next, |link| limits::narrow(link));
+        });
     }
 }
 
@@ -92,10 +107,49 @@ pub unsafe extern "system" fn features2(
     // SAFETY: as above.
     unsafe {
         let ask = below::instance(physical).core.fp_v1_1().get_physical_device_features2;
-        ask(physical, features);
-        (*features).features = features::core();
-        each((*features).p_next, |link| features::narrow(link));
+        without_hidden(features.cast(), || {
+            ask(physical, features);
+            (*features).features = features::core();
+            each((*features).p_next, |link| features::narrow(link));
+        });
     }
+}
+
+/// Calls `f` while a chain lacks the structures of hidden extensions: a device fills none that it does not know.
+unsafe fn without_hidden(head: *mut vk::BaseOutStructure, f: impl FnOnce()) {
+    let (mut at, mut hidden) = (head, Vec::new());
+    // SAFETY: the chain is the caller's and ends in null; each structure is put back where it was.
+    unsafe {
+        while let Some(next) = (*at).p_next.as_mut() {
+            if faults::has("no-ray-tracing") && is_of_rays(next.s_type) {
+                hidden.push((at, (*at).p_next));
+                (*at).p_next = next.p_next;
+            } else {
+                at = next;
+            }
+        }
+        f();
+        for (before, link) in hidden.into_iter().rev() {
+            (*before).p_next = link;
+        }
+    }
+}
+
+/// Whether a structure is of an extension of ray tracing.
+fn is_of_rays(kind: vk::StructureType) -> bool {
+    use vk::StructureType as Type;
+    [
+        Type::PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR,
+        Type::PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR,
+        Type::PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR,
+        Type::PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR,
+        Type::PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR,
+        Type::PHYSICAL_DEVICE_RAY_TRACING_POSITION_FETCH_FEATURES_KHR,
+        Type::PHYSICAL_DEVICE_RAY_TRACING_MAINTENANCE_1_FEATURES_KHR,
+        Type::PHYSICAL_DEVICE_OPACITY_MICROMAP_FEATURES_EXT,
+        Type::PHYSICAL_DEVICE_OPACITY_MICROMAP_PROPERTIES_EXT,
+    ]
+    .contains(&kind)
 }
 
 /// Calls `f` with every structure of a chain.

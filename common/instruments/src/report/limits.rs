@@ -14,7 +14,8 @@ pub struct Limits {
     pub vulkan: [u32; 3],
     /// Who made the device, by its number at PCI-SIG or Khronos, and its maker's number for it.
     pub vendor_and_device: [u32; 2],
-    /// Bytes of an opaque shader group handle (32 on every known device).
+    /// Bytes of an opaque shader group handle (32 on every known device); this and what else is of ray tracing is 0
+    /// on a device without.
     pub shader_group_handle_size: u64,
     /// What the stride of a shader binding table's region is a multiple of.
     pub shader_group_handle_alignment: u64,
@@ -67,8 +68,11 @@ impl Limits {
     /// Those of an open device.
     pub fn of(gpu: &Gpu) -> Self {
         let mut culling = vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default();
-        let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut culling);
-        // SAFETY: the device belongs to the live instance and has ray tracing pipelines.
+        let mut offered = vk::PhysicalDeviceFeatures2::default();
+        if gpu.limits.has_ray_tracing() {
+            offered = offered.push_next(&mut culling);
+        }
+        // SAFETY: the device belongs to the live instance, and has the extension whose structure is chained.
         unsafe {
             gpu.vulkan.instance.get_physical_device_features2(gpu.physical_device, &mut offered);
         }

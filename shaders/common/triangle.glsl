@@ -1,3 +1,5 @@
+// Taught by 24_accuracy.
+//
 // A ray against a triangle in software, in three ways that are equal on paper.
 //
 // a, b, c are the corners, o the ray's origin, d its direction of any length. Both sides count, and the

@@ -1,0 +1,57 @@
+//! Who builds the trees.
+
+use anyhow::Result;
+use common::gpu::{Buffer, Gpu};
+use common::scene::Mesh;
+
+use crate::{Bounds, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, binned, reinserted};
+
+common::shader_enum! {
+    /// How the trees of meshes are built. The tree over the instances is built on the host.
+    pub enum Builder {
+        /// From the root down, by the surface area heuristic.
+        Binned,
+        /// The same, and then what lies badly is put where it lies better.
+        Reinserted,
+        /// On the device, along a curve through space.
+        Device,
+    }
+}
+
+/// How often the whole of a tree is looked at for what lies badly.
+const ROUNDS: u32 = 3;
+
+impl Builder {
+    /// A tree over boxes, built on the host.
+    pub fn over(self, bounds: &[Bounds]) -> Tree {
+        let tree = binned(bounds);
+        if self == Self::Reinserted { reinserted(tree, bounds, ROUNDS) } else { tree }
+    }
+
+    /// A tree over the triangles of a mesh.
+    ///
+    /// # Errors
+    /// If the device has no room for it.
+    pub fn of(self, gpu: &Gpu, mesh: &Mesh) -> Result<Tree> {
+        if self == Self::Device {
+            on_device(gpu, mesh)
+        } else {
+            Ok(self.over(&mesh.triangle_bounds()))
+        }
+    }
+}
+
+// ANCHOR: device
+/// The device's tree. It is read back only to be packed with the others: a program that builds anew in each frame
+/// would walk it where it lies.
+fn on_device(gpu: &Gpu, mesh: &Mesh) -> Result<Tree> {
+    let vertices = Buffer::with_data(gpu, "vertices", &mesh.vertices, Buffer::ADDRESSED)?;
+    let triangles = Buffer::with_data(gpu, "triangles", &mesh.triangles, Buffer::ADDRESSED)?;
+    let count = mesh.triangles.len() as u32;
+    let list = Triangles { vertices: vertices.address, triangles: triangles.address, count };
+    let (tree, scratch) = (DeviceTree::new(gpu, count)?, Scratch::new(gpu, count)?);
+    let builder = DeviceBuilder::new(gpu)?;
+    gpu.submit(|cmd| builder.record(cmd, list, &tree, &scratch))?;
+    Ok(Tree { nodes: tree.nodes.read()?, order: tree.original.read()? })
+}
+// ANCHOR_END: device

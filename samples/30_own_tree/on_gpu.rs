@@ -1,0 +1,191 @@
+//! A scene's trees in device memory: one for each mesh, and one over its instances.
+
+use anyhow::{Result, ensure};
+use common::glam::{DAffine3, DVec3, Vec3};
+use common::gpu::{Address, Buffer, Gpu};
+use common::scene::{Instance, Mesh, Scene};
+
+use crate::{Builder, Corners, Node, Quantised, depth, quantised};
+
+common::shader_struct! {
+    /// An instance, at its position in the top tree's order. 116 bytes.
+    pub struct Placed {
+        /// Columns of the matrix from the mesh's space to the world.
+        pub to_world: [Vec3; 4],
+        /// Columns of its inverse.
+        pub to_object: [Vec3; 4],
+        /// The node at the root of the mesh's tree.
+        pub root: u32,
+        /// Where the corners of the mesh begin.
+        pub first: u32,
+        /// How many triangles the mesh has.
+        pub count: u32,
+        /// Which instance of the scene.
+        pub number: u32,
+        /// The largest coordinate of the mesh, without its sign.
+        pub reach: f32,
+    }
+}
+
+common::shader_struct! {
+    /// What a walk begins with.
+    pub struct Trees {
+        /// The nodes of all trees; node 0 is the root of the top tree.
+        pub nodes: Address<Node>,
+        /// The same nodes, quantised.
+        pub packed: Address<Quantised>,
+        /// The triangles of all meshes.
+        pub corners: Address<Corners>,
+        /// The instances.
+        pub placed: Address<Placed>,
+        /// By how much the boxes of the top tree grow, for a coordinate of 1.
+        pub growth: f32,
+        /// The largest coordinate of the world, without its sign.
+        pub reach: f32,
+    }
+}
+
+/// The shader that answers any rays, from a buffer to a buffer: what tests ask.
+pub const RAYS: &str = "rays.comp";
+
+/// The trees of a scene on the device.
+pub struct TreesOnGpu {
+    /// Of the [`Trees`].
+    pub address: Address<Trees>,
+    /// The order of each mesh's triangles, in the model's order of meshes.
+    pub orders: Vec<Vec<u32>>,
+    /// How many entries a walk leaves behind at most.
+    pub stack: u32,
+    /// Bytes of all nodes, of all corners and of all instances.
+    pub bytes: [usize; 3],
+    _buffers: [Buffer; 2],
+}
+
+impl TreesOnGpu {
+    /// Builds the trees of a scene and uploads them. An instance whose matrix cannot be inverted is
+    /// left out: no ray meets what has no extent.
+    ///
+    /// # Errors
+    /// If memory is short, or a leaf's position takes more than 28 bits.
+    pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
+        let meshes = &scene.model.meshes;
+        let trees = meshes.iter().map(|mesh| builder.of(gpu, mesh)).collect::<Result<Vec<_>>>()?;
+        // ANCHOR: top
+        let there = (0..scene.instances.len()).filter(|&number| {
+            let columns = columns(&inverse(&scene.instances[number]));
+            columns.iter().all(|column| column.is_finite())
+        });
+        let there: Vec<_> = there.collect();
+        let bounds: Vec<_> =
+            there.iter().map(|&number| scene.instance_bounds(&scene.instances[number])).collect();
+        let top = builder.over(&bounds);
+        // ANCHOR_END: top
+
+        // ANCHOR: pack
+        let mut nodes: Vec<_> = top.placed(0, 0).collect();
+        let mut corners = Vec::new();
+        let mut starts = Vec::new();
+        for (mesh, tree) in meshes.iter().zip(&trees) {
+            let start = (nodes.len() as u32, corners.len() as u32);
+            nodes.extend(tree.placed(start.0, start.1));
+            corners.extend(tree.order.iter().map(|&triangle| corners_of(mesh, triangle)));
+            starts.push(start);
+        }
+        ensure!(
+            nodes.len().max(corners.len()) < 1 << 28,
+            "{} triangles are too many: their positions take more than 28 bits",
+            corners.len()
+        );
+        // ANCHOR_END: pack
+        let mut growth = 0.0f64;
+        let mut reach = 0.0f64;
+        let placed = top.order.iter().map(|&at| {
+            let number = there[at as usize];
+            let instance = &scene.instances[number];
+            let (root, first) = starts[instance.mesh];
+            let (to_world, to_object) = (matrix(instance), inverse(instance));
+            growth = growth.max(spread(&to_world, &to_object));
+            reach = reach.max(to_world.translation.abs().max_element());
+            Placed {
+                to_world: columns(&to_world),
+                to_object: columns(&to_object),
+                root,
+                first,
+                count: trees[instance.mesh].order.len() as u32,
+                number: number as u32,
+                reach: meshes[instance.mesh].reach(),
+            }
+        });
+        let placed: Vec<_> = placed.collect();
+        let of_boxes = bounds.iter().map(|(low, high)| low.abs().max(high.abs()).max_element());
+        let reach = of_boxes.fold(reach as f32, f32::max);
+        let bytes = [size_of_val(&nodes[..]), size_of_val(&corners[..]), size_of_val(&placed[..])];
+        let packed = quantised(&nodes)?;
+        let arrays: [&[u8]; 4] = [
+            bytemuck::cast_slice(&nodes),
+            bytemuck::cast_slice(&packed),
+            bytemuck::cast_slice(&corners),
+            bytemuck::cast_slice(&placed),
+        ];
+        let (buffer, at) = Buffer::with_arrays(gpu, "trees", arrays, Buffer::ADDRESSED)?;
+        let head = Trees {
+            nodes: at[0].into(),
+            packed: at[1].into(),
+            corners: at[2].into(),
+            placed: at[3].into(),
+            growth: (GROWTH * growth) as f32,
+            reach,
+        };
+        let head = Buffer::with_data(gpu, "where the trees are", &[head], Buffer::ADDRESSED)?;
+        let deepest = trees.iter().map(depth).max().unwrap_or(0);
+        Ok(Self {
+            address: head.address.into(),
+            orders: trees.into_iter().map(|tree| tree.order).collect(),
+// And the other instances of a leaf of the top tree, and the far child that is written before it counts.
+            stack: depth(&top) + 2 + deepest,
+            bytes,
+            _buffers: [buffer, head],
+        })
+    }
+}
+
+/// The corners of a triangle of a mesh.
+fn corners_of(mesh: &Mesh, triangle: u32) -> Corners {
+    let [a, b, c] = mesh.triangles[triangle as usize].map(|at| mesh.vertices[at as usize].position);
+    Corners { a, b, c }
+}
+
+/// The matrix of an instance, as it is: a product in 64 bits rounds nothing that matters here.
+fn matrix(instance: &Instance) -> DAffine3 {
+    let of = &instance.transform;
+    let column = |v: common::glam::Vec3A| Vec3::from(v).as_dvec3();
+    DAffine3::from_cols(
+        column(of.matrix3.x_axis),
+        column(of.matrix3.y_axis),
+        column(of.matrix3.z_axis),
+        column(of.translation),
+    )
+}
+
+fn inverse(instance: &Instance) -> DAffine3 {
+    matrix(instance).inverse()
+}
+
+fn columns(matrix: &DAffine3) -> [Vec3; 4] {
+    let of = &matrix.matrix3;
+    [of.x_axis, of.y_axis, of.z_axis, matrix.translation].map(DVec3::as_vec3)
+}
+
+// ANCHOR: growth
+/// u = 2^-24. A ray is taken into a mesh's space by products that are off by less than 16u of their largest
+/// terms, and there a box grows by 32u more.
+const GROWTH: f64 = 64.0 / 16_777_216.0;
+
+/// By how much an error in a mesh's space, relative to the largest coordinate, is larger in the world: the
+/// largest sum of a row of |L|·|W|, L the matrix, W its inverse. 1 where nothing is turned.
+fn spread(to_world: &DAffine3, to_object: &DAffine3) -> f64 {
+    let product = to_world.matrix3.abs() * to_object.matrix3.abs();
+    let rows = product.transpose();
+    [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::element_sum).into_iter().fold(0.0, f64::max)
+}
+// ANCHOR_END: growth

@@ -1,0 +1,55 @@
+//! What a tree is worth: the surface area heuristic, depth, memory.
+
+use crate::hull::Hull;
+use crate::tree::{Child, Tree};
+
+/// What a visit to a node costs: two boxes. The unit in which costs are told.
+pub const TRAVERSAL: f64 = 1.0;
+
+/// What a test of a primitive costs.
+pub const INTERSECTION: f64 = 1.0;
+
+// ANCHOR: cost
+/// What a line costs that meets the root's box and else lies anywhere: [`TRAVERSAL`] for each node that it
+/// visits, [`INTERSECTION`] for each primitive of a leaf that it visits. It meets a box within another as
+/// often as their surface areas say (Goldsmith and Salmon 1987, MacDonald and Booth 1990).
+///
+/// 0 where the root's box has no surface.
+pub fn cost(tree: &Tree) -> f64 {
+    let area = |child: &Child| Hull::from((child.low, child.high)).half_area();
+    let all = tree.nodes.iter().flat_map(|node| &node.children);
+    let below: f64 = all
+        .filter(|child| child.low.x <= child.high.x)
+        .map(|child| match child.count {
+            0 => TRAVERSAL * area(child),
+            count => INTERSECTION * f64::from(count) * area(child),
+        })
+        .sum();
+    let [a, b] = tree.nodes[0].children.map(|child| Hull::from((child.low, child.high)));
+    let root = a.join(&b).half_area();
+    // The box around nothing has an infinite area.
+    if root > 0.0 && root.is_finite() { TRAVERSAL + below / root } else { 0.0 }
+}
+// ANCHOR_END: cost
+
+/// How many nodes the longest way from the root passes, the root among them: as many entries as the stack
+/// of a walk needs, at most.
+///
+/// # Panics
+/// If a child names a node that is not there. A tree that holds itself has no end.
+pub fn depth(tree: &Tree) -> u32 {
+    let mut deepest = 0;
+    let mut stack = vec![(0, 1)];
+    while let Some((at, level)) = stack.pop() {
+        deepest = level.max(deepest);
+        let below = tree.nodes[at as usize].children.iter().filter_map(Child::node);
+        stack.extend(below.map(|node| (node, level + 1)));
+    }
+    deepest
+}
+
+/// Bytes of a primitive's part of nodes and order. 0 for a tree over nothing.
+pub fn bytes_per_primitive(tree: &Tree) -> f64 {
+    let bytes = size_of_val(tree.nodes.as_slice()) + size_of_val(tree.order.as_slice());
+    if tree.order.is_empty() { 0.0 } else { bytes as f64 / tree.order.len() as f64 }
+}

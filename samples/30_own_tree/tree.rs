@@ -1,0 +1,69 @@
+//! A tree of boxes: nodes with two children, and the order of primitives that its leaves count on.
+
+use std::ops::Range;
+
+use common::glam::Vec3;
+
+/// A box: its low and its high corner.
+pub type Bounds = (Vec3, Vec3);
+
+common::shader_struct! {
+    /// A box, and what lies in it: a node, or some primitives. 32 bytes.
+    pub struct Child {
+        /// The low corner.
+        pub low: Vec3,
+        /// A node's index if `count` is 0, else the first primitive's position in the tree's order.
+        pub first: u32,
+        /// The high corner.
+        pub high: Vec3,
+        /// How many primitives; 0 for a node.
+        pub count: u32,
+    }
+}
+
+common::shader_struct! {
+    /// A node: two boxes. 64 bytes, one line of most caches.
+    pub struct Node {
+        /// The boxes. A node with one child has [`Child::NONE`] beside it.
+        pub children: [Child; 2],
+    }
+}
+
+impl Child {
+    /// A box that no ray meets.
+    pub const NONE: Self =
+        Self { low: Vec3::INFINITY, first: 0, high: Vec3::NEG_INFINITY, count: 0 };
+
+    /// The node's index, if it is one. The root lies below none, so that its index says that nothing is there.
+    pub fn node(&self) -> Option<u32> {
+        (self.count == 0 && self.first != 0).then_some(self.first)
+    }
+
+    /// The positions of a leaf's primitives in the tree's order; of no leaf, none.
+    pub fn positions(&self) -> Range<usize> {
+        let first = self.first as usize;
+        first..first + self.count as usize
+    }
+}
+
+/// A tree: its nodes, the root first, and which primitive lies at each position that leaves name.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    /// At least one: of a tree over nothing both children are [`Child::NONE`].
+    pub nodes: Vec<Node>,
+    /// The primitives in the order of the leaves, each in just one leaf. Those without a place are left out:
+    /// see [`has_place`](crate::has_place).
+    pub order: Vec<u32>,
+}
+
+impl Tree {
+    /// The nodes with all numbers moved on: as they stand in an array of many trees.
+    pub fn placed(&self, first_node: u32, first_primitive: u32) -> impl Iterator<Item = Node> {
+        self.nodes.iter().map(move |node| Node {
+            children: node.children.map(|child| {
+                let offset = if child.count == 0 { first_node } else { first_primitive };
+                Child { first: child.first + offset, ..child }
+            }),
+        })
+    }
+}

@@ -1,0 +1,28 @@
+// A tree of boxes, as samples/30_own_tree/tree.rs has it.
+
+// ANCHOR: node
+// A box, and what lies in it: a node, or some primitives.
+struct Child {
+    vec3 low;
+    uint first;    // a node's index if count is 0, else the first primitive's position in the tree's order
+    vec3 high;
+    uint count;    // of primitives; 0 for a node
+};
+
+struct Node {
+    Child children[2];
+};
+// ANCHOR_END: node
+
+// The corners of a triangle, in a row: the triangles of a leaf lie side by side.
+struct Corners {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+
+// Nothing, in a box that no ray meets.
+Child no_child() {
+    const float INFINITE = uintBitsToFloat(0x7f800000u);
+    return Child(vec3(INFINITE), 0, vec3(-INFINITE), 0);
+}

@@ -1,0 +1,88 @@
+#version 460
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "walk.glsl"
+#include "views.glsl"
+#include "report.glsl"
+#include "common/lighting.glsl"
+
+layout(local_size_x_id = 4, local_size_y_id = 5) in;
+
+layout(set = 0, binding = 0, rgba32f) uniform writeonly image2D picture;
+
+// ANCHOR: shadow
+bool is_lit(vec3 origin, vec3 to_light, float end) {
+    return walk(push.trees.at[0], origin, to_light, end, true).placed == NOTHING;
+}
+// ANCHOR_END: shadow
+
+// ANCHOR: trace
+// What a ray meets.
+Hit trace(vec3 origin, vec3 direction, out Met met) {
+    met = walk(push.trees.at[0], origin, direction, 1e30, false);
+    Hit hit;
+    if (met.placed != NOTHING) {
+        report(hit, met, origin, direction);
+    } else {
+        hit.t = -1.0;
+        hit.color = sky(direction);
+    }
+    return hit;
+}
+// ANCHOR_END: trace
+
+// What a view shows of a hit instead of the picture.
+vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
+    bool missed = hit.t < 0.0;
+    switch (SHOW) {
+        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
+        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
+        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
+        case SHOW_DIRECTION: return vec4(direction, hit.t);
+        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
+        case SHOW_ORIGIN: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+        case SHOW_STEPS: return vec4(heat(float(met.boxes + met.triangles) / 150.0), 1.0);
+        default: return vec4(edges_over(0.5 * hit.color, hit.t), 1.0);
+    }
+}
+
+// One ray a pixel, through its middle; and from what it meets, one to the light.
+void main() {
+    // ANCHOR: band
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(at, push.band.size))) {
+        return;    // the last workgroups reach beyond the band
+    }
+    uvec2 id = push.band.first + at;
+    // ANCHOR_END: band
+    vec2 point = vec2(id) + 0.5;
+    vec3 direction = ray_direction(push.camera, point, imageSize(picture));
+    pixel_direction = direction;
+    Met met;
+    Hit hit = trace(push.camera.origin, direction, met);
+    vec3 color = hit.color;
+    Start start = shadow_start(hit);
+    float visible = 1.0;
+    if (SHOW == SHOW_WALK) {
+        // ANCHOR: one_walk
+        // The boxes of this pixel's own walk are forgotten; those of the one ray count.
+        edge_t = 1e30;
+        visited = 0;
+        vec2 size = vec2(imageSize(picture));
+        vec3 one = ray_direction(push.camera, floor(push.view.pixel * size) + 0.5, uvec2(size));
+        walk(push.trees.at[0], push.camera.origin, one, 1e30, false);
+        // ANCHOR_END: one_walk
+    }
+    if (hit.t >= 0.0 && SHOW < SHOW_STEPS) {
+        MaterialRecord material = push.scene.materials.at[hit.material];
+        visible = visibility(start, push.light.direction, 1e30);
+        color = material.emission + hit.color * ambient(hit.normal)
+            + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -direction);
+    }
+    vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0)
+        : view_of(hit, met, direction, start, visible);
+    imageStore(picture, ivec2(id), pixel);
+}

@@ -1,0 +1,208 @@
+//! Rays that hunt for lost hits: through edges and corners of closed meshes, along walls of boxes, far from
+//! the origin. Every triangle in turn, with the same test, says what there is to find.
+
+use common::glam::{DVec3, Vec2};
+use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
+use own_tree::Builder;
+use reference::random::Random;
+
+use run::figures;
+use serde_json::Map;
+
+use crate::rig::{
+    Answer, BARE, BEST, By, EXACT, Given, MOELLER, NOTHING, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
+};
+
+/// A closed mesh whose corners lie on a sphere, seen from inside by rays: each of them meets it once.
+pub fn ball(splits: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let mut corners: Vec<DVec3> = axes.iter().flat_map(|&axis| [axis, -axis]).collect();
+    let mut triangles = Vec::new();
+    for x in [0, 1] {
+        for y in [2, 3] {
+            for z in [4, 5] {
+                let flip = (x + y + z) % 2 == 1;
+                triangles.push(if flip { [x, z, y] } else { [x, y, z] });
+            }
+        }
+    }
+    for _ in 0..splits {
+        let mut halves = std::collections::BTreeMap::new();
+        let mut half = |a: u32, b: u32| {
+            *halves.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                corners.push((corners[a as usize] + corners[b as usize]).normalize());
+                corners.len() as u32 - 1
+            })
+        };
+        let mut next = Vec::new();
+        for [a, b, c] in triangles {
+            let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
+            next.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        triangles = next;
+    }
+    (corners, triangles)
+}
+
+/// A closed cube whose walls are grids of triangles: boxes without thickness.
+pub fn cube(cells: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut corners: Vec<DVec3> = Vec::new();
+    let mut known = std::collections::BTreeMap::new();
+    let mut triangles = Vec::new();
+    let mut corner = |at: [u32; 3]| {
+        *known.entry(at).or_insert_with(|| {
+            corners.push(DVec3::from(at.map(|k| 2.0 * f64::from(k) / f64::from(cells) - 1.0)));
+            corners.len() as u32 - 1
+        })
+    };
+    for axis in 0..3 {
+        for wall in [0, cells] {
+            for i in 0..cells {
+                for j in 0..cells {
+                    let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(u, v)| {
+                        let mut at = [0; 3];
+                        at[axis] = wall;
+                        at[(axis + 1) % 3] = i + u;
+                        at[(axis + 2) % 3] = j + v;
+                        corner(at)
+                    });
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+    }
+    (corners, triangles)
+}
+
+/// A scene of one mesh in one place.
+pub fn scene((corners, triangles): (Vec<DVec3>, Vec<[u32; 3]>), size: f64, at: DVec3) -> Scene {
+    let vertex = |&corner: &DVec3| Vertex {
+        position: (corner * size + at).as_vec3(),
+        normal: corner.normalize().as_vec3(),
+        uv: Vec2::ZERO,
+    };
+    let vertices = corners.iter().map(vertex).collect();
+    let mesh = Mesh { name: "closed".to_owned(), vertices, triangles, material: 0 };
+    let (materials, textures, warnings) = (vec![Material::default()], Vec::new(), Vec::new());
+    let model = Model { meshes: vec![mesh], materials, textures, warnings };
+    let transform = common::glam::Affine3A::IDENTITY;
+    let instance = Instance { mesh: 0, transform, material: 0, record_offset: 0 };
+    Scene { model, instances: vec![instance], camera: Camera::default() }
+}
+
+/// Rays from within, through points of edges and through corners of the mesh, some of them along an axis.
+pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
+    let mesh = &scene.model.meshes[0];
+    let position = |at: u32| mesh.vertices[at as usize].position;
+    let (low, high) = mesh.bounds();
+    let middle = (low.as_dvec3() + high.as_dvec3()) * 0.5;
+    let half = (high.as_dvec3() - low.as_dvec3()) * 0.5;
+    let mut random = Random(seed);
+    let ray = |_| {
+        let triangle = mesh.triangles[random.below(mesh.triangles.len())];
+        let [a, b] = [0, 1].map(|k| position(triangle[k]).as_dvec3());
+        let along = [0.0, 0.5, random.between(0.0, 1.0), random.between(0.0, 1.0)][random.below(4)];
+        let target = a + (b - a) * along;
+        let from = middle + half * 0.3 * random.in_cube();
+        let mut origin = from.as_vec3();
+        let mut direction = (target - origin.as_dvec3()).as_vec3();
+        // Across an axis, or nearly so: in the wall of a box, or through it by little.
+        let axis = random.below(12);
+        if axis < 3 && (target[axis] - middle[axis]).abs() < 0.3 * half[axis] {
+            origin[axis] = target.as_vec3()[axis];
+            direction[axis] = [0.0, -0.0, 1e-30, direction.length() * 1e-8][random.below(4)];
+        }
+        Given { origin, tmax: 1e30, direction, any: 0 }
+    };
+    (0..count).map(ray).collect()
+}
+
+/// What became of rays that each meet a closed mesh once.
+#[derive(Default, Debug)]
+pub struct Count {
+    pub rays: usize,
+    /// Rays that no triangle stops, though the mesh is closed: the test of triangles leaks.
+    pub leaks: usize,
+    /// Rays that two triangles or more stop: edges that belong to both.
+    pub doubled: usize,
+    /// Rays that some triangle stops, and the walk does not find it: a box was missed.
+    pub lost: usize,
+    /// Rays whose walk ends at a triangle farther than the nearest.
+    pub farther: usize,
+}
+
+impl Count {
+    pub fn add(&mut self, walked: &[Answer], all: &[Answer]) {
+        for (walk, all) in walked.iter().zip(all) {
+            self.rays += 1;
+            self.leaks += usize::from(all.instance == NOTHING);
+            self.doubled += usize::from(all.count > 1);
+            let is_lost = all.instance != NOTHING && walk.instance == NOTHING;
+            self.lost += usize::from(is_lost);
+            self.farther += usize::from(!is_lost && walk.t > all.t);
+        }
+    }
+}
+
+/// The scenes of a hunt: two closed meshes, small and large, near and far.
+pub fn hunted() -> Vec<(String, Scene)> {
+    let mut scenes = Vec::new();
+    for (size, far) in [(1.0, 0.0), (1.0, 10.0), (1.0, 1e3), (1e-3, 1.0), (1e6, 0.0), (0.3, 1e5)] {
+        let at = DVec3::new(0.7, -1.1, 0.9) * far;
+        scenes.push((format!("ball of size {size:e} at {far:e}"), scene(ball(3), size, at)));
+        scenes.push((format!("cube of size {size:e} at {far:e}"), scene(cube(6), size, at)));
+    }
+    scenes
+}
+
+/// Hunts in all scenes, `count` rays each.
+pub fn hunt(rungs: &[Rungs], count: usize, seed: u64) -> Vec<Count> {
+    let mut counts: Vec<Count> = rungs.iter().map(|_| Count::default()).collect();
+    for (_, scene) in hunted() {
+        let rig = Rig::new(&scene, Builder::Reinserted);
+        let given = rays(&scene, count, seed);
+        let mut by_all = std::collections::BTreeMap::new();
+        for (rungs, total) in rungs.iter().zip(&mut counts) {
+            let all = by_all
+                .entry(rungs.triangles)
+                .or_insert_with(|| rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0);
+            let walked = rig.answers(&rig.pipeline(By::Walk, *rungs), By::Walk, &given).0;
+            total.add(&walked, all);
+        }
+    }
+    counts
+}
+
+#[test]
+fn no_hit_is_lost_by_boxes_with_a_bound() {
+    let count = &hunt(&[BEST], 20_000, 1)[0];
+    println!("{count:?}");
+    assert!(count.rays > 200_000);
+    assert_eq!((count.leaks, count.lost, count.farther), (0, 0, 0), "{count:?}");
+}
+
+/// The chapter's table: what each way to test boxes and triangles loses.
+#[test]
+#[ignore = "by hand: counts for long"]
+fn the_table_of_what_is_lost() {
+    let mut rungs = Vec::new();
+    for triangles in [MOELLER, WATERTIGHT, TWO_FLOAT] {
+        rungs.extend((BARE..=EXACT).map(|boxes| Rungs { boxes, triangles, quantised: false }));
+    }
+    let counts = hunt(&rungs, 100_000, 7);
+    let triangles = ["moeller", "watertight", "two-float"];
+    let boxes = ["bare", "guess", "ize", "bound", "two-float"];
+    let mut figures = Map::new();
+    figures.insert("rays".to_owned(), counts[0].rays.into());
+    for (index, count) in counts.iter().enumerate() {
+        let name = format!("{}.{}", triangles[index / 5], boxes[index % 5]);
+        println!("{name}: {count:?}");
+        figures.insert(format!("{name}.lost"), count.lost.into());
+        figures.insert(format!("{name}.farther"), count.farther.into());
+        if index % 5 == 0 {
+            figures.insert(format!("{}.leaks", triangles[index / 5]), count.leaks.into());
+            figures.insert(format!("{}.doubled", triangles[index / 5]), count.doubled.into());
+        }
+    }
+    figures::hold("30_own_tree/lost", figures.into());
+}

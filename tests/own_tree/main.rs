@@ -1,0 +1,9 @@
+//! 30_own_tree: trees and walks held to what they promise.
+
+mod device;
+mod host;
+mod hunts;
+mod peer;
+mod rate;
+mod rig;
+mod scenes;

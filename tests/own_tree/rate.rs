@@ -1,0 +1,197 @@
+//! How many rays a second: walks beside the device's own queries, in one run.
+
+use common::glam::{Affine3A, DVec3, Quat, Vec3};
+use common::scene::{Camera, Instance, Scene};
+use own_tree::Builder;
+use reference::random::Random;
+use run::figures;
+use serde_json::{Map, Value, json};
+
+use crate::hunts;
+use crate::rig::{
+    Answer, BARE, BEST, By, Given, MOELLER, NOTHING, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
+};
+
+/// Rays through the pixels of a picture, in blocks of 8 by 4 as workgroups have them.
+fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
+    let camera = &scene.camera;
+    let basis = camera.basis(f64::from(size[0]) / f64::from(size[1]));
+    let mut given = Vec::new();
+    for block in 0..size[0] / 8 * (size[1] / 4) {
+        for lane in 0..32 {
+            let x = block % (size[0] / 8) * 8 + lane % 8;
+            let y = block / (size[0] / 8) * 4 + lane / 8;
+            let u = 2.0 * (x as f32 + 0.5) / size[0] as f32 - 1.0;
+            let v = 2.0 * (y as f32 + 0.5) / size[1] as f32 - 1.0;
+            let direction = (basis.forward + u * basis.right - v * basis.up).normalize();
+            given.push(Given { origin: basis.origin, tmax: 1e30, direction, any: 0 });
+        }
+    }
+    given
+}
+
+/// From where rays have met something: to the light, or anywhere.
+fn secondary(
+    given: &[Given],
+    answers: &[Answer],
+    to: impl FnMut() -> Vec3,
+    any: u32,
+) -> Vec<Given> {
+    let mut to = to;
+    let mut rays = Vec::new();
+    for (ray, answer) in given.iter().zip(answers) {
+        if answer.instance != NOTHING {
+            let origin = ray.origin + ray.direction * (answer.t * 0.9999);
+            rays.push(Given { origin, tmax: 1e30, direction: to(), any });
+        }
+    }
+    rays
+}
+
+/// Kinds of rays in a scene: through pixels, from there to the light, and from there anywhere.
+fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
+    let given = primary(scene, [960, 600]);
+    let (answers, _) = rig.answers(&rig.pipeline(By::Query, BEST), By::Query, &given);
+    let light = Vec3::new(0.4, 0.3, 0.2).normalize();
+    let mut random = Random(3);
+    let bounce = || {
+        let v: DVec3 = random.unit();
+        Vec3::new(v.x as f32, v.y.abs() as f32, v.z as f32)
+    };
+    let shadow = secondary(&given, &answers, || light, 1);
+    let bounce = secondary(&given, &answers, bounce, 0);
+    [("primary", given), ("shadow", shadow), ("bounce", bounce)]
+}
+
+/// The middle of some numbers, and what a quarter of them is below and above.
+fn quartiles(mut numbers: Vec<f64>) -> [f64; 3] {
+    numbers.sort_by(f64::total_cmp);
+    [1, 2, 3].map(|quarter| numbers[quarter * (numbers.len() - 1) / 4])
+}
+
+/// How many times as fast walks are as the device's queries, in processor time, for each kind of ray.
+fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
+    const ROUNDS: usize = 9;
+    let rig = Rig::beside_the_device(scene, Builder::Reinserted);
+    let (walk, query) = (rig.pipeline(By::Walk, BEST), rig.pipeline(By::Query, BEST));
+    for (kind, rays) in kinds(&rig, scene) {
+        let (mut ratios, mut rates, mut differ, mut steps) = (Vec::new(), Vec::new(), 0, 0.0);
+        for _ in 0..ROUNDS {
+            let (ours, own) = rig.answers(&walk, By::Walk, &rays);
+            let (theirs, device) = rig.answers(&query, By::Query, &rays);
+            ratios.push(device / own);
+            rates.push(rays.len() as f64 / own * 1e-3);
+            let misses = |answer: &Answer| answer.instance == NOTHING;
+            differ = ours.iter().zip(&theirs).filter(|(a, b)| misses(a) != misses(b)).count();
+            steps = ours.iter().map(|a| f64::from(a.count)).sum::<f64>() / rays.len() as f64;
+        }
+        let ([low, ratio, high], [_, rate, _]) = (quartiles(ratios), quartiles(rates));
+        println!(
+            "{name} {kind}: {ratio:.2} times as fast ({low:.2} to {high:.2}); {rate:.2} million rays \
+             a second of a processor; {steps:.1} steps; {differ} of {} differ",
+            rays.len()
+        );
+        for (what, value) in [("ratio", ratio), ("low", low), ("high", high), ("steps", steps)] {
+            figures.insert(format!("{name}.{kind}.{what}"), value.into());
+        }
+        figures.insert(format!("{name}.{kind}.differ"), differ.into());
+        figures.insert(format!("{name}.{kind}.rays"), rays.len().into());
+    }
+}
+
+/// A landscape of a million triangles.
+fn landscape() -> Scene {
+    const SIDE: u32 = 708;
+    let height =
+        |x: f64, z: f64| 0.3 * (3.0 * x).sin() * (2.0 * z).cos() + 0.02 * (40.0 * x * z).sin();
+    let corners = (0..SIDE * SIDE).map(|k| {
+        let at = |k: u32| f64::from(k) / f64::from(SIDE - 1) * 4.0 - 2.0;
+        let (x, z) = (at(k % SIDE), at(k / SIDE));
+        DVec3::new(x, height(x, z), z)
+    });
+    let cell = |k: u32| {
+        let first = k / (SIDE - 1) * SIDE + k % (SIDE - 1);
+        [[first, first + SIDE, first + 1], [first + 1, first + SIDE, first + SIDE + 1]]
+    };
+    let triangles = (0..(SIDE - 1) * (SIDE - 1)).flat_map(cell);
+    let mut scene = hunts::scene((corners.collect(), triangles.collect()), 1.0, DVec3::ZERO);
+    scene.camera = Camera::new(DVec3::new(-2.2, 1.6, 2.6), DVec3::new(0.0, -0.1, 0.0), 45.0);
+    scene
+}
+
+/// Ten thousand balls of one mesh.
+fn balls() -> Scene {
+    let mut scene = hunts::scene(hunts::ball(2), 1.0, DVec3::ZERO);
+    let mut random = Random(5);
+    let ball = scene.instances[0];
+    scene.instances = (0..10_000)
+        .map(|_| {
+            let (at, size) = (random.in_cube() * 2.0, random.between(0.01, 0.04));
+            let transform = Affine3A::from_scale_rotation_translation(
+                Vec3::splat(size as f32),
+                Quat::IDENTITY,
+                at.as_vec3(),
+            );
+            Instance { transform, ..ball }
+        })
+        .collect();
+    scene.camera = Camera::new(DVec3::new(-3.0, 2.4, 4.0), DVec3::ZERO, 45.0);
+    scene
+}
+
+#[test]
+#[ignore = "by hand: takes times"]
+fn walks_beside_queries() {
+    let mut figures = Map::new();
+    compare("chess", &Scene::chess().expect("the chess set"), &mut figures);
+    compare("landscape", &landscape(), &mut figures);
+    compare("balls", &balls(), &mut figures);
+    figures::give_timed("30_own_tree/rate", figures.into());
+}
+
+/// What each way to test boxes and triangles costs in time: primary rays and bounces on the chess set.
+#[test]
+#[ignore = "by hand: takes times"]
+fn the_time_of_each_rung() {
+    const ROUNDS: usize = 7;
+    let scene = Scene::chess().expect("the chess set");
+    let rig = Rig::beside_the_device(&scene, Builder::Reinserted);
+    let [(_, primary), _, (_, bounce)] = kinds(&rig, &scene);
+    let rays = [primary, bounce].concat();
+    let mut figures = Map::new();
+    let best = rig.pipeline(By::Walk, BEST);
+    let triangles = [("moeller", MOELLER), ("watertight", WATERTIGHT), ("two-float", TWO_FLOAT)];
+    for (name, triangles) in triangles {
+        for (boxes, of_boxes) in (BARE..).zip(["bare", "guess", "ize", "bound", "two-float"]) {
+            let walk = rig.pipeline(By::Walk, Rungs { boxes, triangles, quantised: false });
+            let ratio =
+                |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
+            let [low, ratio, high] = quartiles((0..ROUNDS).map(ratio).collect());
+            println!("{name} {of_boxes}: {ratio:.2} ({low:.2} to {high:.2})");
+            figures.insert(format!("{name}.{of_boxes}"), ratio.into());
+        }
+    }
+    let walk = rig.pipeline(By::Walk, Rungs { quantised: true, ..BEST });
+    let ratio = |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
+    let [_, ratio, _] = quartiles((0..ROUNDS).map(ratio).collect());
+    figures.insert("quantised".to_owned(), ratio.into());
+    println!("36 bytes: {ratio:.2}");
+    figures::give_timed("30_own_tree/rungs", figures.into());
+}
+
+/// Bytes of nodes and of corners, for each triangle of the chess set.
+#[test]
+fn memory_is_what_the_page_says() {
+    let scene = Scene::chess().expect("the chess set");
+    let triangles: usize = scene.model.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    let rig = Rig::new(&scene, Builder::Reinserted);
+    let [nodes, corners, _] = rig.own.trees.bytes;
+    let each = |bytes: usize| bytes as f64 / triangles as f64;
+    let quantised = nodes / 64 * 36;
+    figures::hold(
+        "30_own_tree/memory",
+        json!({ "triangles": triangles, "nodes": each(nodes), "quantised": each(quantised),
+                "corners": each(corners), "stack": rig.own.trees.stack }),
+    );
+    assert!(each(nodes) < 64.0);
+}

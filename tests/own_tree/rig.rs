@@ -1,0 +1,163 @@
+//! A device, a scene with trees of both kinds, and rays that are answered by walks, by queries or by force.
+
+use common::glam::Vec3;
+use common::gpu::{
+    Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
+};
+use common::scene::{Scene, SceneOnGpu, SceneOptions};
+use own_tree::{Builder, OwnScene, RAYS, Trees};
+
+pub const NAME: &str = "30_own_tree";
+pub const NOTHING: u32 = u32::MAX;
+/// How many invocations a row of a dispatch has.
+const ACROSS: u32 = 1 << 12;
+
+common::shader_struct! {
+    /// A ray from t = 0 to `tmax`.
+    pub struct Given {
+        pub origin: Vec3,
+        pub tmax: f32,
+        pub direction: Vec3,
+        pub any: u32,
+    }
+}
+
+common::shader_struct! {
+    pub struct Answer {
+        pub t: f32,
+        pub instance: u32,
+        pub position: u32,
+        pub count: u32,
+    }
+}
+
+common::shader_struct! {
+    struct Launch {
+        trees: Address<Trees>,
+        given: Address<Given>,
+        answers: Address<Answer>,
+        rays: u32,
+        across: u32,
+        instances: u32,
+    }
+}
+
+/// Who answers.
+#[derive(Clone, Copy, PartialEq)]
+pub enum By {
+    Walk,
+    All,
+    Query,
+}
+
+/// How boxes and triangles are tested: the chapter's choices, by their numbers.
+#[derive(Clone, Copy)]
+pub struct Rungs {
+    pub boxes: u32,
+    pub triangles: u32,
+    pub quantised: bool,
+}
+
+pub const BARE: u32 = 0;
+pub const BOUND: u32 = 3;
+pub const EXACT: u32 = 4;
+pub const MOELLER: u32 = 0;
+pub const WATERTIGHT: u32 = 1;
+pub const TWO_FLOAT: u32 = 2;
+
+pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
+
+/// Seconds that processors have worked for this process.
+fn worked() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after = stat.rsplit(')').next().unwrap_or_default();
+    let ticks = after.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<f64>().ok());
+    ticks.sum::<f64>() / 100.0
+}
+
+pub struct Rig {
+    pub gpu: Gpu,
+    pub own: OwnScene,
+    /// What the device has built, where it is asked.
+    pub levels: Option<SceneOnGpu>,
+    instances: u32,
+}
+
+impl Rig {
+    /// For walks alone.
+    pub fn new(scene: &Scene, builder: Builder) -> Self {
+        Self::make(scene, builder, false, true)
+    }
+
+    /// For walks and queries; without validation, which would be timed.
+    pub fn beside_the_device(scene: &Scene, builder: Builder) -> Self {
+        Self::make(scene, builder, true, false)
+    }
+
+    fn make(scene: &Scene, builder: Builder, queries: bool, validate: bool) -> Self {
+        let requirements = Requirements::ray_tracing().textures();
+        let requirements = if queries { requirements.ray_query() } else { requirements };
+        let options = GpuOptions { requirements, validate, ..GpuOptions::default() };
+        let gpu = Gpu::new(&options).expect("there is a device");
+        let own = OwnScene::new(&gpu, scene, builder).expect("it has room");
+        let levels = queries
+            .then(|| SceneOnGpu::new(&gpu, scene, SceneOptions::default()).expect("it has room"));
+        Self { gpu, own, levels, instances: scene.instances.len() as u32 }
+    }
+
+    /// A pipeline that answers rays.
+    pub fn pipeline(&self, by: By, rungs: Rungs) -> ComputePipeline {
+        let builder = ComputePipeline::builder(NAME)
+            .compute(RAYS)
+            .workgroup(4, [256, 1])
+            .constant(1, rungs.boxes)
+            .constant(2, rungs.triangles)
+            .constant(3, self.own.trees.stack)
+            .constant(6, u32::from(rungs.quantised))
+            .push_constants::<Launch>()
+            .rounding_to_nearest_even(&self.gpu);
+        let builder = match by {
+            By::Walk => builder,
+            By::All => builder.define("BY_ALL", 1),
+            By::Query => builder.define("BY_QUERY", 1).binding(Binding::AccelerationStructure),
+        };
+        builder.build_compute(&self.gpu).expect("it compiles")
+    }
+
+    /// The answer to each ray, and the milliseconds that processors worked for them.
+    pub fn answers(
+        &self,
+        pipeline: &ComputePipeline,
+        by: By,
+        given: &[Given],
+    ) -> (Vec<Answer>, f64) {
+        let rays =
+            Buffer::with_data(&self.gpu, "rays", given, Buffer::ADDRESSED).expect("room for rays");
+        let size = size_of::<Answer>() * given.len();
+        let usage = Buffer::ADDRESSED | ash::vk::BufferUsageFlags::TRANSFER_SRC;
+        let answers = Buffer::new(&self.gpu, "answers", size as u64, usage).expect("room");
+        let launch = Launch {
+            trees: self.own.trees.address,
+            given: rays.address.into(),
+            answers: answers.address.into(),
+            rays: given.len() as u32,
+            across: ACROSS,
+            instances: self.instances,
+        };
+        let levels = self.levels.iter().filter(|_| by == By::Query);
+        let levels = levels.map(|levels| Descriptor::AccelerationStructure(&levels.tlas));
+        let descriptors: Vec<_> = levels.collect();
+        let rows = (given.len() as u32).div_ceil(ACROSS);
+        let area = ash::vk::Extent2D { width: ACROSS, height: rows }.into();
+        let begun = worked();
+        self.gpu
+            .submit(|cmd| {
+                pipeline.bind(cmd, &descriptors, &launch)?;
+                pipeline.dispatch(cmd, area);
+                Ok(())
+            })
+            .expect("the device does it");
+        let milliseconds = (worked() - begun) * 1e3;
+        (answers.read().expect("they come back"), milliseconds)
+    }
+}

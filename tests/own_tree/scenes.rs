@@ -1,0 +1,73 @@
+//! What trees are built over.
+
+use common::glam::Vec3;
+use common::scene::{Mesh, Scene};
+use own_tree::Bounds;
+
+/// A triangle's corners.
+pub type Triangle = [Vec3; 3];
+
+/// A list of triangles, and what it is called.
+pub struct Triangles {
+    pub name: String,
+    pub list: Vec<Triangle>,
+}
+
+impl Triangles {
+    /// The box around each.
+    pub fn bounds(&self) -> Vec<Bounds> {
+        let around = |[a, b, c]: &Triangle| (a.min(*b).min(*c), a.max(*b).max(*c));
+        self.list.iter().map(around).collect()
+    }
+}
+
+/// The meshes of the chess set, and all of its world as one list.
+pub fn chess() -> Vec<Triangles> {
+    let Scene { model, instances, .. } = Scene::chess().unwrap();
+    let corners = |mesh: &Mesh, index: &[u32; 3]| index.map(|i| mesh.vertices[i as usize].position);
+    let list = |mesh: &Mesh| mesh.triangles.iter().map(|index| corners(mesh, index)).collect();
+    let world = instances.iter().flat_map(|instance| {
+        let list: Vec<Triangle> = list(&model.meshes[instance.mesh]);
+        let placed = move |at| instance.transform.transform_point3(at);
+        list.into_iter().map(move |triangle| triangle.map(placed))
+    });
+    let world = Triangles { name: "chess".to_owned(), list: world.collect() };
+    let meshes = model.meshes.iter();
+    meshes
+        .map(|mesh| Triangles { name: mesh.name.clone(), list: list(mesh) })
+        .chain([world])
+        .collect()
+}
+
+/// Triangles at random places in a cube, a few hundredths of it in size for 100,000, and smaller if more.
+pub fn random_triangles(count: usize) -> Triangles {
+    let size = 0.04 * (1e5 / count as f32).cbrt();
+    let triangle = |i: u64| {
+        let at = point(4 * i);
+        [1, 2, 3].map(|corner| at + (point(4 * i + corner) - 0.5) * size)
+    };
+    let list = (0..count as u64).map(triangle).collect();
+    Triangles { name: format!("{count} random triangles"), list }
+}
+
+/// Boxes around spheres at random places, of many sizes.
+pub fn spheres(count: u64) -> Vec<Bounds> {
+    (0..count)
+        .map(|i| {
+            let radius = 0.002 + 0.02 * chance(9 * i + 5).powi(4);
+            (point(3 * i + 7) - radius, point(3 * i + 7) + radius)
+        })
+        .collect()
+}
+
+fn point(i: u64) -> Vec3 {
+    Vec3::new(chance(3 * i), chance(3 * i + 1), chance(3 * i + 2))
+}
+
+/// A hash of a number (splitmix64), as a number from 0 to 1.
+fn chance(i: u64) -> f32 {
+    let z = (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ z >> 31) >> 40) as f32 / (1 << 24) as f32
+}

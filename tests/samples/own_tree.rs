@@ -1,0 +1,100 @@
+//! 30_own_tree: the picture of 16 without an acceleration structure, and every hit held to the reference.
+
+use common::app::Picture;
+use common::scene::Scene;
+
+use run::primary_hits::{answer, judge, rays, reference};
+use run::{figures, golden, refused, render};
+use serde_json::json;
+
+const NAME: &str = "30_own_tree";
+const SIZE: &str = "240x150";
+
+fn picture(sets: &[&str]) -> Picture {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    render(NAME, SIZE, &arguments).picture
+}
+
+/// How many pixels of two pictures differ at all.
+fn differing(a: &Picture, b: &Picture) -> usize {
+    a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a != b).count()
+}
+
+#[test]
+fn the_picture_is_the_golden_one() {
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &picture(&[]), 0.002);
+}
+
+#[test]
+fn every_hit_agrees_with_the_reference() {
+    let scene = Scene::chess().unwrap();
+    let (hits, directions) = (picture(&["show=hit"]), picture(&["show=ray direction"]));
+    let answers = hits.pixels.iter().map(answer);
+    let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
+    println!("{tally}");
+    figures::hold("30_own_tree/hits", tally.figures());
+    assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
+    assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
+    assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
+}
+
+/// 16 asks the device, whose triangle test rounds in its own way: at edges another triangle may be met, and
+/// the weights of a corner differ in the last place everywhere.
+#[test]
+fn it_is_the_picture_of_16() {
+    let of_16 = render("16_ray_query", SIZE, &[]).picture;
+    let own = picture(&[]);
+    let far = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 1.0 / 255.0);
+    let count = of_16.pixels.iter().zip(&own.pixels).filter(|&pair| far(pair)).count();
+    println!("{count} pixels differ by more than a step of 8 bits");
+    figures::hold("30_own_tree/query", json!({ "pixels": own.pixels.len(), "differ": count }));
+    assert!(count < own.pixels.len() / 1000, "{count}");
+}
+
+/// A tree decides which boxes are looked at, never what is met.
+#[test]
+fn no_tree_and_no_node_changes_the_picture() {
+    let own = picture(&[]);
+    for set in ["tree=binned", "tree=device", "nodes=36 bytes"] {
+        let count = differing(&own, &picture(&[set]));
+        // Two triangles may be met at the same distance: then the first one found counts.
+        assert!(count <= own.pixels.len() / 2000, "{set}: {count} pixels differ");
+    }
+}
+
+#[test]
+fn each_way_to_test_gives_nearly_the_same_picture() {
+    let own = picture(&[]);
+    for set in ["boxes=bare", "boxes=guess", "boxes=ize", "boxes=two-float", "triangles=moeller"] {
+        let count = differing(&own, &picture(&[set]));
+        assert!(count <= own.pixels.len() / 50, "{set}: {count} pixels differ");
+    }
+}
+
+/// Steps are counted, boxes have edges, and the walk of one ray is drawn step by step.
+#[test]
+fn the_views_show_the_tree() {
+    let sky = |picture: &Picture| picture.pixels[0];
+    let [steps, boxes] = ["show=steps", "show=boxes"].map(|set| picture(&[set]));
+    assert_ne!(sky(&steps), sky(&boxes));
+    let early = picture(&["show=walk", "walk step=2"]);
+    let late = picture(&["show=walk", "walk step=12"]);
+    let count = differing(&early, &late);
+    assert!(count > 200, "later steps draw more boxes: {count} pixels differ");
+    assert_eq!(differing(&late, &picture(&["show=walk", "walk step=12"])), 0);
+}
+
+#[test]
+fn neither_an_extension_nor_an_acceleration_structure_is_asked_for() {
+    let report = render(NAME, "16x10", &[]).report;
+    assert_eq!(report["acceleration_structure_bytes"], 0);
+    assert_eq!(report["groups"], 0);
+    assert_eq!(report["stages"], json!(["30_own_tree/trace.comp"]));
+}
+
+#[test]
+fn a_step_that_there_is_not_is_refused_in_one_line() {
+    let (code, line) = refused(NAME, &["--headless", "--set", "walk step=0"]);
+    assert!(code == 2 && line.contains("walk step"), "{code}: {line}");
+}
