@@ -4,7 +4,9 @@ use anyhow::Result;
 use common::gpu::{Buffer, Gpu};
 use common::scene::Mesh;
 
-use crate::{Bounds, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, binned, reinserted};
+use crate::{
+    Bounds, Corners, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, binned, reinserted,
+};
 
 common::shader_enum! {
     /// How the trees of meshes are built. The tree over the instances is built on the host.
@@ -28,15 +30,22 @@ impl Builder {
         if self == Self::Reinserted { reinserted(tree, bounds, ROUNDS) } else { tree }
     }
 
-    /// A tree over the triangles of a mesh.
+    /// A tree over the triangles of each mesh, whose corners are `triangles`.
     ///
     /// # Errors
-    /// If the device has no room for it.
-    pub fn of(self, gpu: &Gpu, mesh: &Mesh) -> Result<Tree> {
+    /// If the device has no room for them.
+    pub fn trees(
+        self,
+        gpu: &Gpu,
+        meshes: &[Mesh],
+        triangles: &[Vec<Corners>],
+    ) -> Result<Vec<Tree>> {
         if self == Self::Device {
-            on_device(gpu, mesh)
+            let builder = DeviceBuilder::new(gpu)?;
+            meshes.iter().map(|mesh| on_device(gpu, &builder, mesh)).collect()
         } else {
-            Ok(self.over(&mesh.triangle_bounds()))
+            let bounds = |of: &Vec<Corners>| of.iter().map(Corners::bounds).collect::<Vec<_>>();
+            Ok(triangles.iter().map(|of| self.over(&bounds(of))).collect())
         }
     }
 }
@@ -44,13 +53,12 @@ impl Builder {
 // ANCHOR: device
 /// The device's tree. It is read back only to be packed with the others: a program that builds anew in each frame
 /// would walk it where it lies.
-fn on_device(gpu: &Gpu, mesh: &Mesh) -> Result<Tree> {
+fn on_device(gpu: &Gpu, builder: &DeviceBuilder, mesh: &Mesh) -> Result<Tree> {
     let vertices = Buffer::with_data(gpu, "vertices", &mesh.vertices, Buffer::ADDRESSED)?;
     let triangles = Buffer::with_data(gpu, "triangles", &mesh.triangles, Buffer::ADDRESSED)?;
     let count = mesh.triangles.len() as u32;
     let list = Triangles { vertices: vertices.address, triangles: triangles.address, count };
     let (tree, scratch) = (DeviceTree::new(gpu, count)?, Scratch::new(gpu, count)?);
-    let builder = DeviceBuilder::new(gpu)?;
     gpu.submit(|cmd| builder.record(cmd, list, &tree, &scratch))?;
     Ok(Tree { nodes: tree.nodes.read()?, order: tree.original.read()? })
 }

@@ -84,7 +84,7 @@ impl<'a> Found<'a> {
 }
 
 fn is_empty(child: &Child) -> bool {
-    child.node().is_none() && child.count == 0
+    child.is_none() || child.low.x > child.high.x
 }
 
 fn holds(child: &Child, (low, high): &Bounds) -> bool {

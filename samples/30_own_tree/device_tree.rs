@@ -5,8 +5,9 @@ use ash::vk::BufferUsageFlags as Usage;
 use common::glam::Vec3;
 use common::gpu::{Address, Buffer, Gpu};
 
+use crate::hull::NOWHERE;
 use crate::on_device::{DIGITS, EXTENT_SHARES, MOST_SHARES, bytes};
-use crate::tree::Node;
+use crate::tree::{self, Node};
 
 /// The most triangles of one tree: positions are signed where the hierarchy is made, and twice as far is looked.
 pub const MOST_TRIANGLES: u32 = 1 << 29;
@@ -20,6 +21,18 @@ common::shader_struct! {
         pub b: Vec3,
         /// The third.
         pub c: Vec3,
+    }
+}
+
+impl Corners {
+    /// The least box around them. A triangle that is not finite has none.
+    pub fn bounds(&self) -> tree::Bounds {
+        let Self { a, b, c } = self;
+        if [a, b, c].iter().all(|corner| corner.is_finite()) {
+            (a.min(*b).min(*c), a.max(*b).max(*c))
+        } else {
+            NOWHERE
+        }
     }
 }
 

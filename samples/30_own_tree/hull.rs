@@ -12,7 +12,7 @@ pub(crate) struct Hull([f32; 8]);
 
 impl Hull {
     /// The box around nothing.
-    pub const EMPTY: Self = Self([f32::INFINITY; 8]);
+    pub const EMPTY: Self = Self([f32::MAX; 8]);
 
     /// The box around two.
     pub fn join(&self, other: &Self) -> Self {
@@ -67,6 +67,9 @@ impl From<Hull> for Bounds {
         (Vec3::new(x, y, z), Vec3::new(-u, -v, -w))
     }
 }
+
+/// The box of a primitive that has no place.
+pub(crate) const NOWHERE: Bounds = (Vec3::NAN, Vec3::NAN);
 
 /// Whether a primitive has a place in a tree: if its box is finite and not inside out. One that has none
 /// is met by no ray, as Vulkan has it of a primitive without numbers.

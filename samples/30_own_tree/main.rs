@@ -35,7 +35,7 @@ common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
-        Steps, Boxes, Walk,
+        Steps, Depth, Boxes, Walk,
     }
 }
 

@@ -5,7 +5,8 @@ use common::glam::{DAffine3, DVec3, Vec3};
 use common::gpu::{Address, Buffer, Gpu};
 use common::scene::{Instance, Mesh, Scene};
 
-use crate::{Builder, Corners, Node, Quantised, depth, quantised};
+use crate::hull::NOWHERE;
+use crate::{Bounds, Builder, Corners, Node, Quantised, depth, quantised};
 
 common::shader_struct! {
     /// An instance, at its position in the top tree's order. 116 bytes.
@@ -66,18 +67,19 @@ impl TreesOnGpu {
     /// left out: no ray meets what has no extent.
     ///
     /// # Errors
-    /// If memory is short, or a leaf's position takes more than 28 bits.
+    /// If memory is short, or a position takes more than 28 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
         let meshes = &scene.model.meshes;
-        let trees = meshes.iter().map(|mesh| builder.of(gpu, mesh)).collect::<Result<Vec<_>>>()?;
+        let triangles: Vec<Vec<_>> = meshes.iter().map(corners_of).collect();
+        let trees = builder.trees(gpu, meshes, &triangles)?;
         // ANCHOR: top
-        let there = (0..scene.instances.len()).filter(|&number| {
-            let columns = columns(&inverse(&scene.instances[number]));
-            columns.iter().all(|column| column.is_finite())
+        let bounds = scene.instances.iter().map(|instance| {
+            let to_world = matrix(instance);
+            let (low, high) = trees[instance.mesh].bounds();
+            let is_there = low.x <= high.x && can_be_inverted(&to_world);
+            if is_there { moved((low, high), &to_world) } else { NOWHERE }
         });
-        let there: Vec<_> = there.collect();
-        let bounds: Vec<_> =
-            there.iter().map(|&number| scene.instance_bounds(&scene.instances[number])).collect();
+        let bounds: Vec<_> = bounds.collect();
         let top = builder.over(&bounds);
         // ANCHOR_END: top
 
@@ -85,40 +87,39 @@ impl TreesOnGpu {
         let mut nodes: Vec<_> = top.placed(0, 0).collect();
         let mut corners = Vec::new();
         let mut starts = Vec::new();
-        for (mesh, tree) in meshes.iter().zip(&trees) {
+        for (triangles, tree) in triangles.iter().zip(&trees) {
             let start = (nodes.len() as u32, corners.len() as u32);
             nodes.extend(tree.placed(start.0, start.1));
-            corners.extend(tree.order.iter().map(|&triangle| corners_of(mesh, triangle)));
+            corners.extend(tree.order.iter().map(|&triangle| triangles[triangle as usize]));
             starts.push(start);
         }
-        ensure!(
-            nodes.len().max(corners.len()) < 1 << 28,
-            "{} triangles are too many: their positions take more than 28 bits",
-            corners.len()
-        );
+        for (what, count) in
+            [("nodes", nodes.len()), ("triangles", corners.len()), ("instances", bounds.len())]
+        {
+            ensure!(count < 1 << 28, "{count} {what} are too many: a position has 28 bits");
+        }
         // ANCHOR_END: pack
         let mut growth = 0.0f64;
-        let mut reach = 0.0f64;
-        let placed = top.order.iter().map(|&at| {
-            let number = there[at as usize];
-            let instance = &scene.instances[number];
+        let mut reach = 0.0f32;
+        let placed = top.order.iter().map(|&number| {
+            let instance = &scene.instances[number as usize];
             let (root, first) = starts[instance.mesh];
-            let (to_world, to_object) = (matrix(instance), inverse(instance));
+            let to_world = matrix(instance);
+            let to_object = to_world.inverse();
             growth = growth.max(spread(&to_world, &to_object));
-            reach = reach.max(to_world.translation.abs().max_element());
+            reach = reach.max(largest(bounds[number as usize]));
+            reach = reach.max(to_world.translation.abs().max_element() as f32);
             Placed {
                 to_world: columns(&to_world),
                 to_object: columns(&to_object),
                 root,
                 first,
                 count: trees[instance.mesh].order.len() as u32,
-                number: number as u32,
-                reach: meshes[instance.mesh].reach(),
+                number,
+                reach: largest(trees[instance.mesh].bounds()),
             }
         });
         let placed: Vec<_> = placed.collect();
-        let of_boxes = bounds.iter().map(|(low, high)| low.abs().max(high.abs()).max_element());
-        let reach = of_boxes.fold(reach as f32, f32::max);
         let bytes = [size_of_val(&nodes[..]), size_of_val(&corners[..]), size_of_val(&placed[..])];
         let packed = quantised(&nodes)?;
         let arrays: [&[u8]; 4] = [
@@ -141,7 +142,7 @@ impl TreesOnGpu {
         Ok(Self {
             address: head.address.into(),
             orders: trees.into_iter().map(|tree| tree.order).collect(),
-// And the other instances of a leaf of the top tree, and the far child that is written before it counts.
+            // And the other instances of a leaf of the top tree, and the far child that is written before it counts.
             stack: depth(&top) + 2 + deepest,
             bytes,
             _buffers: [buffer, head],
@@ -149,10 +150,24 @@ impl TreesOnGpu {
     }
 }
 
-/// The corners of a triangle of a mesh.
-fn corners_of(mesh: &Mesh, triangle: u32) -> Corners {
-    let [a, b, c] = mesh.triangles[triangle as usize].map(|at| mesh.vertices[at as usize].position);
-    Corners { a, b, c }
+/// The corners of the triangles of a mesh.
+fn corners_of(mesh: &Mesh) -> Vec<Corners> {
+    let position = |at: u32| mesh.vertices[at as usize].position;
+    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(position));
+    triangles.map(|[a, b, c]| Corners { a, b, c }).collect()
+}
+
+/// The largest coordinate of a box, without its sign.
+fn largest((low, high): Bounds) -> f32 {
+    low.abs().max(high.abs()).max_element()
+}
+
+/// The box around a box that a matrix has moved. What rounding takes from it, the growth of boxes gives back.
+fn moved((low, high): Bounds, to_world: &DAffine3) -> Bounds {
+    let (low, high) = (low.as_dvec3(), high.as_dvec3());
+    let middle = to_world.transform_point3((low + high) * 0.5);
+    let reach = to_world.matrix3.abs() * ((high - low) * 0.5);
+    ((middle - reach).as_vec3(), (middle + reach).as_vec3())
 }
 
 /// The matrix of an instance, as it is: a product in 64 bits rounds nothing that matters here.
@@ -165,10 +180,6 @@ fn matrix(instance: &Instance) -> DAffine3 {
         column(of.matrix3.z_axis),
         column(of.translation),
     )
-}
-
-fn inverse(instance: &Instance) -> DAffine3 {
-    matrix(instance).inverse()
 }
 
 fn columns(matrix: &DAffine3) -> [Vec3; 4] {
@@ -187,5 +198,12 @@ fn spread(to_world: &DAffine3, to_object: &DAffine3) -> f64 {
     let product = to_world.matrix3.abs() * to_object.matrix3.abs();
     let rows = product.transpose();
     [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::element_sum).into_iter().fold(0.0, f64::max)
+}
+
+/// Whether the inverse is one in 32 bits, too: of a matrix that is singular but for rounding, no digit of it is right.
+fn can_be_inverted(to_world: &DAffine3) -> bool {
+    let to_object = to_world.inverse();
+    columns(&to_object).iter().all(|column| column.is_finite())
+        && GROWTH * spread(to_world, &to_object) < 1.0
 }
 // ANCHOR_END: growth

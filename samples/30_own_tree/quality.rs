@@ -25,10 +25,9 @@ pub fn cost(tree: &Tree) -> f64 {
             count => INTERSECTION * f64::from(count) * area(child),
         })
         .sum();
-    let [a, b] = tree.nodes[0].children.map(|child| Hull::from((child.low, child.high)));
-    let root = a.join(&b).half_area();
-    // The box around nothing has an infinite area.
-    if root > 0.0 && root.is_finite() { TRAVERSAL + below / root } else { 0.0 }
+    let root = Hull::from(tree.bounds()).half_area();
+    let is_some = tree.nodes[0].children.iter().any(|child| child.low.x <= child.high.x);
+    if is_some && root > 0.0 { TRAVERSAL + below / root } else { 0.0 }
 }
 // ANCHOR_END: cost
 

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use common::glam::Vec3;
 
+use crate::hull::Hull;
+
 /// A box: its low and its high corner.
 pub type Bounds = (Vec3, Vec3);
 
@@ -22,7 +24,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// A node: two boxes. 64 bytes, one line of most caches.
+    /// A node: two boxes. 64 bytes, a line of the cache of most processors.
     pub struct Node {
         /// The boxes. A node with one child has [`Child::NONE`] beside it.
         pub children: [Child; 2],
@@ -30,18 +32,22 @@ common::shader_struct! {
 }
 
 impl Child {
-    /// A box that no ray meets.
-    pub const NONE: Self =
-        Self { low: Vec3::INFINITY, first: 0, high: Vec3::NEG_INFINITY, count: 0 };
+    /// Nothing, in a box that no ray meets: inside out, as large as finite numbers can make it.
+    pub const NONE: Self = Self { low: Vec3::MAX, first: u32::MAX, high: Vec3::MIN, count: 0 };
 
-    /// The node's index, if it is one. The root lies below none, so that its index says that nothing is there.
+    /// The node's index, if it is one.
     pub fn node(&self) -> Option<u32> {
-        (self.count == 0 && self.first != 0).then_some(self.first)
+        (self.count == 0 && self.first != Self::NONE.first).then_some(self.first)
+    }
+
+    /// Whether nothing is there.
+    pub fn is_none(&self) -> bool {
+        self.count == 0 && self.first == Self::NONE.first
     }
 
     /// The positions of a leaf's primitives in the tree's order; of no leaf, none.
     pub fn positions(&self) -> Range<usize> {
-        let first = self.first as usize;
+        let first = if self.is_none() { 0 } else { self.first as usize };
         first..first + self.count as usize
     }
 }
@@ -57,12 +63,19 @@ pub struct Tree {
 }
 
 impl Tree {
+    /// The box around all that lies in the tree; inside out if that is nothing.
+    pub fn bounds(&self) -> Bounds {
+        let [a, b] = self.nodes[0].children.map(|child| Hull::from((child.low, child.high)));
+        a.join(&b).into()
+    }
+
     /// The nodes with all numbers moved on: as they stand in an array of many trees.
     pub fn placed(&self, first_node: u32, first_primitive: u32) -> impl Iterator<Item = Node> {
         self.nodes.iter().map(move |node| Node {
-            children: node.children.map(|child| {
-                let offset = if child.count == 0 { first_node } else { first_primitive };
-                Child { first: child.first + offset, ..child }
+            children: node.children.map(|child| match child {
+                none if none.is_none() => none,
+                node if node.count == 0 => Child { first: node.first + first_node, ..node },
+                leaf => Child { first: leaf.first + first_primitive, ..leaf },
             }),
         })
     }

@@ -83,7 +83,7 @@ void main() {
     if (i + 1 >= count) {
         // Of one primitive alone there is a node with one child; others that are not finite have none.
         bool is_only = i == 0 && count == 1;
-        push.nodes.at[i].children = Child[2](child(0, is_only), child(0, false));
+        push.nodes.at[i].children = Child[2](is_only ? child(0, true) : no_child(), no_child());
         push.ends.at[i] = is_only ? 0 : NO_NODE;
         return;
     }

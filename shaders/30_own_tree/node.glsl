@@ -21,8 +21,10 @@ struct Corners {
     vec3 c;
 };
 
-// Nothing, in a box that no ray meets.
+const uint NOTHING = 0xffffffff;
+
+// Nothing, in a box that no ray meets: inside out. Without infinities: a compiler may take it that there are none.
 Child no_child() {
-    const float INFINITE = uintBitsToFloat(0x7f800000u);
-    return Child(vec3(INFINITE), 0, vec3(-INFINITE), 0);
+    const float MOST = uintBitsToFloat(0x7f7fffffu);
+    return Child(vec3(MOST), NOTHING, vec3(-MOST), 0);
 }

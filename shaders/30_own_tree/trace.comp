@@ -45,6 +45,7 @@ vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
         case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
         case SHOW_ORIGIN: return missed ? vec4(-1.0) : vec4(start.origin, visible);
         case SHOW_STEPS: return vec4(heat(float(met.boxes + met.triangles) / 150.0), 1.0);
+        case SHOW_DEPTH: return vec4(missed ? vec3(0.0) : heat(float(depth_of(push.trees.at[0], met)) / STACK), 1.0);
         default: return vec4(edges_over(0.5 * hit.color, hit.t), 1.0);
     }
 }

@@ -13,6 +13,7 @@ bool is_on_edge(vec3 point, vec3 low, vec3 high, float width) {
 
 // The nearest edge of a box on this pixel's ray, where it comes before `t`.
 bool draws_edge(vec3 o, vec3 d, Child child, inout float t) {
+    const float LARGEST = 1e38;
     vec3 inverse = clamp(1.0 / d, -LARGEST, LARGEST);
     vec3 a = (child.low - o) * inverse;
     vec3 b = (child.high - o) * inverse;
@@ -30,6 +31,37 @@ bool draws_edge(vec3 o, vec3 d, Child child, inout float t) {
     return false;
 }
 // ANCHOR_END: edges
+
+// ANCHOR: depth
+// How many nodes lead to a triangle in the tree of its mesh. A walk for a point: of all boxes, those are looked into
+// that hold the triangle's first corner.
+uint depth_of(Trees trees, Met met) {
+    vec3 point = trees.corners.at[met.position].a;
+    uint nodes[STACK];
+    uint depths[STACK];
+    nodes[0] = trees.placed.at[met.placed].root;
+    depths[0] = 1;
+    uint height = 1;
+    while (height > 0) {
+        height--;
+        Node node = trees.nodes.at[nodes[height]];
+        uint depth = depths[height];
+        for (uint i = 0; i < 2; i++) {
+            Child child = node.children[i];
+            if (child.low != min(child.low, point) || child.high != max(child.high, point)) {
+                continue;
+            }
+            if (child.count == 0) {
+                nodes[height] = child.first;
+                depths[height++] = depth + 1;
+            } else if (met.position - child.first < child.count) {
+                return depth;
+            }
+        }
+    }
+    return 0;
+}
+// ANCHOR_END: depth
 
 // This pixel's ray, and the nearest edge that it has met.
 vec3 pixel_direction;

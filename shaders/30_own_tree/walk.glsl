@@ -3,7 +3,6 @@
 #include "box.glsl"
 #include "common/triangle.glsl"
 
-const uint NOTHING = 0xffffffff;
 // What is left to be visited, in one number: as a Child has it, `first` and, above these bits, `count`.
 const uint FIRST_BITS = 28;
 const uint FIRST_MASK = (1 << FIRST_BITS) - 1;
@@ -64,7 +63,7 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
     uint entry = 0;           // the top tree's root
     while (true) {
         // ANCHOR: instance
-        if (entry > FIRST_MASK && inside == NOTHING) {
+        if (entry > FIRST_MASK && entry != NOTHING && inside == NOTHING) {
             // A leaf of the top tree: the walk goes into its first instance, and comes back for the others.
             inside = entry & FIRST_MASK;
             if (entry >> FIRST_BITS > 1) {

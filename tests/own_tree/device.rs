@@ -5,13 +5,12 @@ mod builds;
 mod karras;
 mod refits;
 mod shapes;
-mod times;
 
 use std::sync::Arc;
 
 use ash::vk::BufferUsageFlags as Usage;
 use common::gpu::{Buffer, Gpu, GpuOptions, Requirements};
-use common::scene::Vertex;
+use common::scene::{Mesh, Vertex, input_usage};
 use glam::{Vec2, Vec3};
 use instruments::arithmetic::Arithmetic;
 use own_tree::{Child, Corners, DeviceBuilder, DeviceTree, Node, Scratch, Triangles};
@@ -22,30 +21,39 @@ fn gpu(validate: bool, arithmetic: Arithmetic) -> Gpu {
     Gpu::new(&GpuOptions { requirements, validate, emulation, ..GpuOptions::default() }).unwrap()
 }
 
+/// Without validation, which would be timed.
+pub fn gpu_to_be_timed() -> Gpu {
+    gpu(false, Arithmetic::Driver)
+}
+
 /// Triangles on the device, for a build.
-struct Uploaded {
-    vertices: Buffer,
-    triangles: Buffer,
-    count: u32,
+pub struct Uploaded {
+    pub vertices: Buffer,
+    pub triangles: Buffer,
+    pub count: u32,
 }
 
 impl Uploaded {
     fn new(gpu: &Gpu, shape: &Shape) -> Self {
-        Self::with_usage(gpu, shape, Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS)
+        let vertices: Vec<Vertex> = shape.vertices.iter().map(|at| vertex(*at)).collect();
+        let usage = Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS;
+        Self::upload(gpu, &vertices, &shape.triangles, usage)
     }
 
-    fn with_usage(gpu: &Gpu, shape: &Shape, usage: Usage) -> Self {
-        let upload =
-            |name: &str, words: &[u32]| Buffer::with_data(gpu, name, words, usage).unwrap();
-        let vertices: Vec<Vertex> = shape.vertices.iter().map(|at| vertex(*at)).collect();
+    /// For builds of all kinds.
+    pub fn of_mesh(gpu: &Gpu, mesh: &Mesh) -> Self {
+        Self::upload(gpu, &mesh.vertices, &mesh.triangles, input_usage())
+    }
+
+    fn upload(gpu: &Gpu, vertices: &[Vertex], triangles: &[[u32; 3]], usage: Usage) -> Self {
         Self {
-            vertices: upload("vertices", bytemuck::cast_slice(&vertices)),
-            triangles: upload("triangles", shape.triangles.as_flattened()),
-            count: shape.triangles.len() as u32,
+            vertices: Buffer::with_data(gpu, "vertices", vertices, usage).unwrap(),
+            triangles: Buffer::with_data(gpu, "triangles", triangles, usage).unwrap(),
+            count: triangles.len() as u32,
         }
     }
 
-    fn input(&self) -> Triangles {
+    pub fn input(&self) -> Triangles {
         let (vertices, triangles) = (self.vertices.address, self.triangles.address);
         Triangles { vertices, triangles, count: self.count }
     }

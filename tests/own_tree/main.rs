@@ -1,6 +1,7 @@
 //! 30_own_tree: trees and walks held to what they promise.
 
 mod device;
+mod growth;
 mod host;
 mod hunts;
 mod peer;

@@ -9,11 +9,11 @@ use serde_json::{Map, Value, json};
 
 use crate::hunts;
 use crate::rig::{
-    Answer, BARE, BEST, By, Given, MOELLER, NOTHING, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
+    Answer, BARE, BEST, By, Given, MOELLER, NOTHING, PACKED, Rig, Rungs, TWO_FLOAT, WATERTIGHT,
 };
 
 /// Rays through the pixels of a picture, in blocks of 8 by 4 as workgroups have them.
-fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
+pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Given> {
     let camera = &scene.camera;
     let basis = camera.basis(f64::from(size[0]) / f64::from(size[1]));
     let mut given = Vec::new();
@@ -99,21 +99,20 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     }
 }
 
-/// A landscape of a million triangles.
-fn landscape() -> Scene {
-    const SIDE: u32 = 708;
+/// A landscape of so many rows and columns of vertices, for each four two triangles.
+pub fn landscape(side: u32) -> Scene {
     let height =
         |x: f64, z: f64| 0.3 * (3.0 * x).sin() * (2.0 * z).cos() + 0.02 * (40.0 * x * z).sin();
-    let corners = (0..SIDE * SIDE).map(|k| {
-        let at = |k: u32| f64::from(k) / f64::from(SIDE - 1) * 4.0 - 2.0;
-        let (x, z) = (at(k % SIDE), at(k / SIDE));
+    let corners = (0..side * side).map(|k| {
+        let at = |k: u32| f64::from(k) / f64::from(side - 1) * 4.0 - 2.0;
+        let (x, z) = (at(k % side), at(k / side));
         DVec3::new(x, height(x, z), z)
     });
     let cell = |k: u32| {
-        let first = k / (SIDE - 1) * SIDE + k % (SIDE - 1);
-        [[first, first + SIDE, first + 1], [first + 1, first + SIDE, first + SIDE + 1]]
+        let first = k / (side - 1) * side + k % (side - 1);
+        [[first, first + side, first + 1], [first + 1, first + side, first + side + 1]]
     };
-    let triangles = (0..(SIDE - 1) * (SIDE - 1)).flat_map(cell);
+    let triangles = (0..(side - 1) * (side - 1)).flat_map(cell);
     let mut scene = hunts::scene((corners.collect(), triangles.collect()), 1.0, DVec3::ZERO);
     scene.camera = Camera::new(DVec3::new(-2.2, 1.6, 2.6), DVec3::new(0.0, -0.1, 0.0), 45.0);
     scene
@@ -144,7 +143,7 @@ fn balls() -> Scene {
 fn walks_beside_queries() {
     let mut figures = Map::new();
     compare("chess", &Scene::chess().expect("the chess set"), &mut figures);
-    compare("landscape", &landscape(), &mut figures);
+    compare("landscape", &landscape(708), &mut figures);
     compare("balls", &balls(), &mut figures);
     figures::give_timed("30_own_tree/rate", figures.into());
 }
@@ -171,7 +170,7 @@ fn the_time_of_each_rung() {
             figures.insert(format!("{name}.{of_boxes}"), ratio.into());
         }
     }
-    let walk = rig.pipeline(By::Walk, Rungs { quantised: true, ..BEST });
+    let walk = rig.pipeline(By::Walk, PACKED);
     let ratio = |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
     let [_, ratio, _] = quartiles((0..ROUNDS).map(ratio).collect());
     figures.insert("quantised".to_owned(), ratio.into());

@@ -1,10 +1,13 @@
 //! A device, a scene with trees of both kinds, and rays that are answered by walks, by queries or by force.
 
+use std::sync::Arc;
+
 use common::glam::Vec3;
 use common::gpu::{
     Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOnGpu, SceneOptions};
+use instruments::arithmetic::Arithmetic;
 use own_tree::{Builder, OwnScene, RAYS, Trees};
 
 pub const NAME: &str = "30_own_tree";
@@ -66,6 +69,7 @@ pub const WATERTIGHT: u32 = 1;
 pub const TWO_FLOAT: u32 = 2;
 
 pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
+pub const PACKED: Rungs = Rungs { quantised: true, ..BEST };
 
 /// Seconds that processors have worked for this process.
 fn worked() -> f64 {
@@ -86,18 +90,24 @@ pub struct Rig {
 impl Rig {
     /// For walks alone.
     pub fn new(scene: &Scene, builder: Builder) -> Self {
-        Self::make(scene, builder, false, true)
+        Self::make(scene, builder, false, Arithmetic::Driver)
+    }
+
+    /// For walks in such arithmetic.
+    pub fn in_arithmetic(scene: &Scene, builder: Builder, arithmetic: Arithmetic) -> Self {
+        Self::make(scene, builder, false, arithmetic)
     }
 
     /// For walks and queries; without validation, which would be timed.
     pub fn beside_the_device(scene: &Scene, builder: Builder) -> Self {
-        Self::make(scene, builder, true, false)
+        Self::make(scene, builder, true, Arithmetic::Driver)
     }
 
-    fn make(scene: &Scene, builder: Builder, queries: bool, validate: bool) -> Self {
+    fn make(scene: &Scene, builder: Builder, queries: bool, arithmetic: Arithmetic) -> Self {
         let requirements = Requirements::ray_tracing().textures();
         let requirements = if queries { requirements.ray_query() } else { requirements };
-        let options = GpuOptions { requirements, validate, ..GpuOptions::default() };
+        let (validate, emulation) = (!queries, Arc::new(arithmetic));
+        let options = GpuOptions { requirements, validate, emulation, ..GpuOptions::default() };
         let gpu = Gpu::new(&options).expect("there is a device");
         let own = OwnScene::new(&gpu, scene, builder).expect("it has room");
         let levels = queries

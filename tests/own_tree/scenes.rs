@@ -21,20 +21,28 @@ impl Triangles {
     }
 }
 
+/// The triangles of a scene's first mesh.
+pub fn triangles(scene: &Scene) -> Vec<Triangle> {
+    corners(&scene.model.meshes[0])
+}
+
+fn corners(mesh: &Mesh) -> Vec<Triangle> {
+    let position = |at: u32| mesh.vertices[at as usize].position;
+    mesh.triangles.iter().map(|triangle| triangle.map(position)).collect()
+}
+
 /// The meshes of the chess set, and all of its world as one list.
 pub fn chess() -> Vec<Triangles> {
     let Scene { model, instances, .. } = Scene::chess().unwrap();
-    let corners = |mesh: &Mesh, index: &[u32; 3]| index.map(|i| mesh.vertices[i as usize].position);
-    let list = |mesh: &Mesh| mesh.triangles.iter().map(|index| corners(mesh, index)).collect();
     let world = instances.iter().flat_map(|instance| {
-        let list: Vec<Triangle> = list(&model.meshes[instance.mesh]);
         let placed = move |at| instance.transform.transform_point3(at);
+        let list = corners(&model.meshes[instance.mesh]);
         list.into_iter().map(move |triangle| triangle.map(placed))
     });
     let world = Triangles { name: "chess".to_owned(), list: world.collect() };
     let meshes = model.meshes.iter();
     meshes
-        .map(|mesh| Triangles { name: mesh.name.clone(), list: list(mesh) })
+        .map(|mesh| Triangles { name: mesh.name.clone(), list: corners(mesh) })
         .chain([world])
         .collect()
 }
