@@ -44,8 +44,11 @@ impl Builder {
             let builder = DeviceBuilder::new(gpu)?;
             meshes.iter().map(|mesh| on_device(gpu, &builder, mesh)).collect()
         } else {
-            let bounds = |of: &Vec<Corners>| of.iter().map(Corners::bounds).collect::<Vec<_>>();
-            Ok(triangles.iter().map(|of| self.over(&bounds(of))).collect())
+            let tree = |triangles: &Vec<Corners>| {
+                let bounds: Vec<_> = triangles.iter().map(Corners::bounds).collect();
+                self.over(&bounds)
+            };
+            Ok(triangles.iter().map(tree).collect())
         }
     }
 }

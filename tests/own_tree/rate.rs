@@ -1,10 +1,14 @@
 //! How many rays a second: walks beside the device's own queries, in one run.
 
+use std::cell::LazyCell;
+
 use common::glam::{Affine3A, DVec3, Quat, Vec3};
 use common::scene::{Camera, Instance, Scene};
 use own_tree::Builder;
+use reference::Ray;
 use reference::random::Random;
 use run::figures;
+use run::primary_hits::reference;
 use serde_json::{Map, Value, json};
 
 use crate::hunts;
@@ -69,32 +73,48 @@ fn quartiles(mut numbers: Vec<f64>) -> [f64; 3] {
     [1, 2, 3].map(|quarter| numbers[quarter * (numbers.len() - 1) / 4])
 }
 
+fn misses(answer: &Answer) -> bool {
+    answer.instance == NOTHING
+}
+
 /// How many times as fast walks are as the device's queries, in processor time, for each kind of ray.
 fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     const ROUNDS: usize = 9;
     let rig = Rig::beside_the_device(scene, Builder::Reinserted);
     let (walk, query) = (rig.pipeline(By::Walk, BEST), rig.pipeline(By::Query, BEST));
+    let exact = LazyCell::new(|| reference(scene));
     for (kind, rays) in kinds(&rig, scene) {
-        let (mut ratios, mut rates, mut differ, mut steps) = (Vec::new(), Vec::new(), 0, 0.0);
+        let (mut ratios, mut rates, mut steps) = (Vec::new(), Vec::new(), 0.0);
+        let mut differing: Vec<(&Given, Answer)> = Vec::new();
         for _ in 0..ROUNDS {
             let (ours, own) = rig.answers(&walk, By::Walk, &rays);
             let (theirs, device) = rig.answers(&query, By::Query, &rays);
             ratios.push(device / own);
             rates.push(rays.len() as f64 / own * 1e-3);
-            let misses = |answer: &Answer| answer.instance == NOTHING;
-            differ = ours.iter().zip(&theirs).filter(|(a, b)| misses(a) != misses(b)).count();
+            let both = rays.iter().zip(&ours).zip(&theirs);
+            let differ = both.filter(|((_, ours), theirs)| misses(ours) != misses(theirs));
+            differing = differ.map(|((ray, ours), _)| (ray, *ours)).collect();
             steps = ours.iter().map(|a| f64::from(a.count)).sum::<f64>() / rays.len() as f64;
         }
         let ([low, ratio, high], [_, rate, _]) = (quartiles(ratios), quartiles(rates));
+        let differ = differing.len();
+        let is_right = |(given, ours): &&(&Given, Answer)| {
+            let Given { origin, tmax, direction, .. } = **given;
+            let ray = Ray::from_f32(origin.to_array(), direction.to_array(), 0.0, tmax);
+            misses(ours) == exact.closest_hit(&ray, |_| true).is_none()
+        };
+        let walk_right = differing.iter().filter(is_right).count();
         println!(
             "{name} {kind}: {ratio:.2} times as fast ({low:.2} to {high:.2}); {rate:.2} million rays \
-             a second of a processor; {steps:.1} steps; {differ} of {} differ",
+             a second of a processor; {steps:.1} steps; {differ} of {} differ in hit or miss, the walk \
+             is right in {walk_right}",
             rays.len()
         );
         for (what, value) in [("ratio", ratio), ("low", low), ("high", high), ("steps", steps)] {
             figures.insert(format!("{name}.{kind}.{what}"), value.into());
         }
         figures.insert(format!("{name}.{kind}.differ"), differ.into());
+        figures.insert(format!("{name}.{kind}.right"), walk_right.into());
         figures.insert(format!("{name}.{kind}.rays"), rays.len().into());
     }
 }
@@ -167,7 +187,9 @@ fn the_time_of_each_rung() {
                 |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
             let [low, ratio, high] = quartiles((0..ROUNDS).map(ratio).collect());
             println!("{name} {of_boxes}: {ratio:.2} ({low:.2} to {high:.2})");
-            figures.insert(format!("{name}.{of_boxes}"), ratio.into());
+            for (what, value) in [("", ratio), (".low", low), (".high", high)] {
+                figures.insert(format!("{name}.{of_boxes}{what}"), value.into());
+            }
         }
     }
     let walk = rig.pipeline(By::Walk, PACKED);
