@@ -17,8 +17,8 @@ struct Ray {
 Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
     float farthest = max(max(abs(origin.x), abs(origin.y)), abs(origin.z)) + reach;
     float grown = BOXES == BOXES_BOUND ? growth * farthest : BOXES == BOXES_GUESS ? 1e-5 : 0.0;
-    // A component may be 0, or -0: its sign is what the walls are chosen by, in both. What 1 / 0 gives is left open
-    // by Vulkan, so that no component counts as less than this part of the largest.
+    // The walls are chosen by the sign, also of 0 and of -0. Vulkan leaves open what 1 / 0 gives, so that no
+    // component counts as less than this part of the largest.
     const float LEAST = 1.0 / (1 << 30) / (1 << 30);
     vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0)));
     vec3 size = abs(direction);
@@ -36,7 +36,7 @@ float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
     precise vec3 to_high = high - ray.origin + ray.growth;
     precise vec3 near = mix(to_high, to_low, up) * ray.inverse;
     precise vec3 far = mix(to_low, to_high, up) * ray.inverse;
-    // In a row that begins with a number: then a processor need not look out for what is none at each step.
+    // In a row that begins with a number: then a processor need not look out for NaN at each step.
     float enter = max(near.x, max(near.y, max(near.z, 0.0)));
     float leave = min(far.x, min(far.y, min(far.z, tmax)));
     if (BOXES == BOXES_IZE || BOXES == BOXES_BOUND) {

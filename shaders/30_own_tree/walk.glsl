@@ -86,7 +86,7 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
             uint near = b < a ? entry_of(node.children[1]) : entry_of(node.children[0]);
             uint far = b < a ? entry_of(node.children[0]) : entry_of(node.children[1]);
             // The near child comes first: what is found there may spare the far one. That is written in any case,
-            // which spares a branch, and counts only if both are met.
+            // and counts only if both are met.
             stack[height] = far;
             height += a < MISSED && b < MISSED ? 1 : 0;
             entry = a < MISSED || b < MISSED ? near : NOTHING;
