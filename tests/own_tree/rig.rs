@@ -71,12 +71,14 @@ pub const TWO_FLOAT: u32 = 2;
 pub const BEST: Rungs = Rungs { boxes: BOUND, triangles: WATERTIGHT, quantised: false };
 pub const PACKED: Rungs = Rungs { quantised: true, ..BEST };
 
-/// Seconds that processors have worked for this process.
+/// Seconds that processors have worked for the threads that this process has.
 fn worked() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let after = stat.rsplit(')').next().unwrap_or_default();
-    let ticks = after.split_whitespace().skip(11).take(2).filter_map(|n| n.parse::<f64>().ok());
-    ticks.sum::<f64>() / 100.0
+    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    let nanoseconds = threads.filter_map(|thread| {
+        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
+        text.split_whitespace().next()?.parse::<f64>().ok()
+    });
+    nanoseconds.sum::<f64>() * 1e-9
 }
 
 pub struct Rig {
