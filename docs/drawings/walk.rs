@@ -114,11 +114,13 @@ fn walk(tree: &[Place]) -> (Vec<Visit>, f64) {
                     [(_, near), (_, far)] => {
                         stack.push(far);
                         let (near, far) = (tree[near].name, tree[far].name);
-                        format!("enters {near} and {far}; {near} is nearer, {far} is put aside")
+                        format!(
+                            "the ray enters {near} and {far}; {near} is nearer, {far} is put aside"
+                        )
                     }
                     [(_, child)] => {
                         let missed = if tree[child].name == one { other } else { one };
-                        format!("enters {}, misses {missed}", tree[child].name)
+                        format!("the ray enters {}, misses {missed}", tree[child].name)
                     }
                     _ => format!("{one} and {other} begin behind the hit: neither is opened"),
                 }
@@ -208,9 +210,9 @@ pub fn near_first() -> String {
     let (visits, nearest) = walk(&tree);
     scene(&mut s, &tree, &visits, nearest);
     diagram(&mut s, &tree, &visits);
-    let unopened = ["No number, no visit: B is missed,", "D and E begin behind the hit."];
+    let unopened = ["White, grey: not visited.", "B is missed; D and E", "begin behind the hit."];
     for (row, line) in unopened.into_iter().enumerate() {
-        s.note([622.0, 268.0 + 18.0 * row as f64], Start, line);
+        s.note([622.0, 250.0 + 18.0 * row as f64], Start, line);
     }
     let top = 342.0;
     s.strong([56.0, top], Start, "visit");

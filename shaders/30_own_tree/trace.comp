@@ -45,7 +45,7 @@ vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
         case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
         case SHOW_ORIGIN: return missed ? vec4(-1.0) : vec4(start.origin, visible);
         case SHOW_STEPS: return vec4(heat(float(met.boxes + met.triangles) / 150.0), 1.0);
-        case SHOW_DEPTH: return vec4(missed ? vec3(0.0) : heat(float(depth_of(push.trees.at[0], met)) / STACK), 1.0);
+        case SHOW_DEPTH: return vec4(heat(missed ? 0.0 : float(depth_of(push.trees.at[0], met)) / 32.0), 1.0);
         default: return vec4(edges_over(0.5 * hit.color, hit.t), 1.0);
     }
 }
@@ -67,14 +67,21 @@ void main() {
     vec3 color = hit.color;
     Start start = shadow_start(hit);
     float visible = 1.0;
+    float apart = 1.0;    // from the pixel of the one ray
     if (SHOW == SHOW_WALK) {
         // ANCHOR: one_walk
-        // The boxes of this pixel's own walk are forgotten; those of the one ray count.
-        edge_t = 1e30;
-        visited = 0;
+        // The boxes of this pixel's own walk are forgotten; those of the one ray count. It walks twice: to count its
+        // nodes, and to draw as many of them as are asked for.
         vec2 size = vec2(imageSize(picture));
-        vec3 one = ray_direction(push.camera, floor(push.view.pixel * size) + 0.5, uvec2(size));
-        walk(push.trees.at[0], push.camera.origin, one, 1e30, false);
+        vec2 aim = floor(push.view.pixel * size) + 0.5;
+        vec3 one = ray_direction(push.camera, aim, uvec2(size));
+        last = push.view.step;
+        for (uint pass = 0; pass < 2; pass++) {
+            edge_t = 1e30;
+            visited = 0;
+            last = min(last, walk(push.trees.at[0], push.camera.origin, one, 1e30, false).boxes);
+        }
+        apart = distance(point, aim) / size.y;
         // ANCHOR_END: one_walk
     }
     if (hit.t >= 0.0 && SHOW < SHOW_STEPS) {
@@ -85,5 +92,8 @@ void main() {
     }
     vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0)
         : view_of(hit, met, direction, start, visible);
+    if (apart < 0.01) {
+        pixel.rgb = vec3(apart < 0.007 ? 1.0 : 0.0);
+    }
     imageStore(picture, ivec2(id), pixel);
 }

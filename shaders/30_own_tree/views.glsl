@@ -68,6 +68,7 @@ vec3 pixel_direction;
 float edge_t = 1e30;
 vec3 edge_color;
 uint visited = 0;
+uint last;    // the number of the last node that the view of one walk shows
 
 // ANCHOR: visit
 // Called by the walk at each node. The rays of boxes are those of the pixels; in the view of one walk all
@@ -77,7 +78,7 @@ void visit(Trees trees, Node node, uint inside) {
         return;
     }
     visited++;
-    if (SHOW == SHOW_WALK && visited > push.view.step) {
+    if (SHOW == SHOW_WALK && visited > last) {
         return;
     }
     vec3 o = push.camera.origin;
@@ -92,11 +93,16 @@ void visit(Trees trees, Node node, uint inside) {
         vec3 side = child.high - child.low;
         float longest = max(max(side.x, side.y), side.z) / length(d);
         bool fits = longest > push.view.size && longest <= 2.0 * push.view.size;
-        if (child.low.x <= child.high.x && (SHOW == SHOW_WALK || fits) && draws_edge(o, d, child, edge_t)) {
-            // Of the present step white, of earlier ones by their number.
-            bool present = SHOW == SHOW_WALK && visited == push.view.step;
+        if (child.low.x > child.high.x || !(SHOW == SHOW_WALK || fits)) {
+            continue;
+        }
+        // Of the present step white and over all others, of earlier ones by their number.
+        bool present = SHOW == SHOW_WALK && visited == last;
+        float t = present ? 1e30 : edge_t;
+        if (draws_edge(o, d, child, t)) {
+            edge_t = t;
             edge_color = present ? vec3(1.0)
-                : SHOW == SHOW_WALK ? heat(0.25 + 0.5 * float(visited) / float(push.view.step))
+                : SHOW == SHOW_WALK ? heat(0.1 + 0.7 * float(visited) / float(last))
                 : false_color(child.first);
         }
     }

@@ -102,7 +102,7 @@ fn from_a_thousand_triangles_to_a_million() {
     figures::give_timed("30_own_tree/growth", figures.into());
 }
 
-/// A landscape is wound around its axis, more and more.
+/// A landscape is twisted, by so many turns for each unit from its middle.
 #[test]
 fn a_tree_that_is_refitted_gets_worse() {
     let scene = landscape(72);
