@@ -1,11 +1,12 @@
 //! The book as a website, made by mdBook from the pages as they stand in `docs/`.
 //!
 //! [`contents`] gives the order, [`page`] composes each page for mdBook ([`formula`], [`color`], [`slider`],
-//! [`gallery`]; [`link`] says where its links lead), [`listing`] the pages of code. [`output`] puts the site
-//! in its place when all of it is right. [`moved`] leads on from old addresses.
+//! [`figure`], [`gallery`]; [`link`] says where its links lead), [`listing`] the pages of code. [`output`]
+//! puts the site in its place when all of it is right. [`moved`] leads on from old addresses.
 
 pub mod color;
 pub mod contents;
+pub mod figure;
 pub mod formula;
 pub mod gallery;
 pub mod html;
@@ -44,6 +45,8 @@ pub struct Counts {
     pub formulas: usize,
     /// Sliders.
     pub sliders: usize,
+    /// Figures that one can touch.
+    pub figures: usize,
 }
 
 /// Everything that is wrong with the pages, a line each.
@@ -83,13 +86,15 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
 
     let mut counts = Counts { pages: entries.len(), ..Counts::default() };
     let (mut faults, mut wanted, mut pictures) = (Vec::new(), Vec::new(), BTreeSet::new());
-    let mut codes = BTreeMap::new();
+    let (mut codes, mut scripts) = (BTreeMap::new(), BTreeSet::new());
     let mut texts = Vec::new();
     for entry in &entries {
         let text = project.read(&entry.file)?;
         let page = page::compose(&project, &entries, entry, &text);
         counts.formulas += page.formulas;
         counts.sliders += page.sliders;
+        counts.figures += page.figures.len();
+        scripts.extend(page.figures);
         faults.extend(page.faults);
         wanted.extend(page.wanted);
         pictures.extend(page.pictures);
@@ -112,6 +117,13 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
     fs::write(source.join("SUMMARY.md"), summary(&project, &entries, &codes))?;
     for picture in &pictures {
         picture.write(root, &source)?;
+    }
+    for name in &scripts {
+        fs::write(source.join(figure::FRAME.0), figure::FRAME.1)?;
+        match figure::script(&project, name)? {
+            Ok(script) => fs::write(source.join(figure::address(name)), script)?,
+            Err(wrong) => faults.extend(wrong),
+        }
     }
     (counts.code, counts.pictures) = (codes.len(), pictures.len());
 

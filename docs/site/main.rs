@@ -27,9 +27,10 @@ fn main() -> ExitCode {
         std::process::exit(1)
     });
     match site::output::replace(&out, |made| site::build(&root, made)) {
-        Ok(site::Counts { pages, code, pictures, formulas, sliders }) => {
+        Ok(site::Counts { pages, code, pictures, formulas, sliders, figures }) => {
             println!(
-                "{}: {pages} pages, {code} of code; {pictures} pictures, {formulas} formulas, {sliders} sliders",
+                "{}: {pages} pages, {code} of code; {pictures} pictures, {formulas} formulas, {sliders} sliders, \
+                 {figures} figures",
                 out.join("index.html").display()
             );
             ExitCode::SUCCESS

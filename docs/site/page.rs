@@ -17,7 +17,7 @@ use crate::contents::Entry;
 use crate::formula;
 use crate::link::{self, Target, Wanted};
 use crate::picture::{Part, Picture};
-use crate::{gallery, slider};
+use crate::{figure, gallery, slider};
 
 /// A page, ready for mdBook, and what it needs.
 #[derive(Debug, Default)]
@@ -36,6 +36,8 @@ pub struct Composed {
     pub formulas: usize,
     /// How many sliders it has.
     pub sliders: usize,
+    /// Its figures, by name.
+    pub figures: BTreeSet<String>,
 }
 
 /// What mdBook reads, and formulas.
@@ -57,7 +59,7 @@ pub fn compose(project: &Project, entries: &[Entry], entry: &Entry, text: &str) 
         page: &page,
         edits: Vec::new(),
         folded: false,
-        slider: None,
+        above: None,
         done: Composed::default(),
     };
     composer.done.faults.clone_from(&page.faults);
@@ -74,8 +76,8 @@ struct Composer<'a> {
     edits: Vec<(Range<usize>, String)>,
     /// Whether the next fenced block is a command that is seldom read.
     folded: bool,
-    /// What the mark of a slider says, until its picture comes, and its line.
-    slider: Option<(usize, String)>,
+    /// The line of the mark of a slider or a figure, its word and what it says, until its picture comes.
+    above: Option<(usize, String, String)>,
     done: Composed,
 }
 
@@ -149,8 +151,9 @@ impl Composer<'_> {
                 self.fault(index, what, "write a marker, such as <!-- snippet FILE#ANCHOR -->");
             }
         }
-        if let Some((index, _)) = self.slider.take() {
-            self.fault(index, "no picture follows the slider's mark", "write it above a picture");
+        if let Some((index, word, _)) = self.above.take() {
+            let what = format!("no picture follows the {word}'s mark");
+            self.fault(index, what, "write it above a picture");
         }
     }
 
@@ -171,7 +174,7 @@ impl Composer<'_> {
             at = span.end;
         }
         markdown.push_str(&self.text[at..]);
-        self.done.markdown = markdown;
+        self.done.markdown = markdown + &figure::scripts(self.done.figures.iter());
         self.done
     }
 
@@ -254,10 +257,12 @@ impl Composer<'_> {
         else {
             return self.fault(index, format!("there is no picture '{target}'"), "correct it");
         };
-        let mark = self.slider.take().map(|(_, mark)| mark);
+        let above = self.above.take().map(|(_, word, mark)| (word, mark));
+        let (word, mark) = above.unzip();
+        let is_figure = word.is_some_and(|word| word == "figure");
         let mark = mark.or(mistake.then(|| "right | wrong".to_owned()));
-        if let Some(mark) = mark {
-            match slider::html(self.project, self.page, &file, &mark, words) {
+        if let Some(mark) = mark.as_ref().filter(|_| !is_figure) {
+            match slider::html(self.project, self.page, &file, mark, words) {
                 Ok((html, pictures)) => {
                     self.done.sliders += 1;
                     self.done.pictures.extend(pictures);
@@ -273,6 +278,16 @@ impl Composer<'_> {
         let html = match linked {
             true => image,
             false => format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address()),
+        };
+        let html = match mark.filter(|_| is_figure) {
+            None => html,
+            Some(mark) => match figure::html(self.project, &mark, &html, words) {
+                Ok((name, html)) => {
+                    self.done.figures.insert(name);
+                    html
+                }
+                Err(what) => return self.fault(index, what, "correct the mark"),
+            },
         };
         self.done.pictures.extend(picture.still(&self.project.root));
         self.done.pictures.insert(picture);

@@ -28,6 +28,20 @@ pub struct Browser {
 impl Browser {
     /// Starts it.
     pub fn start() -> Self {
+        Self::with(&["--disable-gpu"])
+    }
+
+    /// Starts it as where there is no GPU that it would use.
+    pub fn without_webgl() -> Self {
+        Self::with(&["--disable-gpu", "--disable-3d-apis"])
+    }
+
+    /// Starts it with WebGL 2 on the processor, by SwiftShader.
+    pub fn with_webgl() -> Self {
+        Self::with(&["--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+    }
+
+    fn with(graphics: &[&str]) -> Self {
         let found = |name: &&&str| {
             let probe = Command::new(name).arg("--version").stderr(Stdio::null()).output();
             probe.is_ok_and(|probe| probe.status.success())
@@ -40,7 +54,8 @@ impl Browser {
         // It reads from 3 and writes to 4.
         let mut child = Command::new("sh")
             .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1", "sh", name])
-            .args(["--headless", "--remote-debugging-pipe", "--disable-gpu", "--no-first-run"])
+            .args(["--headless", "--remote-debugging-pipe", "--no-first-run"])
+            .args(graphics)
             // Root has no sandbox, and the pages are our own.
             .args(["--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars"])
             .args(["--disable-background-networking", "--disable-component-update"])
@@ -167,6 +182,17 @@ impl Browser {
                 json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code });
             self.call("Input.dispatchKeyEvent", &press);
         }
+    }
+
+    /// An element of the page as it is seen, as base64 of a PNG.
+    pub fn part(&mut self, element: &str) -> String {
+        let clip = self.run(&format!(
+            "(box => ({{ x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height, \
+             scale: 1 }}))({element}.getBoundingClientRect())"
+        ));
+        let part = json!({ "format": "png", "clip": clip, "captureBeyondViewport": true });
+        let shot = self.call("Page.captureScreenshot", &part);
+        shot["data"].as_str().unwrap_or_default().to_owned()
     }
 
     /// The page as it is seen, as base64 of a PNG.

@@ -13,7 +13,7 @@ const MANIFEST: &str = "[package]\nname = \"book\"\n\n[workspace]\nmembers = []\
 const SUMMARY: &str = "# Summary\n\n[One](one.md)\n\n# I · Part\n\n- [Two](two.md)\n";
 
 /// A book of two pages, the first as given.
-fn book(page: &str) -> TempDir {
+pub fn book(page: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let files = [
         ("Cargo.toml", MANIFEST),
@@ -40,7 +40,7 @@ fn names(folder: &Path) -> Vec<String> {
     files.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
-fn built(folder: &Path) -> Result<String, String> {
+pub fn built(folder: &Path) -> Result<String, String> {
     let out = folder.join("book");
     let result = site::output::replace(&out, |made| site::build(folder, made));
     match result {
@@ -78,6 +78,11 @@ fn every_fault_is_named_with_its_line() {
         ("$$\\frac{1}{2$$", "a '$' begins a formula that does not end"),
         ("{{#include a.md}}", "mdBook's {{#…}} is not filled in here"),
         ("<!-- slider -->\n\nNo picture.", "no picture follows the slider's mark"),
+        ("<!-- figure a -->\n\nNo picture.", "no picture follows the figure's mark"),
+        (
+            "<!-- figure b -->\n![A](images/a.svg)",
+            "there is no figure 'b': docs/site/figures/b.js does",
+        ),
         ("<!-- slider b: x | y -->\n![A](images/a.svg)", "the slider takes 'docs/images/b.png'"),
         (
             "<!-- snippet samples/x.rs#b -->\n```rust\n```\n<!-- /snippet -->",
@@ -92,8 +97,9 @@ fn every_fault_is_named_with_its_line() {
         let error = built(book(&format!("# One\n\n{fault}\n")).path());
         let error = error.expect_err(fault);
         let lines: Vec<&str> = error.lines().collect();
-        // A slider's fault is its picture's, one line below the mark.
-        let place = if expected.contains("the slider takes") { 4 } else { 3 };
+        // Such a fault is the picture's, one line below the mark.
+        let below = ["the slider takes", "there is no figure"];
+        let place = if below.iter().any(|what| expected.contains(what)) { 4 } else { 3 };
         let expected = format!("docs/one.md:{place}: {expected}");
         assert!(lines.len() == 1 && lines[0].starts_with(&expected), "{expected}: {error}");
         assert!(lines[0].contains("; "), "no remedy: {error}");

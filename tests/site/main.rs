@@ -8,6 +8,8 @@ mod browser;
 mod drawing;
 mod faults;
 #[cfg(unix)]
+mod figures;
+#[cfg(unix)]
 mod lost;
 mod pages;
 #[cfg(unix)]

@@ -9,20 +9,20 @@ use crate::browser::Browser;
 use crate::{addresses, built};
 
 const CHECKS: &str = include_str!("checks.js");
-const DESK: (u32, u32, bool) = (1280, 900, false);
-const PHONE: (u32, u32, bool) = (390, 844, true);
+pub const DESK: (u32, u32, bool) = (1280, 900, false);
+pub const PHONE: (u32, u32, bool) = (390, 844, true);
 
 pub fn address(page: &str) -> String {
     let path = fs::canonicalize(&built().folder).unwrap().join(page);
     format!("file://{}", path.display().to_string().replace(' ', "%20"))
 }
 
-fn sized(browser: &mut Browser, (width, height, phone): (u32, u32, bool)) {
+pub fn sized(browser: &mut Browser, (width, height, phone): (u32, u32, bool)) {
     browser.size(width, height, phone);
 }
 
 /// What went wrong while a page was open, and what it asked of another machine.
-fn complaints(told: &[Value]) -> Vec<String> {
+pub fn complaints(told: &[Value]) -> Vec<String> {
     let mut found = Vec::new();
     for event in told {
         let parameters = &event["params"];

@@ -22,8 +22,8 @@ impl Composer<'_> {
                 self.folded = true;
                 String::new()
             }
-            "slider" => {
-                self.slider = Some((index, rest.trim().to_owned()));
+            "slider" | "figure" => {
+                self.above = Some((index, word.to_owned(), rest.trim().to_owned()));
                 String::new()
             }
             _ => String::new(),

@@ -1,0 +1,75 @@
+//! Figures that one can touch: a script draws them, from the chapters' own shaders where there are any.
+//!
+//! `<!-- figure NAME: CONTROLS -->` stands above a picture, which is shown where no script runs. NAME is
+//! `docs/site/figures/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU; [`control`] says how
+//! controls are written, and [`shader`] what becomes of the shader.
+
+pub mod control;
+pub mod shader;
+mod source;
+
+use anyhow::Result;
+use manuscript::fault::Fault;
+use manuscript::project::Project;
+
+use crate::color::escaped;
+
+/// What all figures share, as the site has it.
+pub const FRAME: (&str, &str) = ("figure.js", include_str!("figure.js"));
+
+/// Where figures lie.
+const FOLDER: &str = "docs/site/figures";
+
+/// The file of a figure's script on the site.
+pub fn address(name: &str) -> String {
+    format!("figure-{name}.js")
+}
+
+/// What a mark says: the figure's name and its HTML in one line, around its picture.
+///
+/// # Errors
+/// What is wrong with the mark.
+pub fn html(
+    project: &Project,
+    mark: &str,
+    picture: &str,
+    words: &str,
+) -> Result<(String, String), String> {
+    let (name, controls) = mark.split_once(':').unwrap_or((mark, ""));
+    let name = name.trim();
+    if !project.has(&format!("{FOLDER}/{name}.js")) {
+        return Err(format!("there is no figure '{name}': {FOLDER}/{name}.js does not exist"));
+    }
+    let html = format!(
+        "<span class=\"figure\" data-figure=\"{name}\" role=\"group\" aria-label=\"{}\">\
+         <span class=\"still\">{picture}</span><span class=\"controls\" hidden>{}</span></span>",
+        escaped(words),
+        control::html(controls)?
+    );
+    Ok((name.to_owned(), html))
+}
+
+/// The end of a page that has figures: their scripts.
+pub fn scripts<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    let files: Vec<String> = names.map(|name| address(name)).collect();
+    let all = files.iter().map(String::as_str);
+    let frame = (!files.is_empty()).then_some(FRAME.0);
+    let tags = frame.into_iter().chain(all);
+    tags.map(|file| format!("\n\n<script src=\"{file}\" defer></script>")).collect()
+}
+
+/// A figure's script, with its shader above it, or what is wrong with the shader.
+///
+/// # Errors
+/// If a file cannot be read.
+pub fn script(project: &Project, name: &str) -> Result<Result<String, Vec<Fault>>> {
+    let own = project.read(&format!("{FOLDER}/{name}.js"))?;
+    let file = format!("{FOLDER}/{name}.frag");
+    if !project.has(&file) {
+        return Ok(Ok(own));
+    }
+    let read = |path: &str| project.has(path).then(|| project.read(path).ok()).flatten();
+    // GLSL has neither of the two signs that would end the text.
+    Ok(shader::translated(&read, &file)
+        .map(|text| format!("figures.shaders[\"{name}\"] = `{text}`;\n\n{own}")))
+}
