@@ -1,6 +1,6 @@
 //! Figures that one can touch: a script draws them, from the chapters' own shaders where there are any.
 //!
-//! `<!-- figure NAME: CONTROLS -->` stands above a picture, which is shown where no script runs. NAME is
+//! `<!-- touch NAME: CONTROLS -->` stands above a picture, which is shown where no script runs. NAME is
 //! `docs/site/figures/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU; [`control`] says how
 //! controls are written, and [`shader`] what becomes of the shader.
 

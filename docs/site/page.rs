@@ -259,7 +259,7 @@ impl Composer<'_> {
         };
         let above = self.above.take().map(|(_, word, mark)| (word, mark));
         let (word, mark) = above.unzip();
-        let is_figure = word.is_some_and(|word| word == "figure");
+        let is_figure = word.is_some_and(|word| word == "touch");
         let mark = mark.or(mistake.then(|| "right | wrong".to_owned()));
         if let Some(mark) = mark.as_ref().filter(|_| !is_figure) {
             match slider::html(self.project, self.page, &file, mark, words) {

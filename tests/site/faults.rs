@@ -78,9 +78,9 @@ fn every_fault_is_named_with_its_line() {
         ("$$\\frac{1}{2$$", "a '$' begins a formula that does not end"),
         ("{{#include a.md}}", "mdBook's {{#…}} is not filled in here"),
         ("<!-- slider -->\n\nNo picture.", "no picture follows the slider's mark"),
-        ("<!-- figure a -->\n\nNo picture.", "no picture follows the figure's mark"),
+        ("<!-- touch a -->\n\nNo picture.", "no picture follows the figure's mark"),
         (
-            "<!-- figure b -->\n![A](images/a.svg)",
+            "<!-- touch b -->\n![A](images/a.svg)",
             "there is no figure 'b': docs/site/figures/b.js does",
         ),
         ("<!-- slider b: x | y -->\n![A](images/a.svg)", "the slider takes 'docs/images/b.png'"),

@@ -22,7 +22,7 @@ impl Composer<'_> {
                 self.folded = true;
                 String::new()
             }
-            "slider" | "figure" => {
+            "slider" | "touch" => {
                 self.above = Some((index, word.to_owned(), rest.trim().to_owned()));
                 String::new()
             }
