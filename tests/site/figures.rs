@@ -266,7 +266,7 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
 
 /// A book with the figure of the sphere alone, whose `sphere.glsl` has other words in a place.
 fn other(from: &str, to: &str) -> (tempfile::TempDir, Result<String, String>) {
-    let mark = "<!-- figure sphere: rung = textbook; distance = 1e4 -->";
+    let mark = "<!-- touch sphere: rung = textbook; distance = 1e4 -->";
     let folder = faults::book(&format!("# One\n\n{mark}\n![A](images/a.svg)\n"));
     for file in [
         "docs/site/figures/sphere.js",
