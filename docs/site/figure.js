@@ -30,9 +30,9 @@ const figures = (() => {
             this.seen = false;
             this.asked = false;
             this.read = new Set();
-            this.inputs().forEach(input => input.dataset.low && this.tell(input));
+            this.inputs().forEach(input => input.type === "range" && this.tell(input));
             this.controls.addEventListener("input", ({ target }) => {
-                if (target.dataset.low) {
+                if (target.type === "range") {
                     this.tell(target);
                 }
                 this.change();
@@ -74,6 +74,43 @@ const figures = (() => {
             return canvas;
         }
 
+        // A drawing under a label, and the part of it that is drawn anew. What it shows is told in words, too.
+        drawing(viewBox, label) {
+            const panel = this.add(this.stage, "span", "panel");
+            this.add(panel, "span", "label", label);
+            const svg = this.shape(panel, "svg");
+            svg.setAttribute("viewBox", viewBox);
+            svg.setAttribute("aria-hidden", "true");
+            return this.shape(svg, "g");
+        }
+
+        shape(to, tag) {
+            return to.appendChild(document.createElementNS("http://www.w3.org/2000/svg", tag));
+        }
+
+        // A point of a drawing that the reader drags: `moved` is told where to. Controls do it for the keyboard.
+        grip(drawing, moved) {
+            const svg = drawing.ownerSVGElement;
+            const grip = this.shape(svg, "circle");
+            grip.setAttribute("class", "grip");
+            grip.setAttribute("r", 10);
+            grip.addEventListener("pointerdown", ({ pointerId }) => grip.setPointerCapture(pointerId));
+            grip.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
+                if (grip.hasPointerCapture(pointerId)) {
+                    const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg.getScreenCTM().inverse());
+                    moved(x, y);
+                }
+            });
+            return grip;
+        }
+
+        // Sets a slider as the reader would; it brings the number into its range.
+        set(name, number) {
+            const input = this.input(name);
+            input.value = Math.round(number);
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+        }
+
         input(name) {
             const input = this.controls.querySelector(`[name="${name}"]`);
             if (!input) {
@@ -100,7 +137,7 @@ const figures = (() => {
 
         // A number as it is written in a sentence.
         spell(number) {
-            if (number >= 0.001 || number === 0) {
+            if (Math.abs(number) >= 0.001 || number === 0) {
                 return number.toLocaleString("en", { maximumSignificantDigits: 3 });
             }
             const [digits, exponent] = number.toExponential(1).split("e-");

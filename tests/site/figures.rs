@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use reference::Ray;
 use reference::sphere::Sphere;
 use reference::triangle::intersect_exact;
@@ -18,6 +18,8 @@ use crate::{addresses, built, faults};
 
 const SPHERE: &str = "08_intersection.html";
 const START: &str = "05_shadow_miss.html";
+const TRIANGLE: &str = "02_basic.html";
+const WALK: &str = "30_own_tree.html";
 const TABLES: [&str; 2] = ["01_foundation.html", "07_multi_closest_hit.html"];
 
 fn root() -> std::path::PathBuf {
@@ -262,6 +264,188 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
     let far = [("point", "along the ray"), ("distance", "80"), ("step", "20")];
     assert!(found(&mut browser, &far, part)[0].as_f64().unwrap() > 0.3);
     assert_eq!(found(&mut browser, &[("distance", "20"), ("step", "100")], part), json!([0, 1]));
+}
+
+/// What an element of a drawing says in an attribute.
+fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
+    element.split_once(&format!("{name}=\"")).unwrap().1.split('"').next().unwrap()
+}
+
+/// A row of the walk's table: what is visited, what comes of it, and the stack then.
+type Visit = (String, String, Vec<String>);
+
+/// The triangles of the walk's drawing, and its table.
+fn drawn_walk() -> (Vec<[DVec2; 3]>, Vec<Visit>) {
+    let svg = fs::read_to_string(root().join("docs/images/30_walk.svg")).unwrap();
+    let corner = |point: &str| {
+        let (x, y) = point.split_once(',').unwrap();
+        DVec2::new(x.parse().unwrap(), y.parse().unwrap())
+    };
+    let (mut triangles, mut rows) = (Vec::new(), Vec::new());
+    for element in svg.lines() {
+        if element.starts_with("<polygon") {
+            let corners: Vec<DVec2> = attribute(element, "points").split(' ').map(corner).collect();
+            triangles.extend(<[DVec2; 3]>::try_from(corners));
+        }
+        if element.starts_with("<text") && attribute(element, "y").parse::<f64>().unwrap() > 342.0 {
+            let text = element.split(['>', '<']).nth(2).unwrap().to_owned();
+            match (attribute(element, "x").parse::<f64>().unwrap(), rows.last_mut()) {
+                (56.0, _) => rows.push((text, String::new(), Vec::new())),
+                (130.0, Some(row)) => row.1 = text,
+                (546.0.., Some(row)) => row.2.push(text),
+                _ => {}
+            }
+        }
+    }
+    (triangles, rows)
+}
+
+/// Where a ray from `eye` enters a triangle: where it is within all three edges.
+fn entered(eye: DVec2, towards: DVec2, corners: [DVec2; 3]) -> Option<f64> {
+    let turn = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum();
+    let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
+    for i in 0..3 {
+        let edge = turn * (corners[(i + 1) % 3] - corners[i]);
+        let (within, rate) = (edge.perp_dot(eye - corners[i]), edge.perp_dot(towards));
+        match rate {
+            0.0 if within < 0.0 => return None,
+            0.0 => {}
+            _ if rate > 0.0 => enter = enter.max(-within / rate),
+            _ => leave = leave.min(-within / rate),
+        }
+    }
+    (enter <= leave).then_some(enter)
+}
+
+#[test]
+fn the_walks_find_the_nearest_triangle() {
+    let (triangles, rows) = drawn_walk();
+    assert_eq!((triangles.len(), rows.len()), (5, 6));
+    let mut browser = Browser::start();
+    shown(&mut browser, &address(WALK));
+    let drawn = found(&mut browser, &[], "[Object.values(found.corners), found.visits, found.hit]");
+    let corners: Vec<[[f64; 2]; 3]> = serde_json::from_value(drawn[0].clone()).unwrap();
+    assert_eq!(corners.iter().map(|all| all.map(DVec2::from)).collect::<Vec<_>>(), triangles);
+    assert_eq!([&drawn[1], &drawn[2]], [&json!(rows), &json!("C")]);
+    // Each step shows what its row says.
+    for (step, row) in rows.iter().enumerate() {
+        found(&mut browser, &[("step", &(step + 1).to_string())], "found");
+        let stack = if row.2.is_empty() { vec!["empty".to_owned()] } else { row.2.clone() };
+        let shown = "[...figures.all[0].stage.querySelectorAll('.record')].map(a => a.textContent)";
+        assert_eq!(browser.run(shown), json!(stack));
+        let now =
+            "figures.all[0].stage.querySelector('.panel + .panel rect.visited-now').dataset.of";
+        assert_eq!(browser.run(now), json!(row.0));
+        let said = browser.run("figures.all[0].said.textContent");
+        assert!(said.as_str().unwrap().contains(&row.1), "{said}");
+    }
+
+    let mut random = 1u32;
+    let mut height = || {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        i64::from(random >> 16) % 201
+    };
+    let (mut hits, mut counts) = (0, [0, 0]);
+    for _ in 0..200 {
+        let (eye, aim) = (height(), height());
+        let controls = [("eye", eye), ("aim", aim)].map(|(name, at)| (name, at.to_string()));
+        let controls = controls.each_ref().map(|(name, at)| (*name, &**at));
+        let from = DVec2::new(34.0, (300 - eye) as f64);
+        let towards = DVec2::new(400.0, (eye - aim) as f64);
+        let met = triangles.iter().zip(["A", "B", "C", "D", "E"]);
+        let met = met.filter_map(|(corners, name)| Some((entered(from, towards, *corners)?, name)));
+        let nearest = met.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name);
+        for order in ["near", "far"] {
+            let told = found(&mut browser, &controls, "[found.hit, found.counts]");
+            assert_eq!(told[0], json!(nearest), "{controls:?}, {order} first: {told}");
+            found(&mut browser, &[("first", order)], "found");
+            for (all, count) in counts.iter_mut().zip(told[1].as_array().unwrap()) {
+                *all += count.as_u64().unwrap();
+            }
+        }
+        hits += usize::from(nearest.is_some());
+    }
+    assert!(hits > 100 && hits < 200 && counts[0] < counts[1], "{hits} {counts:?}");
+}
+
+#[test]
+fn the_weights_are_those_of_the_exact_hit() {
+    let mut browser = Browser::with_webgl();
+    sized(&mut browser, DESK);
+    shown(&mut browser, &address(TRIANGLE));
+    let drawn = found(&mut browser, &[], "[found.corners, found.weights, found.color]");
+    let svg = fs::read_to_string(root().join("docs/images/barycentrics.svg")).unwrap();
+    let corners: [[f64; 2]; 3] = serde_json::from_value(drawn[0].clone()).unwrap();
+    let points = corners.map(|[x, y]| format!("{x:.1},{y:.1}")).join(" ");
+    assert!(svg.contains(&format!("<polygon points=\"{points}\" fill=\"none\"")), "{points}");
+    let mut random = 1u32;
+    let mut within = |low: u32, high: u32| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        low + (random >> 16) % (high + 1 - low)
+    };
+    let triangle = corners.map(|[x, y]| DVec3::new(x, y, 0.0));
+    let (mut hits, mut points) = (0, vec![(250, 131)]);
+    points.extend((0..100).map(|_| (within(40, 450), within(20, 240))));
+    for (x, y) in points {
+        let (across, up) = (x.to_string(), y.to_string());
+        let told = found(&mut browser, &[("x", &across), ("y", &up)], "found");
+        let ray = Ray {
+            origin: DVec3::new(f64::from(x), 300.0 - f64::from(y), 1.0),
+            direction: DVec3::new(0.0, 0.0, -1.0),
+            tmin: 0.0,
+            tmax: f64::INFINITY,
+        };
+        let exact = intersect_exact(&ray, &triangle);
+        assert_eq!(told["hit"], exact.is_some(), "{told}");
+        let weights: [f64; 3] = serde_json::from_value(told["weights"].clone()).unwrap();
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{told}");
+        let said = browser.run("figures.all[0].said.textContent");
+        assert_eq!(said.as_str().unwrap().contains("misses the triangle"), exact.is_none());
+        let Some(exact) = exact else {
+            assert!(weights.iter().any(|&weight| weight < 0.0), "{told}");
+            continue;
+        };
+        hits += 1;
+        for (weight, exact) in weights.iter().zip(&exact.weights) {
+            assert!((weight - exact.to_f64().value()).abs() < 1e-12, "{told}");
+        }
+    }
+    assert!(hits > 20 && hits < 90, "{hits}");
+
+    // The drawing of the mixed color, at a place where no point lies upon it.
+    found(&mut browser, &[("x", "450"), ("y", "240")], "found");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mixed.png");
+    taken(&mut browser, "figures.all[0].stage.querySelector('svg')", &file);
+    let picture = image::open(&file).unwrap().to_rgb8();
+    let scale = f64::from(picture.width()) / 416.0;
+    let [x, y] = [250.0 - 34.0, 169.0 - 44.0].map(|at| (at * scale) as u32);
+    let weights: [f64; 3] = serde_json::from_value(drawn[1].clone()).unwrap();
+    for (channel, weight) in picture.get_pixel(x, y).0.into_iter().zip(weights) {
+        assert!((f64::from(channel) - 255.0 * weight).abs() < 4.0, "{:?}", picture.get_pixel(x, y));
+    }
+}
+
+#[test]
+fn points_can_be_dragged() {
+    let grips = "[...figures.all[0].stage.querySelectorAll('.grip')].map(grip => grip.getBoundingClientRect())
+        .map(box => [box.x + box.width / 2, box.y + box.height / 2, box.width])";
+    let mut browser = Browser::with_webgl();
+    sized(&mut browser, PHONE);
+    for (page, index) in [(WALK, 0), (WALK, 1), (TRIANGLE, 0), (TRIANGLE, 1)] {
+        shown(&mut browser, &address(page));
+        let place = browser.run(grips)[index].clone();
+        let [x, y, wide]: [f64; 3] = serde_json::from_value(place).unwrap();
+        assert!(wide > 15.0, "{page}: {wide}");
+        for (kind, up) in [("Pressed", 0.0), ("Moved", 20.0), ("Moved", 40.0), ("Released", 40.0)] {
+            let kind = format!("mouse{kind}");
+            let event = json!({ "type": kind, "x": x, "y": y - up, "button": "left", "buttons": 1, "clickCount": 1 });
+            browser.call("Input.dispatchMouseEvent", &event);
+        }
+        wait(&mut browser, "!figures.all[0].changed");
+        let moved = browser.run(grips)[index][1].as_f64().unwrap();
+        assert!((moved - (y - 40.0)).abs() < 1.5, "{page}: from {y} to {moved}");
+    }
 }
 
 /// A book with the figure of the sphere alone, whose `sphere.glsl` has other words in a place.

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `rung = stable in textbook \| stable` | a choice |
 //! | `instance = 3 in 0..7` | a whole number |
+//! | `height = 80 in 0..200 slide` | a slider of whole numbers |
 //! | `distance = 100 in 1..1e6 log` | a slider, 20 steps to ten times as much |
 //! | `stride = 2` | a number or a word that the reader cannot change |
 
@@ -42,7 +43,11 @@ fn one(control: &str) -> Result<String, String> {
         }
         return Ok(labelled(&format!("<select name=\"{name}\">{options}</select>")));
     };
-    let (high, log) = high.strip_suffix(" log").map_or((high, false), |high| (high, true));
+    let (high, form) = ["log", "slide"]
+        .into_iter()
+        .find_map(|form| Some((high.strip_suffix(form)?, form)))
+        .unwrap_or((high, ""));
+    let log = form == "log";
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong("is no number"));
     let (at, from, to) = (number(&value)?, number(low)?, number(high)?);
     if !(from <= at && at <= to && (from > 0.0 || !log)) {
@@ -53,6 +58,12 @@ fn one(control: &str) -> Result<String, String> {
         let input = format!(
             "<input type=\"range\" name=\"{name}\" data-low=\"{from}\" data-steps=\"{STEPS}\" min=\"0\" \
              max=\"{to}\" value=\"{at}\"> <output></output>"
+        );
+        return Ok(labelled(&input));
+    }
+    if form == "slide" {
+        let input = format!(
+            "<input type=\"range\" name=\"{name}\" min=\"{from}\" max=\"{to}\" value=\"{at}\"> <output></output>"
         );
         return Ok(labelled(&input));
     }
@@ -80,6 +91,11 @@ mod tests {
                 "n = 3 in 0..7;",
                 "<label class=\"control\"><span>n</span> <input type=\"number\" inputmode=\"numeric\" \
                  name=\"n\" min=\"0\" max=\"7\" value=\"3\"></label>",
+            ),
+            (
+                "h = -3 in -9..7 slide",
+                "<label class=\"control\"><span>h</span> <input type=\"range\" name=\"h\" min=\"-9\" \
+                 max=\"7\" value=\"-3\"> <output></output></label>",
             ),
             (
                 "d = 100 in 1..1e6 log",
