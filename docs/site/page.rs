@@ -152,7 +152,7 @@ impl Composer<'_> {
             }
         }
         if let Some((index, word, _)) = self.above.take() {
-            let what = format!("no picture follows the {word}'s mark");
+            let what = format!("no picture follows the mark '{word}'");
             self.fault(index, what, "write it above a picture");
         }
     }

@@ -77,8 +77,8 @@ fn every_fault_is_named_with_its_line() {
         ("$\\nonsense$", "the formula '\\nonsense' cannot be drawn: "),
         ("$$\\frac{1}{2$$", "a '$' begins a formula that does not end"),
         ("{{#include a.md}}", "mdBook's {{#…}} is not filled in here"),
-        ("<!-- slider -->\n\nNo picture.", "no picture follows the slider's mark"),
-        ("<!-- touch a -->\n\nNo picture.", "no picture follows the figure's mark"),
+        ("<!-- slider -->\n\nNo picture.", "no picture follows the mark 'slider'"),
+        ("<!-- touch a -->\n\nNo picture.", "no picture follows the mark 'touch'"),
         (
             "<!-- touch b -->\n![A](images/a.svg)",
             "there is no figure 'b': docs/site/figures/b.js does",
