@@ -67,6 +67,12 @@ pub fn compose(project: &Project, entries: &[Entry], entry: &Entry, text: &str) 
     composer.finish()
 }
 
+/// What the mark above a picture makes of it, and what the mark says.
+enum Above {
+    Slider(String),
+    Figure(String),
+}
+
 struct Composer<'a> {
     project: &'a Project,
     entries: &'a [Entry],
@@ -76,8 +82,8 @@ struct Composer<'a> {
     edits: Vec<(Range<usize>, String)>,
     /// Whether the next fenced block is a command that is seldom read.
     folded: bool,
-    /// The line of the mark of a slider or a figure, its word and what it says, until its picture comes.
-    above: Option<(usize, String, String)>,
+    /// The line of the mark of a slider or a figure, and what it says, until its picture comes.
+    above: Option<(usize, Above)>,
     done: Composed,
 }
 
@@ -151,7 +157,11 @@ impl Composer<'_> {
                 self.fault(index, what, "write a marker, such as <!-- snippet FILE#ANCHOR -->");
             }
         }
-        if let Some((index, word, _)) = self.above.take() {
+        if let Some((index, above)) = self.above.take() {
+            let word = match above {
+                Above::Slider(_) => "slider",
+                Above::Figure(_) => "touch",
+            };
             let what = format!("no picture follows the mark '{word}'");
             self.fault(index, what, "write it above a picture");
         }
@@ -257,11 +267,9 @@ impl Composer<'_> {
         else {
             return self.fault(index, format!("there is no picture '{target}'"), "correct it");
         };
-        let above = self.above.take().map(|(_, word, mark)| (word, mark));
-        let (word, mark) = above.unzip();
-        let is_figure = word.is_some_and(|word| word == "touch");
-        let mark = mark.or(mistake.then(|| "right | wrong".to_owned()));
-        if let Some(mark) = mark.as_ref().filter(|_| !is_figure) {
+        let above = self.above.take().map(|(_, above)| above);
+        let above = above.or(mistake.then(|| Above::Slider("right | wrong".to_owned())));
+        if let Some(Above::Slider(mark)) = &above {
             match slider::html(self.project, self.page, &file, mark, words) {
                 Ok((html, pictures)) => {
                     self.done.sliders += 1;
@@ -279,15 +287,15 @@ impl Composer<'_> {
             true => image,
             false => format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address()),
         };
-        let html = match mark.filter(|_| is_figure) {
-            None => html,
-            Some(mark) => match figure::html(self.project, &mark, &html, words) {
+        let html = match above {
+            Some(Above::Figure(mark)) => match figure::html(self.project, &mark, &html, words) {
                 Ok((name, html)) => {
                     self.done.figures.insert(name);
                     html
                 }
                 Err(what) => return self.fault(index, what, "correct the mark"),
             },
+            _ => html,
         };
         self.done.pictures.extend(picture.still(&self.project.root));
         self.done.pictures.insert(picture);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::color::escaped;
 use crate::link;
-use crate::page::Composer;
+use crate::page::{Above, Composer};
 
 impl Composer<'_> {
     /// A comment is a mark or nothing to a reader; other HTML stays.
@@ -23,7 +23,9 @@ impl Composer<'_> {
                 String::new()
             }
             "slider" | "touch" => {
-                self.above = Some((index, word.to_owned(), rest.trim().to_owned()));
+                let rest = rest.trim().to_owned();
+                let above = if word == "slider" { Above::Slider } else { Above::Figure };
+                self.above = Some((index, above(rest)));
                 String::new()
             }
             _ => String::new(),

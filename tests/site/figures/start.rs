@@ -1,0 +1,56 @@
+//! The start of 05's shadow ray, held to what it hits.
+
+use glam::DVec3;
+use reference::Ray;
+use reference::triangle::intersect_exact;
+use serde_json::json;
+
+use super::{found, shown};
+use crate::browser::Browser;
+use crate::reading::address;
+
+const PAGE: &str = "05_shadow_miss.html";
+
+#[test]
+fn the_starts_hit_their_surface_where_the_figure_says_acne() {
+    // The surface of the figure, from corner to corner.
+    let [low, high] = [0.1f32, 0.7].map(f64::from);
+    let corners = [[0.0, low, -8.0], [0.0, low, 8.0], [2.0, high, 0.0]].map(DVec3::from);
+    let mut browser = Browser::start();
+    shown(&mut browser, &address(PAGE));
+    let mut acne = 0;
+    // In steps of the sliders: 20 are ten times as much.
+    for point in ["along the ray", "by corners"] {
+        for distance in ["0", "20", "40", "80"] {
+            for step in ["0", "20", "35", "60"] {
+                let controls = [("point", point), ("distance", distance), ("step", step)];
+                let told = found(&mut browser, &controls, "found");
+                let start: [f64; 2] = serde_json::from_value(told["start"].clone()).unwrap();
+                let height = told["height"].as_f64().unwrap();
+                assert_eq!(start, start.map(|x| f64::from(x as f32)), "a start is a float");
+                let ray = Ray {
+                    origin: DVec3::new(start[0], start[1], 0.0),
+                    direction: DVec3::new(0.3, 1.0, 0.0),
+                    tmin: 0.0,
+                    tmax: f64::INFINITY,
+                };
+                let hits = intersect_exact(&ray, &corners).is_some();
+                assert_eq!(hits, height < 0.0, "{controls:?}: {told}");
+                let said = browser.run("figures.all[0].said.textContent");
+                assert_eq!(said.as_str().unwrap().contains(": acne."), hits, "{said}");
+                acne += usize::from(hits);
+                // From the bound on no start by corners lies below, however far the eye is.
+                let safe = 1e-8 * 10f64.powf(step.parse::<f64>().unwrap() / 20.0)
+                    >= told["bound"].as_f64().unwrap();
+                let all = told["acne"].as_f64().unwrap();
+                assert!(all == 0.0 || point == "along the ray" || !safe, "{controls:?}: {told}");
+            }
+        }
+    }
+    assert!(acne > 2, "{acne}");
+    // The page: a short step has acne, a long one leaks.
+    let part = "[found.acne, found.leaks]";
+    let far = [("point", "along the ray"), ("distance", "80"), ("step", "20")];
+    assert!(found(&mut browser, &far, part)[0].as_f64().unwrap() > 0.3);
+    assert_eq!(found(&mut browser, &[("distance", "20"), ("step", "100")], part), json!([0, 1]));
+}
