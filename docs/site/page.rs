@@ -12,6 +12,7 @@ use manuscript::page::{Kind, Page};
 use manuscript::project::Project;
 use pulldown_cmark::{CodeBlockKind, Event, LinkType, Options, Parser, Tag, TagEnd};
 
+use self::mark::Above;
 use crate::color::{self, escaped};
 use crate::contents::Entry;
 use crate::formula;
@@ -65,12 +66,6 @@ pub fn compose(project: &Project, entries: &[Entry], entry: &Entry, text: &str) 
     composer.done.faults.clone_from(&page.faults);
     composer.read();
     composer.finish()
-}
-
-/// What the mark above a picture makes of it, and what the mark says.
-enum Above {
-    Slider(String),
-    Figure(String),
 }
 
 struct Composer<'a> {
@@ -158,11 +153,7 @@ impl Composer<'_> {
             }
         }
         if let Some((index, above)) = self.above.take() {
-            let word = match above {
-                Above::Slider(_) => "slider",
-                Above::Figure(_) => "touch",
-            };
-            let what = format!("no picture follows the mark '{word}'");
+            let what = format!("no picture follows the mark '{}'", above.word());
             self.fault(index, what, "write it above a picture");
         }
     }

@@ -188,9 +188,12 @@ fn columns(matrix: &DAffine3) -> [Vec3; 4] {
 }
 
 // ANCHOR: growth
-/// u = 2^-24. A ray is taken into a mesh's space by products that are off by less than 16u of their largest
-/// terms, and there a box grows by 32u more.
-const GROWTH: f64 = 64.0 / 16_777_216.0;
+/// u = 2^-24, the most that a rounding is off.
+const U: f64 = 1.0 / 16_777_216.0;
+
+/// A ray is taken into a mesh's space by products that are off by less than 16u of their largest terms, and there
+/// a box grows by 32u more.
+const GROWTH: f64 = 64.0 * U;
 
 /// By how much an error in a mesh's space, relative to the largest coordinate, is larger in the world: the
 /// largest sum of a row of |L|·|W|, L the matrix, W its inverse. 1 where nothing is turned.
@@ -200,10 +203,10 @@ fn spread(to_world: &DAffine3, to_object: &DAffine3) -> f64 {
     [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::element_sum).into_iter().fold(0.0, f64::max)
 }
 
-/// Whether the inverse is one in 32 bits, too: of a matrix that is singular but for rounding, no digit of it is right.
+/// Whether the inverse is one in 32 bits, too: where the matrix is singular but for rounding, no digit of it is right.
 fn can_be_inverted(to_world: &DAffine3) -> bool {
     let to_object = to_world.inverse();
     columns(&to_object).iter().all(|column| column.is_finite())
-        && GROWTH * spread(to_world, &to_object) < 1.0
+        && U * spread(to_world, &to_object) < 1.0
 }
 // ANCHOR_END: growth

@@ -4,6 +4,7 @@ mod device;
 mod growth;
 mod host;
 mod hunts;
+mod instances;
 mod peer;
 mod rate;
 mod rig;

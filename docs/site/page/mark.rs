@@ -4,7 +4,23 @@ use std::ops::Range;
 
 use crate::color::escaped;
 use crate::link;
-use crate::page::{Above, Composer};
+use crate::page::Composer;
+
+/// What the mark above a picture makes of it, and what the mark says.
+pub(super) enum Above {
+    Slider(String),
+    Figure(String),
+}
+
+impl Above {
+    /// The mark's word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Slider(_) => "slider",
+            Self::Figure(_) => "touch",
+        }
+    }
+}
 
 impl Composer<'_> {
     /// A comment is a mark or nothing to a reader; other HTML stays.
