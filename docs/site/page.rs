@@ -280,9 +280,9 @@ impl Composer<'_> {
         };
         let html = match above {
             Some(Above::Figure(mark)) => match figure::html(self.project, &mark, &html, words) {
-                Ok((name, html)) => {
-                    self.done.figures.insert(name);
-                    html
+                Ok((name, html)) if self.done.figures.insert(name.clone()) => html,
+                Ok(_) => {
+                    return self.fault(index, "this figure stands on the page twice", "keep one");
                 }
                 Err(what) => return self.fault(index, what, "correct the mark"),
             },

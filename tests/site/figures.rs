@@ -21,9 +21,18 @@ fn root() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The pages with figures.
-fn pages() -> Vec<&'static String> {
-    addresses().filter(|page| built().pages[*page].0.contains("class=\"figure\"")).collect()
+/// Each page with figures, and the figures' names.
+fn pages() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    let named = |page: &'static String| {
+        let boxes = built().pages[page].0.split("data-figure=\"").skip(1);
+        (page.as_str(), boxes.map(|rest| rest.split('"').next().unwrap()).collect())
+    };
+    addresses().map(named).filter(|(_, names): &(_, Vec<_>)| !names.is_empty())
+}
+
+/// Every figure: its page, and its name.
+fn all() -> Vec<(&'static str, &'static str)> {
+    pages().flat_map(|(page, names)| names.into_iter().map(move |name| (page, name))).collect()
 }
 
 /// Waits, for so many frames at most, until an expression on the page is true.
@@ -38,13 +47,19 @@ fn wait(browser: &mut Browser, until: &str) {
     assert_eq!(browser.run(&script), true, "never: {until}");
 }
 
-/// Opens a page and brings its figure into view, until it is drawn.
-fn shown(browser: &mut Browser, address: &str) -> Vec<Value> {
+/// Opens a page and brings a figure into view, until it is drawn. From then on it is the page's variable `figure`.
+fn shown(browser: &mut Browser, address: &str, name: &str) -> Vec<Value> {
     browser.open("about:blank");
     let told = browser.open(address);
-    browser.run("figures.all[0].box.scrollIntoView({ block: 'center', behavior: 'instant' })");
-    wait(browser, "figures.all[0].found || figures.all[0].said.textContent");
+    chosen(browser, name);
+    browser.run("figure.box.scrollIntoView({ block: 'center', behavior: 'instant' })");
+    wait(browser, "figure.found || figure.said.textContent");
     told
+}
+
+/// Makes a figure the page's variable `figure`.
+fn chosen(browser: &mut Browser, name: &str) {
+    browser.run(&format!("window.figure = figures.all.find(({{ name }}) => name === {name:?})"));
 }
 
 /// A picture of an element of the page, without the bar that would stand before it.
@@ -58,23 +73,23 @@ fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Value 
     for (name, value) in controls {
         browser.run(&format!(
             "(input => {{
-                figures.all[0].found = null;
+                figure.found = null;
                 input.value = {value:?};
                 input.dispatchEvent(new Event('input', {{ bubbles: true }}));
-            }})(figures.all[0].input({name:?}))"
+            }})(figure.input({name:?}))"
         ));
-        wait(browser, "figures.all[0].found");
+        wait(browser, "figure.found");
     }
-    browser.run(&format!("(found => {what})(figures.all[0].found)"))
+    browser.run(&format!("(found => {what})(figure.found)"))
 }
 
 #[test]
 fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
     let mut browser = Browser::with_webgl();
     let mut answered = 0;
-    for page in pages() {
+    for (page, name) in all() {
         sized(&mut browser, PHONE);
-        let mut faults = complaints(&shown(&mut browser, &address(page)));
+        let mut faults = complaints(&shown(&mut browser, &address(page), name));
         for size in [PHONE, DESK] {
             sized(&mut browser, size);
             for name in ["light", "navy"] {
@@ -82,13 +97,13 @@ fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
                 faults.extend(checked(&mut browser).wrong);
             }
         }
-        assert_eq!(browser.run("figures.all[0].box.classList.contains('moves')"), true, "{page}");
+        assert_eq!(browser.run("figure.box.classList.contains('moves')"), true, "{page}");
         let names = browser.run(
-            "figures.all[0].inputs().filter(input => input.type !== 'hidden').map(input => input.name)",
+            "figure.inputs().filter(input => input.type !== 'hidden').map(input => input.name)",
         );
         let names: Vec<String> = serde_json::from_value(names).unwrap();
         assert!(names.len() > 1, "{names:?}");
-        browser.run(&format!("figures.all[0].input({:?}).focus()", names[0]));
+        browser.run(&format!("figure.input({:?}).focus()", names[0]));
         for (index, name) in names.iter().enumerate() {
             if index > 0 {
                 browser.press("Tab", 9);
@@ -96,38 +111,38 @@ fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
             assert_eq!(browser.run("document.activeElement.name"), json!(name), "{page}");
             let value = "document.activeElement.value";
             let before = browser.run(value);
-            browser.run("figures.all[0].found = null");
+            browser.run("figure.found = null");
             browser.press("ArrowDown", 40);
             if browser.run(value) == before {
                 browser.press("ArrowUp", 38);
             }
             assert_ne!(browser.run(value), before, "{page}: {name}");
-            wait(&mut browser, "figures.all[0].found");
+            wait(&mut browser, "figure.found");
             answered += 1;
         }
-        assert!(browser.run("location.pathname").as_str().unwrap().ends_with(page.as_str()));
+        assert!(browser.run("location.pathname").as_str().unwrap().ends_with(page));
         // Whoever wants less motion has none.
-        assert_eq!(
-            browser.run("figures.all[0].box.getAnimations({ subtree: true }).length"),
-            0,
-            "{page}"
-        );
+        assert_eq!(browser.run("figure.box.getAnimations({ subtree: true }).length"), 0, "{page}");
         faults.extend(complaints(&browser.told()));
         assert!(faults.is_empty(), "{page}:\n{}", faults.join("\n"));
     }
-    assert!(answered > 10 && pages().len() == built().counts.figures, "{answered}");
+    assert!(answered > 10 && all().len() == built().counts.figures, "{answered}");
 }
 
 #[test]
 fn points_can_be_dragged() {
-    let grips = "[...figures.all[0].stage.querySelectorAll('.grip')].map(grip => grip.getBoundingClientRect())
+    let grips =
+        "[...figure.stage.querySelectorAll('.grip')].map(grip => grip.getBoundingClientRect())
         .map(box => [box.x + box.width / 2, box.y + box.height / 2, box.width])";
     let mut browser = Browser::with_webgl();
     sized(&mut browser, PHONE);
-    for (page, index) in
-        [(walk::PAGE, 0), (walk::PAGE, 1), (triangle::PAGE, 0), (triangle::PAGE, 1)]
-    {
-        shown(&mut browser, &address(page));
+    for (page, name, index) in [
+        (walk::PAGE, "walk", 0),
+        (walk::PAGE, "walk", 1),
+        (triangle::PAGE, "triangle", 0),
+        (triangle::PAGE, "triangle", 1),
+    ] {
+        shown(&mut browser, &address(page), name);
         let place = browser.run(grips)[index].clone();
         let [x, y, wide]: [f64; 3] = serde_json::from_value(place).unwrap();
         assert!(wide > 15.0, "{page}: {wide}");
@@ -136,7 +151,7 @@ fn points_can_be_dragged() {
             let event = json!({ "type": kind, "x": x, "y": y - up, "button": "left", "buttons": 1, "clickCount": 1 });
             browser.call("Input.dispatchMouseEvent", &event);
         }
-        wait(&mut browser, "!figures.all[0].changed");
+        wait(&mut browser, "!figure.changed");
         let moved = browser.run(grips)[index][1].as_f64().unwrap();
         assert!((moved - (y - 40.0)).abs() < 1.5, "{page}: from {y} to {moved}");
     }
@@ -176,8 +191,8 @@ fn a_changed_line_of_a_shader_changes_its_figure() {
         let (folder, built) = other("b * b - a * c", to);
         built.unwrap();
         let page = folder.path().join("book/one.html");
-        shown(&mut browser, &format!("file://{}", page.display()));
-        medians.push(browser.run("figures.all[0].found.falseHits"));
+        shown(&mut browser, &format!("file://{}", page.display()), "sphere");
+        medians.push(browser.run("figure.found.falseHits"));
     }
     assert_ne!(medians[0], medians[1]);
 }
@@ -205,41 +220,42 @@ fn a_figure_out_of_view_costs_nothing() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, DESK);
     browser.open(&address(sphere::PAGE));
-    let draws = "figures.all[0].found";
+    chosen(&mut browser, "sphere");
+    let draws = "figure.found";
     // A figure in view would be drawn in the next frame.
-    let change = "figures.all[0].change(); new Promise(done => \
+    let change = "figure.change(); new Promise(done => \
                   requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))";
     browser.run(change);
     assert_eq!(browser.run(&format!("{draws} === undefined")), true);
-    shown(&mut browser, &address(sphere::PAGE));
+    shown(&mut browser, &address(sphere::PAGE), "sphere");
     browser.run("scrollTo({ top: 0, behavior: 'instant' })");
-    wait(&mut browser, "!figures.all[0].seen");
-    browser.run("figures.all[0].found = null");
+    wait(&mut browser, "!figure.seen");
+    browser.run("figure.found = null");
     browser.run(change);
     assert_eq!(browser.run(&format!("{draws} === null")), true);
-    browser.run("figures.all[0].box.scrollIntoView()");
+    browser.run("figure.box.scrollIntoView()");
     wait(&mut browser, draws);
 }
 
 #[test]
 fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
-    let still = "[figures.all[0].box.querySelector('.still').checkVisibility(), \
-                 figures.all[0].controls.checkVisibility(), figures.all[0].said.textContent]";
+    let still = "[figure.box.querySelector('.still').checkVisibility(), \
+                 figure.controls.checkVisibility(), figure.said.textContent]";
     let mut browser = Browser::with_webgl();
-    shown(&mut browser, &address(sphere::PAGE));
+    shown(&mut browser, &address(sphere::PAGE), "sphere");
     browser.run(
         "window.loses = figures.context().getExtension('WEBGL_lose_context'); loses.loseContext()",
     );
-    wait(&mut browser, "!figures.all[0].box.classList.contains('moves')");
+    wait(&mut browser, "!figure.box.classList.contains('moves')");
     let told = browser.run(still);
     assert!(told[2].as_str().unwrap().starts_with("The browser has taken the GPU away"), "{told}");
     assert_eq!([&told[0], &told[1]], [&json!(true), &json!(false)]);
     browser.run("loses.restoreContext()");
-    wait(&mut browser, "figures.all[0].box.classList.contains('moves')");
+    wait(&mut browser, "figure.box.classList.contains('moves')");
     assert_eq!(browser.run(still)[0], false);
 
     let mut browser = Browser::without_webgl();
-    let told = shown(&mut browser, &address(sphere::PAGE));
+    let told = shown(&mut browser, &address(sphere::PAGE), "sphere");
     assert_eq!(complaints(&told), Vec::<String>::new());
     let told = browser.run(still);
     assert!(told[2].as_str().unwrap().starts_with("This browser has no WebGL 2"), "{told}");
@@ -251,7 +267,7 @@ fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
 fn the_scripts_of_a_page_are_small() {
     let size = |file: &str| fs::metadata(built().folder.join(file)).unwrap().len();
     let own = fs::metadata(root().join("docs/site/site.js")).unwrap().len();
-    for page in pages() {
+    for (page, _) in pages() {
         let tags = built().pages[page].0.split("<script src=\"figure").skip(1);
         let files = tags.map(|rest| format!("figure{}", rest.split('"').next().unwrap()));
         let total: u64 = own + files.map(|file| size(&file)).sum::<u64>();
@@ -266,14 +282,13 @@ fn stills() {
     assert_eq!(std::env::var("UPDATE").as_deref(), Ok("1"), "UPDATE=1 writes them");
     let mut browser = Browser::with_webgl();
     sized(&mut browser, (900, 900, false));
-    for page in pages() {
-        shown(&mut browser, &address(page));
-        let still =
-            browser.run("figures.all[0].box.querySelector('.still img').getAttribute('src')");
+    for (page, name) in all() {
+        shown(&mut browser, &address(page), name);
+        let still = browser.run("figure.box.querySelector('.still img').getAttribute('src')");
         let still = still.as_str().unwrap().to_owned();
         // Others are drawings.
         if still.ends_with("_figure.png") {
-            taken(&mut browser, "figures.all[0].stage", &root().join("docs").join(still));
+            taken(&mut browser, "figure.stage", &root().join("docs").join(still));
         }
     }
 }
@@ -284,15 +299,15 @@ fn pictures() {
     let folder = std::path::PathBuf::from(std::env::var_os("SHOTS").expect("SHOTS names a folder"));
     fs::create_dir_all(&folder).unwrap();
     let mut browser = Browser::with_webgl();
-    for page in pages() {
+    for (page, figure) in all() {
         for (size, on) in [(DESK, "desk"), (PHONE, "phone")] {
             sized(&mut browser, size);
-            shown(&mut browser, &address(page));
+            shown(&mut browser, &address(page), figure);
             for name in ["light", "navy"] {
                 theme(&mut browser, name);
                 browser.run("new Promise(done => setTimeout(done, 600))");
-                let file = folder.join(format!("figure-{page}-{on}-{name}.png"));
-                taken(&mut browser, "figures.all[0].box", &file);
+                let file = folder.join(format!("figure-{page}-{figure}-{on}-{name}.png"));
+                taken(&mut browser, "figure.box", &file);
             }
         }
     }

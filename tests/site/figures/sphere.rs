@@ -18,7 +18,7 @@ fn the_spheres_agree_with_the_exact_ones() {
     const EVERY: usize = 59;
     let sphere = Sphere { center: [0.0; 3].into(), radius: 1.0 };
     let mut browser = Browser::with_webgl();
-    shown(&mut browser, &address(PAGE));
+    shown(&mut browser, &address(PAGE), "sphere");
     let sample = format!(
         "({{ eye: found.eye, truths: found.truths,
             rays: Array.from({{ length: 57600 }}, (_, i) => i).filter(i => i % {EVERY} === 0)

@@ -17,7 +17,7 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
     let [low, high] = [0.1f32, 0.7].map(f64::from);
     let corners = [[0.0, low, -8.0], [0.0, low, 8.0], [2.0, high, 0.0]].map(DVec3::from);
     let mut browser = Browser::start();
-    shown(&mut browser, &address(PAGE));
+    shown(&mut browser, &address(PAGE), "start");
     let mut acne = 0;
     // In steps of the sliders: 20 are ten times as much.
     for point in ["along the ray", "by corners"] {
@@ -36,7 +36,7 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
                 };
                 let hits = intersect_exact(&ray, &corners).is_some();
                 assert_eq!(hits, height < 0.0, "{controls:?}: {told}");
-                let said = browser.run("figures.all[0].said.textContent");
+                let said = browser.run("figure.said.textContent");
                 assert_eq!(said.as_str().unwrap().contains(": acne."), hits, "{said}");
                 acne += usize::from(hits);
                 // From the bound on no start by corners lies below, however far the eye is.

@@ -12,7 +12,7 @@ const PAGES: [&str; 2] = ["01_foundation.html", "07_multi_closest_hit.html"];
 fn the_tables_lead_to_the_records_that_the_pages_print() {
     let mut browser = Browser::start();
     let what = "[found.offsets, found.strides, found.size, found.record, found.at, found.inside]";
-    shown(&mut browser, &address(PAGES[0]));
+    shown(&mut browser, &address(PAGES[0]), "table");
     let cases = [
         (vec![], json!([[0, 32, 64], [32, 32, 32], 96, 0, 64, true])),
         (vec![("region alignment", "64")], json!([[0, 64, 128], [32, 32, 32], 160, 0, 128, true])),
@@ -21,9 +21,9 @@ fn the_tables_lead_to_the_records_that_the_pages_print() {
     for (controls, expected) in cases {
         assert_eq!(found(&mut browser, &controls, what), expected, "{controls:?}");
     }
-    let said = browser.run("figures.all[0].said.textContent");
+    let said = browser.run("figure.said.textContent");
     assert!(said.as_str().unwrap().contains("Error: the region has 1 record "), "{said}");
-    shown(&mut browser, &address(PAGES[1]));
+    shown(&mut browser, &address(PAGES[1]), "table");
     let cases = [
         (vec![], json!([[0, 64, 96], [48, 32, 64], 4320, 44, 2912, true])),
         (vec![("sbtRecordOffset", "1")], json!([[0, 64, 96], [48, 32, 64], 4320, 45, 2976, true])),

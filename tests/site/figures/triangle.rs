@@ -16,7 +16,7 @@ pub const PAGE: &str = "02_basic.html";
 fn the_weights_are_those_of_the_exact_hit() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, DESK);
-    shown(&mut browser, &address(PAGE));
+    shown(&mut browser, &address(PAGE), "triangle");
     let drawn = found(&mut browser, &[], "[found.corners, found.weights, found.color]");
     let svg = fs::read_to_string(root().join("docs/images/barycentrics.svg")).unwrap();
     let corners: [[f64; 2]; 3] = serde_json::from_value(drawn[0].clone()).unwrap();
@@ -43,7 +43,7 @@ fn the_weights_are_those_of_the_exact_hit() {
         assert_eq!(told["hit"], exact.is_some(), "{told}");
         let weights: [f64; 3] = serde_json::from_value(told["weights"].clone()).unwrap();
         assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{told}");
-        let said = browser.run("figures.all[0].said.textContent");
+        let said = browser.run("figure.said.textContent");
         assert_eq!(said.as_str().unwrap().contains("misses the triangle"), exact.is_none());
         let Some(exact) = exact else {
             assert!(weights.iter().any(|&weight| weight < 0.0), "{told}");
@@ -60,7 +60,7 @@ fn the_weights_are_those_of_the_exact_hit() {
     found(&mut browser, &[("x", "450"), ("y", "240")], "found");
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mixed.png");
-    taken(&mut browser, "figures.all[0].stage.querySelector('svg')", &file);
+    taken(&mut browser, "figure.stage.querySelector('svg')", &file);
     let picture = image::open(&file).unwrap().to_rgb8();
     let scale = f64::from(picture.width()) / 416.0;
     let [x, y] = [250.0 - 34.0, 169.0 - 44.0].map(|at| (at * scale) as u32);

@@ -67,7 +67,7 @@ fn the_walks_find_the_nearest_triangle() {
     let (triangles, rows) = drawn_walk();
     assert_eq!((triangles.len(), rows.len()), (5, 6));
     let mut browser = Browser::start();
-    shown(&mut browser, &address(PAGE));
+    shown(&mut browser, &address(PAGE), "walk");
     let drawn = found(&mut browser, &[], "[Object.values(found.corners), found.visits, found.hit]");
     let corners: Vec<[[f64; 2]; 3]> = serde_json::from_value(drawn[0].clone()).unwrap();
     assert_eq!(corners.iter().map(|all| all.map(DVec2::from)).collect::<Vec<_>>(), triangles);
@@ -76,12 +76,11 @@ fn the_walks_find_the_nearest_triangle() {
     for (step, row) in rows.iter().enumerate() {
         found(&mut browser, &[("step", &(step + 1).to_string())], "found");
         let stack = if row.2.is_empty() { vec!["empty".to_owned()] } else { row.2.clone() };
-        let shown = "[...figures.all[0].stage.querySelectorAll('.record')].map(a => a.textContent)";
+        let shown = "[...figure.stage.querySelectorAll('.record')].map(a => a.textContent)";
         assert_eq!(browser.run(shown), json!(stack));
-        let now =
-            "figures.all[0].stage.querySelector('.panel + .panel rect.visited-now').dataset.of";
+        let now = "figure.stage.querySelector('.panel + .panel rect.visited-now').dataset.of";
         assert_eq!(browser.run(now), json!(row.0));
-        let said = browser.run("figures.all[0].said.textContent");
+        let said = browser.run("figure.said.textContent");
         assert!(said.as_str().unwrap().contains(&row.1), "{said}");
     }
 
