@@ -156,6 +156,8 @@ pub enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Make the moving picture at the head of the README from the chapters' pictures
+    Tour,
     /// Count the words of each chapter's page, its tables, and the words of its longest section without a break
     Words,
     /// Name everything that is stale, missing or stray; exit code 1 if anything is

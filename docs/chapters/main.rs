@@ -11,6 +11,7 @@
 //! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `book`: makes a website of the pages
+//! - `tour`: makes the README's moving picture
 //! - `words`: counts what each page asks of a reader
 //! - `check`: names everything that is stale, missing or stray, what a page names and is not there, and
 //!   what to do about it
@@ -56,6 +57,7 @@ use arguments::{Arguments, Command, parse};
 use new_chapter::NewChapter;
 use pages::book::Book;
 use pages::breath;
+use pictures::tour;
 use programs::child;
 use programs::program::Programs;
 use start::Start;
@@ -123,6 +125,7 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Book { out } => site(&project, out.as_deref()),
         Command::Merge { out, files, samples } => print(&merge::run(out, files, samples.clone())?),
         Command::Nightly { names, list } => nightly::run(&project, names, *list),
+        Command::Tour => print(&tour::make(&project)?),
         Command::Words => print(&breath::table(&project)),
         Command::Check => {
             let programs = Programs::beside_this(&project)?;

@@ -26,6 +26,7 @@ use crate::mistakes::reproduction::Reproduction;
 use crate::mistakes::stages;
 use crate::nightly;
 use crate::pictures::picture::Picture;
+use crate::pictures::tour;
 use crate::programs::program::{BUILD, Programs};
 use crate::sources::hash::Sources;
 use crate::survey::card;
@@ -91,6 +92,8 @@ impl<'a> Book<'a> {
         faults.extend(exercise::check(project));
         faults.extend(text::check_exercises(self.programs, &files));
         faults.extend(figures::check(project, &self.pages, &mut sources));
+        faults.extend(tour::check(project));
+        linked.insert(tour::FILE.to_owned());
         faults.extend(self.without_picture(&pictures));
         faults.extend(self.without_gallery());
         let summary = gallery::summary(project);

@@ -5,3 +5,4 @@ pub mod downscale;
 pub mod picture;
 pub mod rendering;
 pub mod stamp;
+pub mod tour;

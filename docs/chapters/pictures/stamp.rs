@@ -64,9 +64,7 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
         encoder.set_animated(control.num_frames, control.num_plays)?;
         encoder.set_blend_op(png::BlendOp::Over)?;
     }
-    for (key, text) in [(COMMAND, command), (SOURCES, hash), (DEVICE, device)] {
-        encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
-    }
+    tell(&mut encoder, command, hash, device)?;
     let mut writer = encoder.write_header()?;
     for _ in 0..animation.map_or(1, |control| control.num_frames) {
         let size = reader.next_frame(&mut pixels)?.buffer_size();
@@ -81,6 +79,22 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
     writer.finish()?;
     bytes.flush()?;
     Ok(bytes.into_inner()?)
+}
+
+/// Lets a picture that is being written say which command, sources and device made it.
+///
+/// # Errors
+/// If one of them has letters beyond Latin-1.
+pub fn tell<W: Write>(
+    encoder: &mut png::Encoder<'_, W>,
+    command: &str,
+    hash: &str,
+    device: &str,
+) -> Result<()> {
+    for (key, text) in [(COMMAND, command), (SOURCES, hash), (DEVICE, device)] {
+        encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

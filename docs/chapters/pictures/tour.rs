@@ -1,0 +1,81 @@
+//! The moving picture at the head of the README: what chapters 02 to 25 render, one after the other.
+
+use anyhow::{Context, Result};
+use color_quant::NeuQuant;
+use common::files::write_whole;
+use image::RgbaImage;
+use image::imageops::FilterType;
+use manuscript::fault::Fault;
+use manuscript::project::Project;
+use png::{ColorType, Compression, Encoder};
+
+use super::stamp;
+use crate::sources::hash::of_files;
+
+/// Where it lies.
+pub const FILE: &str = "docs/images/tour.png";
+/// What makes it.
+const COMMAND: &str = "cargo chapters tour";
+const SIZE: [u32; 2] = [400, 250];
+/// How long each picture stands, in hundredths of a second: with fewer than three changes a second, nobody is
+/// in danger from flashes (WCAG 2.2, criterion 2.3.1).
+const DELAY: u16 = 36;
+
+/// The pictures that it shows, in order.
+fn frames(project: &Project) -> Vec<String> {
+    let shown = |number: &str| ("02"..="25").contains(&number);
+    let chapters = project.chapters.iter().filter(|chapter| shown(chapter.number()));
+    let mut files: Vec<String> = chapters.map(|chapter| chapter.picture()).collect();
+    files.sort_unstable();
+    files
+}
+
+/// What is wrong with it, if anything is.
+pub fn check(project: &Project) -> Option<Fault> {
+    let hash = of_files(project, &frames(project));
+    let what = stamp::stale(project, FILE, COMMAND, &hash, "the pictures that it shows")?;
+    Some(Fault::new("README.md", 1, what, format!("run: {COMMAND}")))
+}
+
+/// Makes it, and says how many pictures it shows, and how many bytes it has.
+///
+/// # Errors
+/// If a chapter's picture cannot be read, or the moving one not be written.
+pub fn make(project: &Project) -> Result<String> {
+    let files = frames(project);
+    let frames = files.iter().map(|file| frame(project, file)).collect::<Result<Vec<_>>>()?;
+    let bytes = animated(&frames, &of_files(project, &files))?;
+    write_whole(&project.root.join(FILE), &bytes)?;
+    Ok(format!("{FILE}: {} pictures, {} bytes\n", frames.len(), bytes.len()))
+}
+
+fn frame(project: &Project, file: &str) -> Result<RgbaImage> {
+    let picture = image::open(project.root.join(file)).with_context(|| file.to_owned())?;
+    let [width, height] = SIZE;
+    Ok(picture.resize_exact(width, height, FilterType::Lanczos3).into_rgba8())
+}
+
+/// The frames in 256 colors, played once; whoever shows no moving pictures shows the last one.
+fn animated(frames: &[RgbaImage], hash: &str) -> Result<Vec<u8>> {
+    /// Every so many pixels are asked which colors there should be.
+    const EVERY: i32 = 7;
+    let all: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw()).copied().collect();
+    let colors = NeuQuant::new(EVERY, 256, &all);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, SIZE[0], SIZE[1]);
+    encoder.set_color(ColorType::Indexed);
+    encoder.set_palette(colors.color_map_rgb());
+    encoder.set_compression(Compression::High);
+    encoder.set_animated(frames.len() as u32, 1)?;
+    encoder.set_frame_delay(DELAY, 100)?;
+    encoder.set_sep_def_img(true)?;
+    stamp::tell(&mut encoder, COMMAND, hash, "none")?;
+    let mut writer = encoder.write_header()?;
+    for frame in frames.last().into_iter().chain(frames) {
+        let indices: Vec<u8> =
+            frame.pixels().map(|pixel| colors.index_of(&pixel.0) as u8).collect();
+        writer.write_image_data(&indices)?;
+    }
+    writer.finish()?;
+    Ok(bytes)
+}
