@@ -48,7 +48,15 @@ pub fn complaints(told: &[Value]) -> Vec<String> {
 }
 
 pub fn theme(browser: &mut Browser, name: &str) {
-    browser.run(&format!("document.getElementById('mdbook-theme-{name}').click()"));
+    // A stylesheet that was off is read again.
+    browser.run(&format!(
+        "(async () => {{
+            document.getElementById('mdbook-theme-{name}').click();
+            const links = [...document.querySelectorAll('link[rel~=stylesheet]')];
+            const coming = links.filter(link => !link.disabled && !link.sheet);
+            await Promise.all(coming.map(link => new Promise(done => link.onload = link.onerror = done)));
+        }})()"
+    ));
 }
 
 /// What the checks of a page found.
