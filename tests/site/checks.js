@@ -33,7 +33,8 @@
     let scrolling = 0;
     for (const box of document.querySelectorAll("main *")) {
         const more = box.scrollWidth - box.clientWidth;
-        if (more > 1 && ["auto", "scroll"].includes(getComputedStyle(box).overflowX) && box.checkVisibility()) {
+        const { overflowX, display } = getComputedStyle(box);
+        if (more > 1 && ["auto", "scroll"].includes(overflowX) && display !== "inline" && box.checkVisibility()) {
             const frame = box.closest(".scrolls");
             const arrow = frame && getComputedStyle(frame, "::after").content;
             if (arrow !== '"›"' || box.tabIndex !== 0 || !box.getAttribute("aria-label")) {

@@ -5,15 +5,24 @@
 #[cfg(unix)]
 mod browser;
 #[cfg(unix)]
+mod chromium;
+#[cfg(unix)]
 mod drawing;
 mod faults;
 #[cfg(unix)]
 mod figures;
 #[cfg(unix)]
+mod firefox;
+#[cfg(unix)]
 mod lost;
 mod pages;
 #[cfg(unix)]
 mod reading;
+#[cfg(unix)]
+mod talk;
+#[cfg(unix)]
+#[path = "../window/xvfb.rs"]
+mod xvfb;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -31,6 +40,9 @@ struct Built {
     pages: BTreeMap<String, (String, Vec<Attribute>)>,
 }
 
+/// The variable that says where Firefox listens, for tests that run again in that.
+const FIREFOX: &str = "SITE_FIREFOX";
+
 /// The site of this project, built once for all tests, and left to be looked at.
 fn built() -> &'static Built {
     static BUILT: OnceLock<Built> = OnceLock::new();
@@ -38,8 +50,12 @@ fn built() -> &'static Built {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         // As a code host serves it: below a name.
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("site/a book");
-        let counts = site::output::replace(&folder, |made| site::build(&root, made))
-            .unwrap_or_else(|error| panic!("{error:#}"));
+        // What runs again reads what is built already.
+        let counts = match std::env::var_os(FIREFOX) {
+            Some(_) => Counts::default(),
+            None => site::output::replace(&folder, |made| site::build(&root, made))
+                .unwrap_or_else(|error| panic!("{error:#}")),
+        };
         let mut pages = BTreeMap::new();
         for file in fs::read_dir(&folder).unwrap() {
             let name = file.unwrap().file_name().into_string().unwrap();

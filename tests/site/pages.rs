@@ -107,6 +107,14 @@ fn every_formula_is_drawn_by_the_browser_itself() {
 }
 
 #[test]
+fn every_mark_of_a_figure_has_become_one() {
+    let pages = built().pages.values();
+    let figures: usize = pages.map(|(text, _)| text.matches(" data-figure=\"").count()).sum();
+    assert_eq!(figures, built().counts.figures);
+    assert!(figures > 5, "{figures} figures");
+}
+
+#[test]
 fn every_picture_is_described_and_has_its_size() {
     let mut pictures = 0;
     for (page, (text, _)) in &built().pages {

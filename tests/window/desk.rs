@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::{BufRead, BufReader, IoSlice, Read};
+use std::io::{IoSlice, Read};
 use std::os::fd::AsFd;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -17,6 +17,8 @@ use x11rb::protocol::xproto::{
     InputFocus, MapState,
 };
 use x11rb::rust_connection::RustConnection;
+
+use crate::xvfb;
 
 /// A sample in a window of its own server; both end with it.
 pub struct Desk {
@@ -69,7 +71,7 @@ impl Desk {
 
     /// The same, of a program that may lie anywhere.
     pub fn begin_by(command: Command, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
-        Self::begin_on(server(&[]), command, arguments, environment)
+        Self::begin_on(xvfb::start(&[]), command, arguments, environment)
     }
 
     /// The same, on this server.
@@ -328,7 +330,7 @@ pub fn outcome_with(
     environment: &[(&str, OsString)],
     then: impl FnOnce(u32),
 ) -> Output {
-    outcome_on(server(&[]), name, arguments, environment, then)
+    outcome_on(xvfb::start(&[]), name, arguments, environment, then)
 }
 
 /// The same, on this server.
@@ -370,19 +372,6 @@ impl Sync for RustConnection {
     fn sync(&self) {
         self.get_input_focus().unwrap().reply().expect("the server answers");
     }
-}
-
-/// Starts an X server on a free display, with these arguments, too.
-pub fn server(more: &[&str]) -> (Child, String) {
-    let mut command = Command::new("Xvfb");
-    command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);
-    command.args(more);
-    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
-    let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup"));
-    let mut number = String::new();
-    let output = child.stdout.take().expect("piped");
-    BufReader::new(output).read_line(&mut number).expect("Xvfb tells its display");
-    (child, format!(":{}", number.trim()))
 }
 
 /// F1.

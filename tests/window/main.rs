@@ -12,6 +12,7 @@ mod signals;
 mod stand_ins;
 mod started;
 mod wayland;
+mod xvfb;
 
 use std::path::Path;
 use std::process::Output;
@@ -324,7 +325,7 @@ fn failed(output: Output) {
 #[test]
 fn a_server_without_an_extension_is_said_in_one_line() {
     let _alone = alone();
-    let server = desk::server(&["-extension", "RANDR"]);
+    let server = xvfb::start(&["-extension", "RANDR"]);
     failed(desk::outcome_on(server, "02_basic", &["--size", "320x200"], &[], |_| {}));
 }
 

@@ -9,7 +9,7 @@ use run::layer::Layer;
 use serde_json::Value;
 
 use super::desk::{Desk, KEY_ESCAPE, wait};
-use super::{alone, desk, ended_well, same};
+use super::{alone, desk, ended_well, same, xvfb};
 
 /// What a display has counted.
 #[derive(Debug, PartialEq)]
@@ -145,7 +145,7 @@ fn a_window_at_rest_takes_no_time() {
 
 /// A screen whose colours have 10 bits.
 fn deep_screen() -> (Child, String) {
-    desk::server(&["-screen", "0", "1600x1000x30"])
+    xvfb::start(&["-screen", "0", "1600x1000x30"])
 }
 
 #[test]

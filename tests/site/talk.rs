@@ -1,0 +1,68 @@
+//! A talk with a browser in JSON: questions with numbers, the answers to them, and what it tells in between.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+/// How long an answer may take on a machine with much else to do.
+pub const PATIENCE: Duration = patience::ASLEEP;
+
+/// What carries the messages.
+pub trait Wire {
+    fn send(&mut self, message: &Value) -> Result<(), String>;
+    /// The next message, or why there is none.
+    fn next(&mut self, patience: Duration) -> Result<Value, String>;
+}
+
+pub struct Talk {
+    wire: Box<dyn Wire>,
+    last: u64,
+    told: VecDeque<Value>,
+}
+
+impl Talk {
+    pub fn over(wire: impl Wire + 'static) -> Self {
+        Self { wire: Box::new(wire), last: 0, told: VecDeque::new() }
+    }
+
+    /// Asks, and gives the result.
+    pub fn ask(&mut self, question: Value) -> Value {
+        let method = question["method"].clone();
+        self.try_to_ask(question).unwrap_or_else(|error| panic!("{method}: {error}"))
+    }
+
+    /// The same where something may have failed already.
+    pub fn try_to_ask(&mut self, mut question: Value) -> Result<Value, String> {
+        self.last += 1;
+        question["id"] = json!(self.last);
+        self.wire.send(&question)?;
+        let start = Instant::now();
+        loop {
+            let mut told = self.next(start)?;
+            if told["id"] == question["id"] {
+                let wrong = told.get("error").map(|_| told.to_string());
+                return wrong.map_or_else(|| Ok(told["result"].take()), Err);
+            }
+            self.told.push_back(told);
+        }
+    }
+
+    /// Waits for an event, unless it has been told already.
+    pub fn wait(&mut self, event: &str, doing: &str) {
+        let start = Instant::now();
+        while !self.told.iter().any(|told| told["method"] == event) {
+            let told = self.next(start).unwrap_or_else(|error| panic!("{doing}: {error}"));
+            self.told.push_back(told);
+        }
+    }
+
+    /// What was told since the last time.
+    pub fn told(&mut self) -> Vec<Value> {
+        self.told.drain(..).collect()
+    }
+
+    fn next(&mut self, start: Instant) -> Result<Value, String> {
+        self.wire.next(PATIENCE.saturating_sub(start.elapsed()))
+    }
+}
