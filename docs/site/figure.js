@@ -4,6 +4,7 @@
 // changed. Nothing moves by itself.
 const figures = (() => {
     const shaders = {};
+    const stored = {};
     const all = [];
     // One context for all figures of a page: browsers give a page only a few.
     let gl = null;
@@ -282,5 +283,5 @@ const figures = (() => {
         return answers;
     }
 
-    return { add, all, compute, context, shaders };
+    return { add, all, compute, context, shaders, stored };
 })();

@@ -1,8 +1,9 @@
 //! Figures that one can touch: a script draws them, from the chapters' own shaders where there are any.
 //!
 //! `<!-- touch NAME: CONTROLS -->` stands above a picture, which is shown where no script runs. NAME is
-//! `docs/site/figures/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU; [`control`] says how
-//! controls are written, and [`shader`] what becomes of the shader.
+//! `docs/site/figures/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU, and `NAME.txt` if it
+//! needs what a test has stored; [`control`] says how controls are written, and [`shader`] what becomes of the
+//! shader.
 
 pub mod control;
 pub mod shader;
@@ -58,12 +59,26 @@ pub fn scripts<'a>(names: impl Iterator<Item = &'a String>) -> String {
     tags.map(|file| format!("\n\n<script src=\"{file}\" defer></script>")).collect()
 }
 
-/// A figure's script, with its shader above it, or what is wrong with the shader.
+/// A script without its indents and its lines of comment.
+pub fn bare(script: &str) -> String {
+    let lines = script.lines().map(str::trim_start);
+    lines
+        .filter(|line| !line.is_empty() && !line.starts_with("//"))
+        .flat_map(|line| [line, "\n"])
+        .collect()
+}
+
+/// A figure's script, with its shader and what is stored for it above, or what is wrong with the shader.
 ///
 /// # Errors
 /// If a file cannot be read.
 pub fn script(project: &Project, name: &str) -> Result<Result<String, Vec<Fault>>> {
-    let own = project.read(&format!("{FOLDER}/{name}.js"))?;
+    let mut own = bare(&project.read(&format!("{FOLDER}/{name}.js"))?);
+    let stored = format!("{FOLDER}/{name}.txt");
+    if project.has(&stored) {
+        own =
+            format!("figures.stored[\"{name}\"] = \"{}\";\n\n{own}", project.read(&stored)?.trim());
+    }
     let file = format!("{FOLDER}/{name}.frag");
     if !project.has(&file) {
         return Ok(Ok(own));
@@ -72,4 +87,15 @@ pub fn script(project: &Project, name: &str) -> Result<Result<String, Vec<Fault>
     // GLSL has neither of the two signs that would end the text.
     Ok(shader::translated(&read, &file)
         .map(|text| format!("figures.shaders[\"{name}\"] = `{text}`;\n\n{own}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bare_script_says_the_same_without_comments_and_indents() {
+        let script = "// Why.\n\nfunction f() {\n    // Why, too.\n    return \"// no comment\"; // kept\n}\n";
+        assert_eq!(bare(script), "function f() {\nreturn \"// no comment\"; // kept\n}\n");
+    }
 }

@@ -119,7 +119,7 @@ pub fn build(root: &Path, made: &Path) -> Result<Counts> {
         picture.write(root, &source)?;
     }
     for name in &scripts {
-        fs::write(source.join(figure::FRAME.0), figure::FRAME.1)?;
+        fs::write(source.join(figure::FRAME.0), figure::bare(figure::FRAME.1))?;
         match figure::script(&project, name)? {
             Ok(script) => fs::write(source.join(figure::address(name)), script)?,
             Err(wrong) => faults.extend(wrong),

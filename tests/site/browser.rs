@@ -53,6 +53,11 @@ impl Browser {
         Self::with(&["--disable-gpu", "--disable-3d-apis"])
     }
 
+    /// Starts it with WebGL 2 by the system's OpenGL: without a GPU that is Mesa's llvmpipe.
+    pub fn with_opengl() -> Self {
+        Self::with(&["--use-angle=gl-egl", "--ignore-gpu-blocklist", "--enable-gpu"])
+    }
+
     fn with(graphics: &[&str]) -> Self {
         match Tab::asked() {
             Some(tab) => Self(Box::new(tab)),

@@ -18,7 +18,7 @@ use crate::firefox::Firefox;
 use crate::reading::{DESK, PHONE, address, checked, complaints, decode, sized, theme};
 use crate::{addresses, built, faults};
 
-fn root() -> std::path::PathBuf {
+pub fn root() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -53,7 +53,7 @@ fn wait(browser: &mut Browser, until: &str) {
 }
 
 /// Opens a page and brings a figure into view, until it is drawn. From then on it is the page's variable `figure`.
-fn shown(browser: &mut Browser, address: &str, name: &str) -> Vec<Value> {
+pub fn shown(browser: &mut Browser, address: &str, name: &str) -> Vec<Value> {
     browser.open("about:blank");
     let told = browser.open(address);
     chosen(browser, name);
@@ -74,7 +74,7 @@ fn taken(browser: &mut Browser, element: &str, file: &Path) {
 }
 
 /// Sets controls as a reader would, and gives what the figure finds.
-fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Value {
+pub fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Value {
     let (controls, drawn) = (json!(controls), waiting("figure.found"));
     browser.run(&format!(
         "(async () => {{

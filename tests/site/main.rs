@@ -21,6 +21,8 @@ mod reading;
 #[cfg(unix)]
 mod talk;
 #[cfg(unix)]
+mod this_gpu;
+#[cfg(unix)]
 #[path = "../window/xvfb.rs"]
 mod xvfb;
 

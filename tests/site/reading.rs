@@ -101,7 +101,8 @@ fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
 /// Opens pages, looks for faults on a phone and on a desk, by light and by dark, and gives what was seen and
 /// how many requests were made.
 fn read<'a>(pages: impl Iterator<Item = &'a String>) -> (Checked, usize) {
-    let mut browser = Browser::start();
+    // A figure may be in view at once.
+    let mut browser = Browser::with_webgl();
     let (mut all, mut asked) = (Checked::default(), 0);
     for page in pages {
         sized(&mut browser, PHONE);

@@ -19,6 +19,7 @@ const AFTER: &[(&str, &str)] = &[
     ("prices.md", "What accuracy costs"),
     ("measured.md", "Everything measured"),
     ("on-a-gpu.md", "On a GPU"),
+    ("this-gpu.md", "What this browser and GPU compute"),
     ("what-hardware-computes.md", "What hardware computes"),
     ("compilers.md", "What a GPU's compiler says"),
     ("arithmetic.md", "The worst arithmetic that conforms"),
