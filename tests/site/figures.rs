@@ -2,6 +2,7 @@
 //!
 //! `UPDATE=1 cargo test -p site figures::stills -- --ignored` writes the pictures that stand where no script runs.
 
+mod candidates;
 mod sphere;
 mod start;
 mod table;
@@ -146,6 +147,7 @@ fn points_can_be_dragged() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, PHONE);
     for (page, name, index) in [
+        (candidates::PAGE, "candidates", 0),
         (walk::PAGE, "walk", 0),
         (walk::PAGE, "walk", 1),
         (triangle::PAGE, "triangle", 0),
