@@ -3,6 +3,7 @@
 //! `UPDATE=1 cargo test -p site figures::stills -- --ignored` writes the pictures that stand where no script runs.
 
 mod candidates;
+mod checker;
 mod sphere;
 mod start;
 mod table;
