@@ -4,6 +4,7 @@
 
 mod candidates;
 mod checker;
+mod glass;
 mod sphere;
 mod start;
 mod table;
@@ -149,6 +150,8 @@ fn points_can_be_dragged() {
     sized(&mut browser, PHONE);
     for (page, name, index) in [
         (candidates::PAGE, "candidates", 0),
+        (glass::PAGE, "glass", 0),
+        (glass::PAGE, "glass", 1),
         (walk::PAGE, "walk", 0),
         (walk::PAGE, "walk", 1),
         (triangle::PAGE, "triangle", 0),
