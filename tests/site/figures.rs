@@ -5,6 +5,7 @@
 mod candidates;
 mod checker;
 mod glass;
+mod lens;
 mod sphere;
 mod start;
 mod table;
@@ -152,6 +153,7 @@ fn points_can_be_dragged() {
         (candidates::PAGE, "candidates", 0),
         (glass::PAGE, "glass", 0),
         (glass::PAGE, "glass", 1),
+        (lens::PAGE, "lens", 0),
         (walk::PAGE, "walk", 0),
         (walk::PAGE, "walk", 1),
         (triangle::PAGE, "triangle", 0),
