@@ -6,6 +6,7 @@ mod candidates;
 mod checker;
 mod glass;
 mod lens;
+mod r#box;
 mod sphere;
 mod start;
 mod table;
@@ -158,6 +159,7 @@ fn points_can_be_dragged() {
         (walk::PAGE, "walk", 1),
         (triangle::PAGE, "triangle", 0),
         (triangle::PAGE, "triangle", 1),
+        (r#box::PAGE, "box", 0),
     ] {
         for by in [Pointer::Mouse, Pointer::Finger] {
             shown(&mut browser, &address(page), name);

@@ -2,7 +2,9 @@
 #include "common/camera.glsl"
 #include "common/sphere.glsl#textbook"
 #include "common/sphere.glsl#stable"
-#include "24_accuracy/sphere_two_float.glsl"
+#include "common/two_float.glsl"
+#include "24_accuracy/sphere_two_float.glsl#roots"
+#include "24_accuracy/sphere_two_float.glsl#two_float"
 
 uniform vec3 eye;
 uniform vec3 right;
