@@ -7,6 +7,7 @@ mod checker;
 mod glass;
 mod lens;
 mod r#box;
+mod march;
 mod sphere;
 mod start;
 mod table;
@@ -160,6 +161,8 @@ fn points_can_be_dragged() {
         (triangle::PAGE, "triangle", 0),
         (triangle::PAGE, "triangle", 1),
         (r#box::PAGE, "box", 0),
+        (march::PAGE, "march", 0),
+        (march::PAGE, "march", 1),
     ] {
         for by in [Pointer::Mouse, Pointer::Finger] {
             shown(&mut browser, &address(page), name);

@@ -152,6 +152,8 @@ impl Translator {
         let mut unsigned: BTreeSet<&str> = BTreeSet::new();
         // Whether an unsigned variable is being declared: what it is chosen from is unsigned, too.
         let mut declares = false;
+        // Where the last unsigned number stands: in `i % 8 == 7` the 8 makes the 7 unsigned.
+        let mut number = None;
         for (at, Token { text: word, .. }) in tokens.iter().enumerate() {
             let [last, next] = [at.checked_sub(1), Some(at + 1)].map(text);
             match &**word {
@@ -173,11 +175,14 @@ impl Translator {
             }
             self.made.push_str(word);
             let whole = word.starts_with("0x") || word.chars().all(|c| c.is_ascii_digit());
-            let left = OPERATORS.contains(&last) && unsigned.contains(text(at.checked_sub(2)));
+            let second = at.checked_sub(2);
+            let behind = unsigned.contains(text(second)) || second.is_some() && second == number;
+            let left = OPERATORS.contains(&last) && behind;
             let right = OPERATORS.contains(&next) && unsigned.contains(text(Some(at + 2)));
             let chosen = declares && ["?", ":"].contains(&last);
             if whole && !word.ends_with('u') && (left || right || chosen) {
                 self.made.push('u');
+                number = Some(at);
             }
             if [";", "{", "}"].contains(&&**word) {
                 self.made.push('\n');
@@ -217,7 +222,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_beside_unsigned_ones_are_unsigned() {
-        let text = "const uint A = 0; for (uint i = 0; i < 3; i += 2) { b = i % 2u == 0 || 7 != i; }\
+        let text = "const uint A = 0; for (uint i = 0; i < 3; i += 2) { b = i % 2 == 0 || 7 != i; }\
                     int i = 0; i = i + 1; uint h = 0x10; uint c = x == y ? 0 : z ? 1 : 2; int d = x ? 0 : 1;";
         let made = "const uint A=0u;for(uint i=0u;i<3u;i+=2u){b=i%2u==0||7u!=i;}\
                     int i=0;i=i+1;uint h=0x10u;uint c=x==y?0u:z?1u:2u;int d=x?0:1;";

@@ -1,0 +1,98 @@
+//! 21's marches over a section through a land, held to the exact hit and to what the page says of them.
+
+use reference::Ray;
+use reference::heightfield::Heightfield;
+use reference::random::Random;
+
+use super::{found, shown};
+use crate::browser::Browser;
+use crate::reading::address;
+
+pub const PAGE: &str = "21_heightfield.html";
+
+/// Of a march: how many heights it asks for, of each its t and what is told, the hit's t, and whether it went
+/// through the ground.
+type March = (usize, Vec<[f64; 2]>, f64, bool);
+
+/// The steepest slope, the ray, the exact hit's t if there is one, and all marches.
+type Found = (f64, Ray, Option<f64>, [March; 4]);
+
+fn told(browser: &mut Browser, [slope, eye, aim]: [i64; 3]) -> Found {
+    let controls = [("steepest slope", slope), ("eye", eye), ("aim", aim)];
+    let controls = controls.map(|(name, value)| (name, value.to_string()));
+    let controls = controls.each_ref().map(|(name, value)| (*name, &**value));
+    let what = "[found.k, found.ray.o, found.ray.d, found.ray.tmax, found.truth, \
+                found.marches.map(march => [march.asked, march.places, march.t, march.through])]";
+    type Told = (f64, [f64; 3], [f64; 3], f64, Option<f64>, [March; 4]);
+    let (k, origin, direction, tmax, truth, marches): Told =
+        serde_json::from_value(found(browser, &controls, what)).unwrap();
+    let ray = Ray { origin: origin.into(), direction: direction.into(), tmin: 0.0, tmax };
+    (k, ray, truth, marches)
+}
+
+/// The land of the figure, whose steepest slope is `k`.
+fn land(k: f64) -> Heightfield {
+    let [a, fx, b, gx] = [8.0, 1.0 / 256.0, 3.0, 1.0 / 32.0];
+    Heightfield { k, a, fx, fz: 0.0, b, gx, gz: 0.0, lipschitz: k }
+}
+
+#[test]
+fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_that_are_steep() {
+    let mut browser = Browser::with_webgl();
+    shown(&mut browser, &address(PAGE), "march");
+    let mut random = Random(21);
+    let mut within = |low: i64, high: i64| low + random.below((high + 1 - low) as usize) as i64;
+    let (mut hits, mut gone, mut wrong) = (0, [0; 9], [0; 2]);
+    for number in 0..135 {
+        let controls = [number % 9, within(5, 130), within(-90, 130)];
+        let (k, line, truth, marches) = &told(&mut browser, controls);
+        let land = land(*k);
+        let exact = land.intersect(line).map(|hit| hit.t);
+        assert_eq!(truth.is_some(), exact.is_some(), "{controls:?}");
+        let exact = exact.unwrap_or(f64::INFINITY);
+        hits += usize::from(exact.is_finite());
+        assert!(truth.is_none_or(|truth| (truth - exact).abs() < 1e-6), "{controls:?}: {truth:?}");
+        for (rung, (asked, places, t, through)) in marches.iter().enumerate() {
+            let what = format!("{controls:?}, {rung}: {t}, not {exact}");
+            assert_eq!(places.len(), *asked, "{what}");
+            // The figure's land is the reference's.
+            for [t, above] in places {
+                let at = line.at(*t);
+                assert!((at.y - land.height(at.x, 0.0).0 - above).abs() < 1e-3, "{what}");
+            }
+            if rung < 2 {
+                // The steps of the page: 0.4 of the height, or what no slope can catch up with.
+                let part = [0.4, 1.0 / (k * line.direction.x - line.direction.y)][rung];
+                for two in places.windows(2) {
+                    let step = part * two[0][1];
+                    assert!((two[1][0] - two[0][0] - step).abs() <= 1e-6 * (step.abs() + 480.0));
+                }
+                if let Some([at, above]) = places.last().filter(|[at, _]| *at <= line.tmax) {
+                    assert!(*asked == 300 || above.abs() < 0.0015 * at, "{what}");
+                }
+                let off = if *t > 0.0 { t - exact } else { exact };
+                wrong[rung] += usize::from(off.abs() > 1e-3 && exact.is_finite());
+            } else if exact.is_finite() {
+                assert!((t - exact).abs() < 1e-3, "{what}");
+            } else {
+                assert_eq!(*t, 0.0, "{what}");
+            }
+            // Only the relaxed march goes through.
+            assert!(!through || rung == 0, "{what}");
+            // "If m > 2.5, a step of 0.4 of the height ends below the ground."
+            let below = places.iter().any(|[t, above]| *t > 0.0 && *above < -1e-3);
+            let fastest = k * line.direction.x - line.direction.y;
+            assert!(rung > 0 || !below || fastest > 2.5, "{what}");
+            gone[controls[0] as usize] += usize::from(*through);
+        }
+    }
+    assert!(hits > 75 && wrong.iter().all(|wrong| *wrong > hits / 2), "{hits} {wrong:?}");
+    assert!(gone[..5] == [0; 5] && gone.iter().sum::<usize>() > 1, "{gone:?}");
+
+    // The page's picture of a march that gives up: over flat ground each step leaves the same part of the way.
+    let (.., truth, [relaxed, ..]) = told(&mut browser, [0, 6, -1]);
+    let left = truth.unwrap() * (1.0 - 0.4 * 7.0 / 480f64.hypot(7.0)).powi(300);
+    assert!((relaxed.2 - (truth.unwrap() - left)).abs() < 0.01 && relaxed.0 == 300);
+    let said = browser.run("figure.said.textContent");
+    assert!(said.as_str().unwrap().contains("It gives up"), "{said}");
+}
