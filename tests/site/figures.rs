@@ -8,6 +8,7 @@ mod glass;
 mod lens;
 mod r#box;
 mod march;
+mod solids;
 mod sphere;
 mod start;
 mod table;
@@ -163,6 +164,8 @@ fn points_can_be_dragged() {
         (r#box::PAGE, "box", 0),
         (march::PAGE, "march", 0),
         (march::PAGE, "march", 1),
+        (solids::PAGE, "solids", 0),
+        (solids::PAGE, "solids", 1),
     ] {
         for by in [Pointer::Mouse, Pointer::Finger] {
             shown(&mut browser, &address(page), name);
