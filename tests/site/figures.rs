@@ -2,11 +2,11 @@
 //!
 //! `UPDATE=1 cargo test -p site figures::stills -- --ignored` writes the pictures that stand where no script runs.
 
+mod r#box;
 mod candidates;
 mod checker;
 mod glass;
 mod lens;
-mod r#box;
 mod march;
 mod solids;
 mod sphere;
