@@ -6,7 +6,7 @@ use common::files::write_whole;
 use image::RgbaImage;
 use image::imageops::FilterType;
 use manuscript::fault::Fault;
-use manuscript::project::Project;
+use manuscript::project::{Project, README};
 use png::{ColorType, Compression, Encoder};
 
 use super::stamp;
@@ -30,11 +30,13 @@ fn frames(project: &Project) -> Vec<String> {
     files
 }
 
-/// What is wrong with it, if anything is.
+/// What is wrong with it, if the README shows it and anything is.
 pub fn check(project: &Project) -> Option<Fault> {
+    let readme = project.read(README).unwrap_or_default();
+    let line = readme.lines().position(|line| line.contains(FILE))? + 1;
     let hash = of_files(project, &frames(project));
     let what = stamp::stale(project, FILE, COMMAND, &hash, "the pictures that it shows")?;
-    Some(Fault::new("README.md", 1, what, format!("run: {COMMAND}")))
+    Some(Fault::new(README, line, what, format!("run: {COMMAND}")))
 }
 
 /// Makes it, and says how many pictures it shows, and how many bytes it has.
