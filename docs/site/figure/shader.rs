@@ -224,7 +224,7 @@ mod tests {
     fn whole_numbers_beside_unsigned_ones_are_unsigned() {
         let text = "const uint A = 0; for (uint i = 0; i < 3; i += 2) { b = i % 2 == 0 || 7 != i; }\
                     int i = 0; i = i + 1; uint h = 0x10; uint c = x == y ? 0 : z ? 1 : 2; int d = x ? 0 : 1;";
-        let made = "const uint A=0u;for(uint i=0u;i<3u;i+=2u){b=i%2u==0||7u!=i;}\
+        let made = "const uint A=0u;for(uint i=0u;i<3u;i+=2u){b=i%2u==0u||7u!=i;}\
                     int i=0;i=i+1;uint h=0x10u;uint c=x==y?0u:z?1u:2u;int d=x?0:1;";
         assert_eq!(of(text).unwrap(), made);
     }
