@@ -300,6 +300,7 @@ fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
 }
 
 #[test]
+#[ignore = "nightly: takes minutes beside other tests"]
 fn what_these_tests_find_in_chromium_holds_in_firefox() {
     // Those which ask no browser, which ask what the book's build has made, and for a finger that moves the page.
     let skipped = ["firefox", "a_line_that", "the_scripts", "a_changed_line", "beside_a_point"];
