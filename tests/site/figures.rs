@@ -90,9 +90,9 @@ pub fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Va
                 figure.found = null;
                 input.value = value;
                 input.dispatchEvent(new Event('input', {{ bubbles: true }}));
-                if (!await {drawn}) {{
-                    throw new Error(`nothing is found by ${{name}} = ${{value}}`);
-                }}
+            }}
+            if (!await {drawn}) {{
+                throw new Error(`nothing is found by ${{{controls}.join()}}`);
             }}
             return (found => {what})(figure.found);
         }})()"
@@ -300,7 +300,6 @@ fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
 }
 
 #[test]
-#[ignore = "nightly: takes minutes beside other tests"]
 fn what_these_tests_find_in_chromium_holds_in_firefox() {
     // Those which ask no browser, which ask what the book's build has made, and for a finger that moves the page.
     let skipped = ["firefox", "a_line_that", "the_scripts", "a_changed_line", "beside_a_point"];

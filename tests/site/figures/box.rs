@@ -9,7 +9,7 @@ use reference::sphere::Sphere;
 use serde_json::json;
 
 use super::{found, shown, wait};
-use crate::browser::Browser;
+use crate::browser::{Browser, Pointer};
 use crate::reading::{DESK, address, sized};
 
 pub const PAGE: &str = "08_intersection.html";
@@ -123,11 +123,7 @@ fn the_ends_of_the_ray_are_dragged_along_it() {
         let [x, y]: [f64; 2] = serde_json::from_value(browser.run(&place)).unwrap();
         let value = format!("figure.number({name:?})");
         let before = browser.run(&value).as_f64().unwrap();
-        for (kind, moved) in [("Pressed", 0.0), ("Moved", by), ("Released", by)] {
-            let kind = format!("mouse{kind}");
-            let event = json!({ "type": kind, "x": x + moved, "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
-            browser.call("Input.dispatchMouseEvent", &event);
-        }
+        browser.drag(&[[x, y], [x + by, y]], Pointer::Mouse);
         wait(&mut browser, "!figure.changed");
         let [now, _]: [f64; 2] = serde_json::from_value(browser.run(&place)).unwrap();
         assert!((now - x - by).abs() < 1.5, "{name}: from {x} to {now}");
