@@ -14,6 +14,12 @@ impl Hull {
     /// The box around nothing.
     pub const EMPTY: Self = Self([f32::MAX; 8]);
 
+    /// The box around those boxes that are any.
+    pub fn around(bounds: impl IntoIterator<Item = Bounds>) -> Self {
+        let hulls = bounds.into_iter().filter(has_place).map(Self::from);
+        hulls.fold(Self::EMPTY, |a, b| a.join(&b))
+    }
+
     /// The box around two.
     pub fn join(&self, other: &Self) -> Self {
         let mut joined = self.0;

@@ -1,6 +1,6 @@
 //! Boxes anew, where primitives have moved and the tree keeps its shape.
 
-use crate::hull::{Hull, has_place};
+use crate::hull::Hull;
 use crate::tree::{Bounds, Child, Node, Tree};
 
 // ANCHOR: refit
@@ -18,10 +18,11 @@ pub fn refit(tree: &mut Tree, bounds: &[Bounds]) {
         for side in 0..2 {
             let child = nodes[at as usize].children[side];
             let hull = match child.node() {
-                Some(node) => around(nodes[node as usize].children.map(bounds_of)),
-                None => around(order[child.positions()].iter().map(|&i| bounds[i as usize])),
+                Some(node) => Hull::around(nodes[node as usize].children.map(bounds_of)),
+                None => Hull::around(order[child.positions()].iter().map(|&i| bounds[i as usize])),
             };
-            let (low, high) = hull.into();
+            let is_empty = hull == Hull::EMPTY;
+            let (low, high) = if is_empty { bounds_of(Child::NONE) } else { hull.into() };
             nodes[at as usize].children[side] = Child { low, high, ..child };
         }
     }
@@ -45,18 +46,12 @@ fn bounds_of(child: Child) -> Bounds {
     (child.low, child.high)
 }
 
-/// The box around those boxes that are any.
-fn around(bounds: impl IntoIterator<Item = Bounds>) -> Hull {
-    let hulls = bounds.into_iter().filter(has_place).map(Hull::from);
-    hulls.fold(Hull::EMPTY, |a, b| a.join(&b))
-}
-
 #[cfg(test)]
 mod tests {
     use common::glam::Vec3;
 
     use super::refit;
-    use crate::{Bounds, binned, check, cost};
+    use crate::{Bounds, Child, binned, check, cost};
 
     fn cubes(count: u32, place: impl Fn(u32) -> Vec3) -> Vec<Bounds> {
         (0..count).map(|i| (place(i) - 0.25, place(i) + 0.25)).collect()
@@ -92,6 +87,9 @@ mod tests {
         ] {
             refit(&mut tree, &lost);
             assert!(cost(&tree).is_finite());
+            let boxes = tree.nodes.iter().flat_map(|node| &node.children);
+            assert!(boxes.clone().all(|child| child.low.abs().max_element() <= Child::NONE.low.x));
+            assert!(boxes.clone().any(|child| child.low == Child::NONE.low));
         }
         refit(&mut tree, &bounds);
         check(&tree, &bounds).unwrap();

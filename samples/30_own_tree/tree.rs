@@ -32,8 +32,10 @@ common::shader_struct! {
 }
 
 impl Child {
-    /// Nothing, in a box that no ray meets: inside out, as large as finite numbers can make it.
-    pub const NONE: Self = Self { low: Vec3::MAX, first: u32::MAX, high: Vec3::MIN, count: 0 };
+    /// Nothing, in a box that no ray meets: inside out by so much that growing does not turn it, and by so little that
+    /// all numbers of a walk stay finite. Vulkan leaves open how others compare.
+    pub const NONE: Self =
+        Self { low: Vec3::splat(1e10), first: u32::MAX, high: Vec3::splat(-1e10), count: 0 };
 
     /// The node's index, if it is one.
     pub fn node(&self) -> Option<u32> {
@@ -65,8 +67,7 @@ pub struct Tree {
 impl Tree {
     /// The box around all that lies in the tree; inside out if that is nothing.
     pub fn bounds(&self) -> Bounds {
-        let [a, b] = self.nodes[0].children.map(|child| Hull::from((child.low, child.high)));
-        a.join(&b).into()
+        Hull::around(self.nodes[0].children.map(|child| (child.low, child.high))).into()
     }
 
     /// The nodes with all numbers moved on: as they stand in an array of many trees.

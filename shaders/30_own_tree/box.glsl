@@ -32,13 +32,14 @@ Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
 // is the near one; so a box whose low corner lies above its high one is missed by all rays.
 float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
     bvec3 up = greaterThanEqual(ray.direction, vec3(0.0));
-    precise vec3 to_low = low - ray.origin - ray.growth;
-    precise vec3 to_high = high - ray.origin + ray.growth;
+    // The growth moves the origin: once for both boxes.
+    precise vec3 to_low = low - (ray.origin + ray.growth);
+    precise vec3 to_high = high - (ray.origin - ray.growth);
     precise vec3 near = mix(to_high, to_low, up) * ray.inverse;
     precise vec3 far = mix(to_low, to_high, up) * ray.inverse;
-    // In a row that begins with a number: then a processor need not look out for NaN at each step.
+    // Rows that begin with a number need not look out for NaN at each step.
     float enter = max(near.x, max(near.y, max(near.z, 0.0)));
-    float leave = min(far.x, min(far.y, min(far.z, tmax)));
+    float leave = min(tmax, min(far.x, min(far.y, min(far.z, MISSED))));
     if (BOXES == BOXES_IZE || BOXES == BOXES_BOUND) {
         precise float later = leave * SLACK;
         leave = later;
