@@ -30,7 +30,7 @@ figures.add("candidates", figure => {
     }
 
     const scene = figure.drawing("0 16 450 242", "A ray through panes with holes");
-    const chart = figure.drawing("0 16 450 242", "What all 24 orders give");
+    const chart = figure.drawing("0 16 450 242", "What all 24 orders give, and this one in orange");
     const grip = figure.grip(scene, (_, y) => figure.set("ray", GROUND - y));
     grip.setAttribute("cx", LEFT);
     const region = figure.add(figure.stage, "span", "region");
@@ -65,7 +65,7 @@ figures.add("candidates", figure => {
             const call = ["no call", "not met"].includes(says) ? says : `${TIMES[calls - 1]} call`;
             if (at <= now) {
                 shapes += text(x, GROUND + 28, call) + (call === says ? "" : text(x, GROUND + 48, lost));
-                shapes += call === says ? "" : `<circle class="${of === hit ? "begin" : "passed"}" cx="${x}" cy="${y}" r="5"/>`;
+                shapes += call === says ? "" : `<circle class="${of === hit ? "begin" : says === "ignored" ? "passed hole" : "passed"}" cx="${x}" cy="${y}" r="5"/>`;
             }
             shapes += text(x, TOP - 16, of);
         }

@@ -15,15 +15,15 @@ figures.add("glass", figure => {
         const distance = ((x - MIDDLE[0]) * down - (y - MIDDLE[1]) * right) / length;
         return [down / length, -right / length, distance].map(part => part * Math.sign(distance));
     });
-    const scene = figure.drawing(`8 0 ${WIDTH} ${HEIGHT}`, "The ray, and what becomes of it");
-    const chart = figure.drawing(`-6 0 ${WIDTH + 20} ${HEIGHT}`, "The part that is reflected, by angle");
+    const scene = figure.drawing(`8 0 ${WIDTH} ${HEIGHT}`, "The ray, and how much of its light goes where");
+    const chart = figure.drawing(`-6 0 ${WIDTH + 20} ${HEIGHT}`, "The part that is reflected, by the angle to the normal");
     const grips = Object.entries({ start: START, aim: AIM }).map(([name, x]) => {
         const grip = figure.grip(scene, (_, y) => figure.set(name, HEIGHT - y));
         grip.setAttribute("cx", x);
         return grip;
     });
     const legend = figure.add(figure.stage, "span", "legend");
-    for (const [kind, text] of [["surface", "into the glass"], ["sheet", "out of the glass"], ["begin", "a surface of the brightest way"]]) {
+    for (const [kind, text] of [["surface", "into the glass"], ["sheet", "out of the glass"], ["begin", "met by the brightest ray, in this order"]]) {
         figure.add(legend, "span", `key ${kind}`, text);
     }
 
@@ -95,7 +95,7 @@ figures.add("glass", figure => {
             + path("surface", curve(0)) + path("sheet", curve(1)) + dots;
 
         figure.said.textContent = surfaces.length ? surfaces.slice(0, 4).map(({ angle, reflected, out }, i) =>
-            `${i + 1}, ${out ? "out" : "in"} at ${angle.toFixed(1)}°: ${reflected === 1 ? "total reflection" : `${percent(reflected)} reflected`}.`).join(" ")
-            + ` From the glass, all is reflected beyond ${critical.toFixed(1)}°.` : "The ray misses the glass.";
+            `${i + 1}, ${out ? "out" : "in"} at ${angle.toFixed(1)}°: ${reflected === 1 ? "total reflection" : `${percent(reflected)} of what arrives is reflected`}.`).join(" ")
+            + ` Within the glass, all is reflected beyond ${critical.toFixed(1)}° to the normal.` : "The ray misses the glass.";
     };
 });

@@ -43,7 +43,8 @@ figures.add("lens", figure => {
             shapes += light < focus ? path("ray light fine rest", [source, AXIS], [plane, AXIS + crossing(place)]) : "";
         }
         shapes += upright("spread", plane, c / 2) + upright("spread", LENS - film, Math.abs(onFilm(aperture / 2)));
-        shapes += c > 12 ? text(plane + 9, AXIS - c / 2 - 4, "c", "start") : "";
+        // Beyond the drawing there is no room for the letter.
+        shapes += c > 12 && c < 160 ? text(plane + 9, AXIS - c / 2 - 4, "c", "start") : "";
         shapes += text(LENS - film, 50, "film") + text(Math.min(plane, 396), 22, "plane in focus")
             + text(LENS - 12, AXIS - aperture / 2, "A", "end") + measure(plane, 230, "S₁") + measure(source, 256, "S₂");
         scene.innerHTML = shapes;
@@ -60,7 +61,7 @@ figures.add("lens", figure => {
         chart.innerHTML = `<rect class="state" x="${LENS + NEAR}" y="${AXIS - 110}" width="${FAR - NEAR}" height="220"/>`
             + `<polygon class="body" points="${band.join(" ")}"/>` + upright("sheet", plane, 110)
             + `<circle class="state visited-now" cx="${source}" cy="${AXIS}" r="${SHOWN * pixels / 2}"/><circle class="begin" cx="${source}" cy="${AXIS}" r="3"/>`
-            + text(LENS + NEAR - 8, AXIS - 98, `${HIGH} pixels`, "end") + text(LENS + NEAR - 8, AXIS + 5, `c = ${figure.spell(pixels)}`, "end")
+            + text(LENS + NEAR - 8, AXIS - 98, `${HIGH} pixels`, "end") + text(LENS + NEAR - 8, AXIS + 5, `${figure.spell(pixels)} pixels`, "end")
             + text(Math.min(plane, 396), 252, "plane in focus");
 
         figure.said.textContent = `c = ${aperture} × |${light} − ${focus}| / ${light} = ${figure.spell(c)} on the plane in focus. `

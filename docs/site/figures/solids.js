@@ -64,8 +64,8 @@ figures.add("solids", figure => {
     // Wide drawings are small on phones.
     [eyeGrip, aimGrip].forEach(grip => grip.setAttribute("r", 12));
     const legend = figure.add(figure.stage, "span", "legend");
-    for (const [kind, text] of [["weight-a", "in A, the ball"], ["weight-b", "in B, the box"], ["handle", "in the solid"],
-        ["begin", "what the ray meets first, with its normal"]]) {
+    for (const [kind, text] of [["weight-a", "in A, the ball"], ["weight-b", "in B, the box"], ["handle", "in the solid that the operation makes"],
+        ["begin", "what the ray meets first; its normal, turned to the eye"]]) {
         figure.add(legend, "span", `key ${kind}`, text);
     }
 
@@ -117,7 +117,7 @@ figures.add("solids", figure => {
             }
         });
         shapes += line("ray", eye, point(first?.t ?? tmax)) + line("ray rest", point(first?.t ?? tmax), aim);
-        let said = begins ? "The ray stays in the solid: it meets no face." : "The ray misses the solid.";
+        let said = begins ? `The ray stays in the ${operation}: it meets no face.` : `The ray misses the ${operation}.`;
         if (first) {
             const at = point(first.t);
             const n = normal(first.part, at, ray.d);
@@ -128,9 +128,9 @@ figures.add("solids", figure => {
                 + `<circle class="begin" cx="${at[0]}" cy="${at[1]}" r="5.5"/>`;
             const face = "AB"[first.part];
             const verb = does => does ? "enters" : "leaves";
-            const solid = first.comes === first.enters ? "the solid" : `${verb(first.enters)} the solid`;
-            said = `The ray begins ${begins ? "in" : "outside"} the solid. First it meets a face of ${face}, from ${face}’s `
-                + `${first.comes ? "outside" : "inside"}: it ${verb(first.comes)} ${face} and ${solid}.`;
+            const made = first.comes === first.enters ? `the ${operation}` : `${verb(first.enters)} the ${operation}`;
+            said = `The ray begins ${begins ? "in" : "outside"} the ${operation}. First it meets a face of ${face}, from ${face}’s `
+                + `${first.comes ? "outside" : "inside"}: it ${verb(first.comes)} ${face} and ${made}.`;
         }
         scene.innerHTML = shapes;
         eyeGrip.setAttribute("cx", eye[0]);

@@ -57,7 +57,7 @@ figures.add("sphere", figure => {
         const contexts = [picture, map].map(canvas => canvas.getContext("2d"));
         const [shown, wrong] = contexts.map(context => context.createImageData(SIDE, SIDE));
         const light = unit([0.3, 1, 0.5]);
-        const errors = [], truths = [];
+        const errors = [], truths = [], rays = new Set();
         let falseHits = 0, falseMisses = 0;
         for (let y = 0; y < SIDE; y++) {
             for (let x = 0; x < SIDE; x++) {
@@ -66,6 +66,7 @@ figures.add("sphere", figure => {
                 const [t, ...d] = floats.subarray(from, from + 4);
                 const truth = exact(eye, d);
                 truths.push(truth);
+                rays.add(String(d));
                 let seen = [214, 226, 240], error = MISS;
                 if (t !== 0) {
                     const normal = unit(eye.map((o, i) => o + t * d[i]));
@@ -91,8 +92,10 @@ figures.add("sphere", figure => {
         errors.sort((a, b) => a - b);
         const median = errors.length ? errors[errors.length >> 1] : NaN;
         const part = count => `${(100 * count / SIDE ** 2).toFixed(2)}\u00a0%`;
-        figure.found = { median, falseHits, falseMisses, eye, answers, truths };
-        figure.said.textContent = `Half of the hits are off by ${median.toFixed(1)} ULP or more. `
-            + `${part(falseHits)} of the rays hit where they should miss, ${part(falseMisses)} miss where they should hit.`;
+        // From afar neighbours round to one direction.
+        const coarse = rays.size < SIDE ** 2 ? ` The pixels have no more than ${rays.size.toLocaleString("en")} directions: a float tells no others apart.` : "";
+        figure.found = { median, rays: rays.size, falseHits, falseMisses, eye, answers, truths };
+        figure.said.textContent = `Half of the ${errors.length.toLocaleString("en")} hits are off by ${median.toFixed(1)} ULP or more. `
+            + `${part(falseHits)} of the rays hit where they should miss, ${part(falseMisses)} miss where they should hit.${coarse}`;
     };
 });

@@ -103,6 +103,7 @@ figures.add("walk", figure => {
         return known;
     }
 
+    const visitsOf = ({ length }) => `${length} ${length === 1 ? "visit" : "visits"}`;
     const scene = figure.drawing("18 76 434 242", "Shapes in boxes");
     const tree = figure.drawing("474 62 330 230", "Their tree");
     const ends = { eye: LEFT, aim: RIGHT };
@@ -165,6 +166,6 @@ figures.add("walk", figure => {
         (visit.stack.length ? visit.stack : ["empty"]).forEach(of => figure.add(records, "span", `record ${kind(of !== "empty" && STATES[2])}`, of));
         const end = step < visits.length ? "" : ` The walk is over: ${hit ? `the ray hits ${hit}` : "no triangle is hit"}.`;
         figure.said.textContent = `Visit ${step} of ${visits.length}, ${visit.of}: ${visit.found}.${end} `
-            + `Near first takes ${near.length} visits, far first ${far.length}.`;
+            + `Near first takes ${visitsOf(near)}, far first ${far.length}.`;
     };
 });
