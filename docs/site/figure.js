@@ -24,6 +24,7 @@ const figures = (() => {
             this.box = box;
             this.controls = box.querySelector(".controls");
             this.stage = this.add(box, "span", "stage");
+            this.sliders = this.add(box, "span", "controls");
             this.said = this.add(box, "output", "said");
             this.note = this.add(box, "span", "note");
             this.start = start;
@@ -31,21 +32,25 @@ const figures = (() => {
             this.seen = false;
             this.asked = false;
             this.read = new Set();
-            this.inputs().forEach(input => input.type === "range" && this.tell(input));
-            this.controls.addEventListener("input", ({ target }) => {
+            // Sliders stand below the drawing: so a phone shows both, and the drawing first.
+            for (const input of this.inputs().filter(({ type }) => type === "range")) {
+                this.sliders.append(input.parentElement);
+                this.tell(input);
+            }
+            box.addEventListener("input", ({ target }) => {
                 if (target.type === "range") {
                     this.tell(target);
                 }
                 this.change();
             });
             // What lies outside a control's range has been brought into it.
-            this.controls.addEventListener("change", ({ target }) => {
+            box.addEventListener("change", ({ target }) => {
                 if (target.type === "number") {
                     target.value = this.number(target.name);
                 }
             });
             // The arrow keys are the control's: they do not turn pages.
-            this.controls.addEventListener("keydown", event => {
+            box.addEventListener("keydown", event => {
                 if (event.key.startsWith("Arrow")) {
                     event.stopPropagation();
                 }
@@ -53,7 +58,7 @@ const figures = (() => {
         }
 
         inputs() {
-            return [...this.controls.querySelectorAll("[name]")];
+            return [...this.box.querySelectorAll("[name]")];
         }
 
         add(to, tag, kind, text = "") {
@@ -113,7 +118,7 @@ const figures = (() => {
         }
 
         input(name) {
-            const input = this.controls.querySelector(`[name="${name}"]`);
+            const input = this.box.querySelector(`[name="${name}"]`);
             if (!input) {
                 throw new Error(`the figure's mark has no control '${name}'`);
             }
@@ -190,7 +195,7 @@ const figures = (() => {
         stand(still) {
             this.box.classList.toggle("moves", !still);
             this.box.querySelector(".still").hidden = !still;
-            this.stage.hidden = this.controls.hidden = still;
+            this.stage.hidden = this.controls.hidden = this.sliders.hidden = still;
             this.note.textContent = !still && shaders[this.name] ? NOTE : "";
         }
     }

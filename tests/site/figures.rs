@@ -8,6 +8,7 @@ mod checker;
 mod glass;
 mod lens;
 mod march;
+mod refit;
 mod solids;
 mod sphere;
 mod start;
@@ -164,11 +165,17 @@ fn points_can_be_dragged() {
         (r#box::PAGE, "box", 0),
         (march::PAGE, "march", 0),
         (march::PAGE, "march", 1),
+        (refit::PAGE, "refit", 0),
+        (refit::PAGE, "refit", 1),
         (solids::PAGE, "solids", 0),
         (solids::PAGE, "solids", 1),
     ] {
         for by in [Pointer::Mouse, Pointer::Finger] {
             shown(&mut browser, &address(page), name);
+            browser.run(&format!(
+                "figure.stage.querySelectorAll('.grip')[{index}]
+                .scrollIntoView({{ block: 'center', behavior: 'instant' }})"
+            ));
             let place = browser.run(grips)[index].clone();
             let [x, y, wide]: [f64; 3] = serde_json::from_value(place).unwrap();
             assert!(wide > 15.0, "{page}: {wide}");
