@@ -80,9 +80,10 @@ const figures = (() => {
             return canvas;
         }
 
-        // A drawing under a label, and the part of it that is drawn anew. What it shows is told in words, too.
+        // A drawing under a label or, without one, as wide as the stage, and the part of it that is drawn anew.
+        // What it shows is told in words, too.
         drawing(viewBox, label) {
-            const panel = this.add(this.stage, "span", "panel");
+            const panel = this.add(this.stage, "span", label ? "panel" : "region");
             this.add(panel, "span", "label", label);
             const svg = this.shape(panel, "svg");
             svg.setAttribute("viewBox", viewBox);

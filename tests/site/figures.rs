@@ -5,6 +5,7 @@
 mod r#box;
 mod candidates;
 mod checker;
+mod digits;
 mod glass;
 mod lens;
 mod march;

@@ -41,10 +41,7 @@ figures.add("box", figure => {
         return near <= far ? `roots ${spell(near)} and ${spell(far)}; ${why}.` : "no root, a miss.";
     }
 
-    const svg = figure.shape(figure.stage, "svg");
-    svg.setAttribute("viewBox", `0 0 ${RIGHT} 350`);
-    svg.setAttribute("aria-hidden", "true");
-    const drawing = figure.shape(svg, "g");
+    const drawing = figure.drawing(`0 0 ${RIGHT} 350`);
     let ray;
     const grips = [
         (x, y) => {
