@@ -12,7 +12,7 @@ const figures = (() => {
     let target = null;
 
     // What holds for every figure that runs a shader.
-    const NOTE = "Your own GPU has computed this, from the text of shaders/. WebGL 2 has no precise: an exclusive or with 0 "
+    const NOTE = "Your browser's WebGL 2 has computed this, from the text of shaders/. It has no precise: an exclusive or with 0 "
         + "stands in its place. The bits of other operations are not promised, and numbers below 2⁻¹²⁶ may become 0.";
 
     // What the reader is told in place of a drawing.

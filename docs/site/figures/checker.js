@@ -65,7 +65,9 @@ figures.add("checker", figure => {
         contexts[1].putImageData(wrong, 0, 0);
         const [filtered, point] = errors.map(sum => sum / count);
         figure.found = { filtered, point, count, view, answers };
-        figure.said.textContent = `On average, filtered pixels are off by ${figure.spell(filtered)}, pixels of one square by `
-            + `${figure.spell(point)}: 0 is a dark square, 1 a light one.`;
+        const spell = error => figure.spell(Number(error.toPrecision(2)));
+        figure.said.textContent = (chosen === 2 ? "The mean of 144 rays is the truth that the others are held to. " : "")
+            + `A dark square is 0, a light one 1. The average error of "filtered" is ${spell(filtered)}, of "point", one square `
+            + `a pixel, ${spell(point)}. Pixels with sky in them are not judged.`;
     };
 });

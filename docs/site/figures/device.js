@@ -172,11 +172,12 @@ figures.add("device", figure => {
                 cases[`${solid} ${rung}`] = Object.fromEntries(KEEPS.map(keep => [keep, asked(solid, index, keep)])));
         }
         const rows = OPERATIONS.map(([name, , , , promise], i) => {
-            const same = kept.told[i] === loose.told[i];
-            const told = same ? `<td colspan="2">${kept.told[i]}</td>` : cells([kept.told[i], loose.told[i]]);
-            return `<tr>${cells([name])}${told}${cells([promise])}</tr>`;
+            const without = kept.told[i] === loose.told[i] ? "the same" : loose.told[i];
+            return `<tr>${cells([name, kept.told[i], without, promise])}</tr>`;
         });
-        single.innerHTML = `<tr>${cells(["operation", "with keep", "without", "Vulkan promises"], "th")}</tr>${rows.join("")}`;
+        single.innerHTML = `<tr>${cells(["operation", "with keep", "without keep", "Vulkan promises"], "th")}</tr>${rows.join("")}`;
+        // Near the menus, which on a phone are far from the figure's end.
+        plot.ownerSVGElement.parentElement.append(figure.said);
         return { device, rays, walls: [LOW, HIGH], operands, cases, operations: { with: kept, without: loose } };
     }
 
@@ -194,7 +195,7 @@ figures.add("device", figure => {
             + Object.entries(SCALE).map(([label, y]) => text(78, y + 5, label, "end")).join("") + dots.join("");
         const rows = Object.entries(found.cases).flatMap(([name, kept]) => {
             const same = kept.with.answers.every((bits, i) => bits === kept.without.answers[i]);
-            return (same ? ["either"] : KEEPS).map(which => {
+            return (same ? ["both"] : KEEPS).map(which => {
                 const { median, most, worst, falseHits, falseMisses } = kept[which] ?? kept.with;
                 const read = name === rung && (same || which === keep) ? "read" : "";
                 return `<tr class="${read}">${cells([name, which, ...[median, most, worst].map(spell), `${falseHits}, ${falseMisses}`])}</tr>`;

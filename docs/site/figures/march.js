@@ -41,11 +41,12 @@ figures.add("march", figure => {
         const off = t ? t - truth : 0;
         const word = !t ? (truth < Infinity ? "lost" : "rightly nothing")
             : truth === Infinity ? "false hit"
-                : Math.abs(off) < 0.001 ? "right" : `${figure.spell(Math.abs(off))} too ${off < 0 ? "near" : "far"}`;
+                : Math.abs(off) < 0.001 ? "right"
+                    : `${Math.abs(off) < 1 ? "nearly right, " : ""}${figure.spell(Math.abs(off))} too ${off < 0 ? "near" : "far"}`;
         return { asked, places, t, off, through, word };
     }
 
-    const scene = figure.drawing("-14 -144 508 244", "A section through the land; 480 is its length");
+    const scene = figure.drawing("-14 -144 508 244", "A section through the land, 480 long");
     scene.ownerSVGElement.parentElement.classList.add("wide");
     const ends = { eye: 0, aim: LENGTH };
     for (const [name, x] of Object.entries(ends)) {
@@ -55,12 +56,12 @@ figures.add("march", figure => {
         ends[name].setAttribute("r", 12);
     }
     const legend = figure.add(figure.stage, "span", "legend");
-    // Kinds are those of the site's colors: blue dots, an orange one, a blue ring.
-    for (const [kind, text] of [["exact", "the height is asked for here"], ["begin", "the hit of the march"], ["rounded", "the true hit"]]) {
+    // Kinds are those of the site's colors: hollow dots, which are no grips, an orange one, a blue ring.
+    for (const [kind, text] of [["passed", "the height is asked for here"], ["begin", "the hit of the march"], ["rounded", "the true hit"]]) {
         figure.add(legend, "span", `key ${kind}`, text);
     }
     const region = figure.add(figure.stage, "span", "region");
-    figure.add(region, "span", "label", "How many heights each march asks for, and its hit");
+    figure.add(region, "span", "label", "Heights asked for, and the hit: right within 0.001, nearly right within 1 of the 480");
     const records = figure.add(region, "span", "records");
 
     const circle = (kind, [x, y], r) => `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"/>`;
@@ -85,7 +86,7 @@ figures.add("march", figure => {
         const until = t || tmax;
         scene.innerHTML = path("shape", [[-20, 110], ...land, [LENGTH + 20, 110]])
             + `<path class="edge" d="${combs}"/>` + path("ray", [point(0), point(until)]) + path("ray rest", [point(until), point(tmax)])
-            + inside.map(([t]) => circle("exact", point(t), 3)).join("")
+            + inside.map(([t]) => circle("passed", point(t), 3)).join("")
             + (t ? circle("begin", point(t), 5.5) : "") + (truth < Infinity ? circle("rounded", point(truth), 9) : "");
         Object.values(ends).forEach((grip, i) => grip.setAttribute("cy", -[eye, aim][i]));
 

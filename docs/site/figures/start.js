@@ -7,9 +7,10 @@ figures.add("start", figure => {
     svg.setAttribute("aria-hidden", "true");
     figure.stage.append(svg);
     const legend = figure.add(figure.stage, "span", "legend");
-    for (const [kind, text] of [["surface", "the surface"], ["sheet", "a sheet close above it"], ["bound", "the bound"],
+    const keys = {};
+    for (const [kind, text] of [["surface", "the surface"], ["sheet", "the sheet, which must stop the ray"], ["bound", "the bound"],
         ["exact", "the exact hit"], ["rounded", "the point, rounded"], ["begin", "the start"]]) {
-        figure.add(legend, "span", `key ${kind}`, text);
+        keys[kind] = figure.add(legend, "span", `key ${kind}`, text);
     }
 
     // The surface goes from corner A to corner B, which are floats.
@@ -43,7 +44,7 @@ figures.add("start", figure => {
 
     return () => {
         const corners = figure.word("point") === "by corners";
-        const [distance, step, gap] = ["distance", "step", "sheet"].map(name => figure.number(name));
+        const [distance, step, gap] = ["distance of the eye", "step", "height of the sheet"].map(name => figure.number(name));
         // What rounding costs the point by corners (chapter 05, derivation, step 1) and the start.
         const bound = U * normal.reduce((sum, n, i) => sum + Math.abs(n) * (2 * Math.max(A[i], B[i]) + 3 * edge[i]), 0);
         let acne = 0, leaks = 0;
@@ -57,9 +58,10 @@ figures.add("start", figure => {
         const height = above(start);
         figure.found = { point, start, height, bound, acne: acne / RAYS, leaks: leaks / RAYS };
 
-        // As much around the exact hit as shows all three points.
+        // As much around the exact hit as shows all three points. It is a power of four, so that a step moves the
+        // start and only now and then the picture.
         const far = Math.max(...[point, start].flatMap(p => p.map((x, i) => Math.abs(x - exact[i]))));
-        const half = Math.max(6 * ulp(exact[1]), 1.2 * far);
+        const half = 4 ** Math.ceil(Math.log2(Math.max(6 * ulp(exact[1]), 1.2 * far)) / 2);
         const scale = HEIGHT / 2 / half;
         const at = p => [WIDTH / 2 + scale * (p[0] - exact[0]), HEIGHT / 2 - scale * (p[1] - exact[1])];
         const wide = half * WIDTH / HEIGHT;
@@ -76,11 +78,17 @@ figures.add("start", figure => {
         }
         for (const [kind, lift] of [["surface", 0], ["sheet", gap], ["bound", corners ? bound : NaN]]) {
             const ends = [-2, 2].map(s => at(exact.map((x, i) => x + s * wide * edge[i] / length + lift * normal[i])));
-            // A line far outside would only cost time.
-            if (lift < 4 * half) {
+            // A line that is not in the picture has no word in the legend.
+            const inside = lift < 1.2 * half;
+            keys[kind].hidden = !inside;
+            if (inside) {
                 shapes += `<path class="${kind}" d="M${ends[0]} L${ends[1]}"/>`;
             }
         }
+        // A scale, as long as a power of ten.
+        const unit = 10 ** Math.floor(Math.log10(2 * half)), end = 20 + scale * unit;
+        shapes += `<path class="ray fine" d="M20 ${HEIGHT - 22} v8 H${end} v-8"/>`
+            + `<text class="halo" x="${end + 10}" y="${HEIGHT - 14}">${figure.spell(unit).replace("1 × ", "")}</text>`;
         for (const [kind, p, r] of [["exact", exact, 4], ["rounded", point, 6], ["begin", start, 6]]) {
             const [x, y] = at(p);
             shapes += `<circle class="${kind}" cx="${x}" cy="${y}" r="${r}"/>`;
@@ -91,9 +99,11 @@ figures.add("start", figure => {
             : height > gap ? "above the surface, beyond the sheet that should stop it: a leak"
                 : "above the surface, and below the sheet: right";
         const percent = part => `${(100 * part).toFixed(0)}\u00a0%`;
-        figure.said.textContent = `The ray starts ${figure.spell(Math.abs(height))} ${said}. `
-            + `Of ${RAYS} such rays ${percent(acne / RAYS)} have acne, ${percent(leaks / RAYS)} leak. `
-            + `${finest ? "Dots are floats." : "Floats lie too close to show."} The picture is ${figure.spell(2 * half)} high.`
-            + (corners ? ` The bound is ${figure.spell(bound)}.` : "");
+        const verdict = acne && leaks ? "too short for some, too long for others" : acne ? "too short" : leaks ? "too long" : "right for all";
+        figure.said.textContent = `This ray starts ${figure.spell(Math.abs(height))} ${said}. `
+            + `Of ${RAYS} rays ${percent(acne / RAYS)} have acne and ${percent(leaks / RAYS)} leak: the step is ${verdict}. `
+            + `${finest ? "Dots are floats." : "Floats lie too close to show."} `
+            + (keys.sheet.hidden ? "The sheet lies above the picture. " : "")
+            + (corners ? `The bound is ${figure.spell(bound)}${keys.bound.hidden ? ", above the picture" : ""}.` : "");
     };
 });

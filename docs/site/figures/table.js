@@ -29,7 +29,9 @@ figures.add("table", figure => {
         const record = instance * each + geometry * rayStride + rayOffset;
         const at = offsets[2] + record * strides[2];
         const inside = record < records[2];
-        figure.found = { strides, offsets, size, record, at, inside };
+        // Whose record it is: an instance has its own from its offset on, which is where the next one's begin.
+        const owner = Math.floor(record / each);
+        figure.found = { strides, offsets, size, record, at, inside, owner };
 
         regions.forEach((region, i) => {
             region.label.textContent = `${region.name}: from byte ${offsets[i]}, ${counted(records[i])} of ${strides[i]} bytes`;
@@ -50,11 +52,12 @@ figures.add("table", figure => {
             }
             from = until;
         }
-        const steps = `record = ${instance} × ${each} + ${geometry} × ${rayStride} + ${rayOffset} = ${record}, `
-            + `byte = ${offsets[2]} + ${record} × ${strides[2]} = ${at}.`;
+        const steps = `record = instance ${instance} × ${counted(each)} + geometry ${geometry} × stride ${rayStride} `
+            + `+ offset ${rayOffset} = ${record}, byte = ${offsets[2]} + ${record} × ${strides[2]} = ${at}.`;
+        const other = ` Record ${record} belongs to instance ${owner}: the device reads it all the same.`;
         const outside = ` Error: the region has ${counted(records[2])} and ends at byte ${size}. `
             + "The device need not check that: it takes for a handle whatever lies there.";
         figure.said.classList.toggle("error", !inside);
-        figure.said.textContent = inside ? steps : steps + outside;
+        figure.said.textContent = steps + (!inside ? outside : owner === instance ? "" : other);
     };
 });

@@ -51,6 +51,22 @@ fn stripes(middle: f64, width: f64) -> f64 {
 fn filtered_squares_are_the_mean_of_a_box_and_nearer_to_the_truth_than_one_square() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "checker");
+    // It begins with what the page says of the chapter's picture.
+    let said = "document.querySelector('.figure .said').textContent";
+    let errors = serde_json::from_value::<[f64; 2]>(found(
+        &mut browser,
+        &[],
+        "[found.filtered, found.point]",
+    ));
+    assert_eq!(errors.unwrap().map(|error| (100.0 * error).round()), [3.0, 18.0]);
+    let text = browser.run(said).as_str().unwrap().to_owned();
+    assert!(
+        text.contains("\"filtered\" is 0.028, of \"point\", one square a pixel, 0.18."),
+        "{text}"
+    );
+    assert!(!text.contains("truth"), "{text}");
+    let text = found(&mut browser, &[("checker", "144 rays")], said);
+    assert!(text.as_str().unwrap().starts_with("The mean of 144 rays is the truth"), "{text}");
     // Rows are told from the top.
     let sample = "(floats => [found.view, found.filtered, found.point, Array.from({ length: 443 }, (_, i) => 37 * i)
         .map(i => [i, ...floats.subarray(4 * ((127 - (i >> 7)) * 128 + i % 128)).subarray(0, 4)])

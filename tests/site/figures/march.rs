@@ -42,6 +42,25 @@ fn the_last_two_marches_find_the_exact_hit_and_the_first_goes_through_ridges_tha
     shown(&mut browser, &address(PAGE), "march");
     let mut random = Random(21);
     let mut within = |low: i64, high: i64| low + random.below((high + 1 - low) as usize) as i64;
+    // The page: "try each march at slopes of 1, 3 and 6". Where the figure begins, the relaxed one is right to a pixel
+    // on gentle slopes, and goes through the ground of the steepest.
+    let begin = found(
+        &mut browser,
+        &[],
+        "['steepest slope', 'eye', 'aim'].map(name => figure.number(name))",
+    );
+    assert_eq!(begin, serde_json::json!([6, 70, -56]));
+    for slope in [1, 3, 6] {
+        let (.., truth, [(_, _, t, through), ..]) = told(&mut browser, [slope, 70, -56]);
+        let off = t - truth.unwrap();
+        assert_eq!(through, slope == 6, "{slope}: {off}");
+        assert!(
+            if through { off > 20.0 } else { (0.001..1.0).contains(&off.abs()) },
+            "{slope}: {off}"
+        );
+        let word = browser.run("figure.found.marches[0].word");
+        assert_eq!(word.as_str().unwrap().starts_with("nearly right, 0."), !through, "{word}");
+    }
     let (mut hits, mut gone, mut wrong) = (0, [0; 9], [0; 2]);
     for number in 0..135 {
         let controls = [number % 9, within(5, 130), within(-90, 130)];

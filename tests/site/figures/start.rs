@@ -23,7 +23,8 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
     for point in ["along the ray", "by corners"] {
         for distance in ["0", "20", "40", "80"] {
             for step in ["0", "20", "35", "60"] {
-                let controls = [("point", point), ("distance", distance), ("step", step)];
+                let controls =
+                    [("point", point), ("distance of the eye", distance), ("step", step)];
                 let told = found(&mut browser, &controls, "found");
                 let start: [f64; 2] = serde_json::from_value(told["start"].clone()).unwrap();
                 let height = told["height"].as_f64().unwrap();
@@ -38,6 +39,15 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
                 assert_eq!(hits, height < 0.0, "{controls:?}: {told}");
                 let said = browser.run("figure.said.textContent");
                 assert_eq!(said.as_str().unwrap().contains(": acne."), hits, "{said}");
+                let all = ["acne", "leaks"].map(|what| told[what].as_f64().unwrap() > 0.0);
+                let verdict = match all {
+                    [true, true] => "too short for some, too long for others",
+                    [true, false] => "too short",
+                    [false, true] => "too long",
+                    [false, false] => "right for all",
+                };
+                let said = said.as_str().unwrap();
+                assert!(said.contains(&format!("the step is {verdict}. ")), "{told}: {said}");
                 acne += usize::from(hits);
                 // From the bound on no start by corners lies below, however far the eye is.
                 let safe = 1e-8 * 10f64.powf(step.parse::<f64>().unwrap() / 20.0)
@@ -48,9 +58,24 @@ fn the_starts_hit_their_surface_where_the_figure_says_acne() {
         }
     }
     assert!(acne > 2, "{acne}");
+    // Within a power of four the start moves and the picture does not; the legend has only what is in view.
+    let place = "[document.querySelector('.figure .stage svg text').textContent,
+        Number(document.querySelector('.figure .stage .begin:not(.key)').getAttribute('cy')),
+        document.querySelector('.figure .key.sheet').hidden]";
+    let mut seen = |step: &str| -> (String, f64, bool) {
+        let controls = [("point", "by corners"), ("distance of the eye", "20"), ("step", step)];
+        serde_json::from_value(found(&mut browser, &controls, place)).unwrap()
+    };
+    let [low, high, next, sheet] = ["53", "60", "67", "80"].map(&mut seen);
+    assert_eq!([&*low.0, &*high.0, &*next.0], ["10⁻⁵", "10⁻⁵", "10⁻⁴"]);
+    assert!(low.1 - high.1 > 20.0, "{low:?} {high:?}");
+    assert!(low.2 && !sheet.2, "{low:?} {sheet:?}");
     // The page: a short step has acne, a long one leaks.
     let part = "[found.acne, found.leaks]";
-    let far = [("point", "along the ray"), ("distance", "80"), ("step", "20")];
+    let far = [("point", "along the ray"), ("distance of the eye", "80"), ("step", "20")];
     assert!(found(&mut browser, &far, part)[0].as_f64().unwrap() > 0.3);
-    assert_eq!(found(&mut browser, &[("distance", "20"), ("step", "100")], part), json!([0, 1]));
+    assert_eq!(
+        found(&mut browser, &[("distance of the eye", "20"), ("step", "100")], part),
+        json!([0, 1])
+    );
 }

@@ -42,4 +42,23 @@ fn the_tables_lead_to_the_records_that_the_pages_print() {
         let wanted = if inside { json!([expected[3].to_string()]) } else { json!([]) };
         assert_eq!(read, wanted);
     }
+    // Instance 3 has the records 6 and 7: geometry 1 at a stride of 2 leads to the next instance's first.
+    let said = "[found.record, found.owner, document.querySelector('.figure .said').textContent]";
+    for (stride, geometry, record, owner) in [("1", "1", 7, 3), ("2", "0", 6, 3), ("2", "1", 8, 4)]
+    {
+        let controls = [
+            ("instance", "3"),
+            ("geometry", geometry),
+            ("sbtRecordStride", stride),
+            ("sbtRecordOffset", "0"),
+        ];
+        let (at, of, said): (usize, usize, String) =
+            serde_json::from_value(found(&mut browser, &controls, said)).unwrap();
+        assert_eq!((at, of), (record, owner), "{said}");
+        let terms = format!(
+            "instance 3 × 2 records + geometry {geometry} × stride {stride} + offset 0 = {at},"
+        );
+        assert!(said.contains(&terms), "{said}");
+        assert_eq!(said.contains("belongs to instance 4"), owner != 3, "{said}");
+    }
 }
