@@ -195,8 +195,14 @@ const figures = (() => {
         // The still picture stands where there is no drawing.
         stand(still) {
             this.box.classList.toggle("moves", !still);
-            this.box.querySelector(".still").hidden = !still;
+            const picture = this.box.querySelector(".still");
+            const focused = picture.contains(document.activeElement);
+            picture.hidden = !still;
             this.stage.hidden = this.controls.hidden = this.sliders.hidden = still;
+            // Who is on the picture by the keyboard goes on with what has taken its place.
+            if (focused && !still) {
+                this.inputs().find(({ type }) => type !== "hidden")?.focus({ preventScroll: true });
+            }
             this.note.textContent = !still && shaders[this.name] ? NOTE : "";
         }
     }

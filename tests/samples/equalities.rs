@@ -30,7 +30,7 @@ const EQUALITIES: [Equality; 11] = [
         one: ("04_jitter_camera", &["jitter=off"]),
         other: ("02_basic", &[]),
         shows_answers: false,
-        is_quick: true,
+        is_quick: false,
     },
     Equality {
         what: "10 = 02",
@@ -57,7 +57,7 @@ const EQUALITIES: [Equality; 11] = [
             &[CHESS, "camera eye=3,4,7", "camera target=0,0.5,0", "filter=tent"],
         ),
         shows_answers: false,
-        is_quick: true,
+        is_quick: false,
     },
     Equality {
         what: "15 = 03",
