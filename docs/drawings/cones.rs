@@ -79,8 +79,8 @@ fn on_the_texture(s: &mut Sheet) {
 pub fn bent() -> String {
     let mut s = Sheet::new([840, 330], "A cone at a mirror that bulges, and at one that is hollow");
     for (left, radius, title) in [
-        (20.0, 150.0, "It bulges: the cone spreads more"),
-        (440.0, -230.0, "It is hollow: a focus, then it spreads"),
+        (24.0, 150.0, "It bulges: the cone spreads more"),
+        (440.0, -150.0, "It is hollow: a focus, then it spreads"),
     ] {
         s.title([left, 62.0], Start, title);
         at_mirror(&mut s, DVec2::new(left + 150.0, 240.0), radius);

@@ -68,3 +68,17 @@ vec3 refracted_step(vec3 at, vec3 step, vec3 direction, vec3 normal, float curva
     return ratio * step + (ratio * before - after) * turn - slower * change * normal;
 }
 // ANCHOR_END: differentials
+
+// ANCHOR: principal
+// Two steps that lean towards each other bound a narrow ellipse, and neither is its axis. Turned by this angle into
+// each other they are perpendicular, and bound the same one.
+Axes principal(Axes axes) {
+    float lean = 2.0 * dot(axes.a, axes.b);
+    float longer = dot(axes.a, axes.a) - dot(axes.b, axes.b);
+    if (lean == 0.0) {
+        return axes;        // and atan(0, 0) is undefined
+    }
+    float angle = 0.5 * atan(lean, longer);
+    return Axes(cos(angle) * axes.a + sin(angle) * axes.b, cos(angle) * axes.b - sin(angle) * axes.a);
+}
+// ANCHOR_END: principal

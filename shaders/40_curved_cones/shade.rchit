@@ -39,7 +39,7 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     Axes axes = ellipse(width, direction, face);
     // ANCHOR_END: width
     if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        axes = met(seen.beam, gl_HitTEXT, direction, face);
+        axes = principal(met(seen.beam, gl_HitTEXT, direction, face));
     }
     return row_of(on_texture(mapping, axes.a), on_texture(mapping, axes.b), size);
 }
