@@ -1,6 +1,7 @@
 //! A ray's cone: what it cuts from a surface, and what is read of the texture there.
 
 use glam::DVec2;
+use std::f64::consts::FRAC_PI_2;
 
 use crate::sheet::Anchor::{Middle, Start};
 use crate::sheet::{BROWN, FAINT, LINE, Point, RED, SEA, Sheet, WHITE, YOURS};
@@ -71,4 +72,53 @@ fn on_the_texture(s: &mut Sheet) {
     }
     s.say([left, 284.0], Start, "four lookups along the longer axis,");
     s.say([left, 302.0], Start, "each as wide as the shorter one: level 1.7");
+}
+
+/// A cone at a mirror that bulges and at one that is hollow, beside what a flat one would make of it. Its rays are
+/// mirrored one by one.
+pub fn bent() -> String {
+    let mut s = Sheet::new([840, 330], "A cone at a mirror that bulges, and at one that is hollow");
+    for (left, radius, title) in [
+        (24.0, 150.0, "It bulges: the cone spreads more"),
+        (440.0, -150.0, "It is hollow: a focus, then it spreads"),
+    ] {
+        s.title([left, 62.0], Start, title);
+        at_mirror(&mut s, DVec2::new(left + 150.0, 240.0), radius);
+    }
+    s.svg()
+}
+
+/// The mirror's middle lies at `hit`, and looks up; `radius` is negative for a hollow one.
+fn at_mirror(s: &mut Sheet, hit: DVec2, radius: f64) {
+    let center = hit + DVec2::Y * radius;
+    let arc = |i: i32| {
+        let turn = -FRAC_PI_2 * radius.signum() + f64::from(i) * 4.0 / radius;
+        point(center + radius.abs() * DVec2::from_angle(turn))
+    };
+    s.line(&(-24..=24).map(arc).collect::<Vec<_>>(), LINE, 4.0);
+    let (slope, half, far) = (0.85, 0.055, 190.0);
+    let eye = hit - DVec2::from_angle(slope) * 165.0;
+    // Where a ray ends, and on the way where it is mirrored: at the circle or at its tangent.
+    let traced = |turn: f64, is_flat: bool| {
+        let along = DVec2::from_angle(slope + turn);
+        let to_center = eye - center;
+        let b = along.dot(to_center);
+        let root = (b * b - to_center.length_squared() + radius * radius).sqrt();
+        let at = eye
+            + along * if is_flat { (hit.y - eye.y) / along.y } else { -b - radius.signum() * root };
+        let normal = if is_flat { DVec2::NEG_Y } else { (at - center) / radius };
+        [at, at + (along - 2.0 * along.dot(normal) * normal) * far]
+    };
+    let [low, high] = [-half, half].map(|turn| traced(turn, false));
+    s.polygon(&[eye, low[0], high[0]].map(point), YOURS, BROWN);
+    s.polygon(&[low[0], low[1], high[1], high[0]].map(point), YOURS, "none");
+    for [from, to] in [low, high] {
+        s.line(&[from, to].map(point), BROWN, 1.5);
+    }
+    for [from, to] in [-half, half].map(|turn| traced(turn, true)) {
+        s.dashes(&[from, to].map(point), RED, 1.4);
+    }
+    s.dot(point(eye), 5.0, LINE);
+    s.note([eye.x - 10.0, eye.y - 10.0], Middle, "eye");
+    s.note([hit.x, hit.y + 48.0], Middle, "dashed: as from a flat mirror");
 }

@@ -36,6 +36,7 @@ const DRAWINGS: &[Drawing] = &[
     ("address_chain", structures::address_chain),
     ("any_hit_order", calls::any_hit_order),
     ("barycentrics", rays::barycentrics),
+    ("bent_cones", cones::bent),
     ("edge_plane", rays::edge_plane),
     ("ellipse", cones::ellipse),
     ("footprint", rays::footprint),

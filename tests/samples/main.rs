@@ -5,6 +5,7 @@ mod any_hit;
 mod bands;
 mod basic;
 mod callable_shader;
+mod curved_cones;
 mod depth_of_field;
 mod emitters;
 mod equalities;

@@ -1,0 +1,129 @@
+//! 40 · Cones at curved surfaces: what a mirror and a lens do to a ray's cone.
+//!
+//! New since 19_ray_cones: two balls and a hollow mirror on its floor (`mirrors.rs`), a path of rays that they turn
+//! (`path.glsl`), and what their curvature makes of the cone (`bent.glsl`).
+
+#[path = "../19_ray_cones/floor.rs"]
+mod floor;
+mod mirrors;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::gpu::{
+    Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
+};
+use common::scene::{
+    Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOnGpu, SceneOptions, Sun,
+};
+use common::{Controls, Frame, Sample, Setup, Variant, Variants};
+use glam::Vec3;
+
+fn main() -> ExitCode {
+    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+}
+
+struct Demo {
+    scene: SceneOnGpu,
+    pipelines: Variants<Constants>,
+    camera: Camera,
+    sun: Sun,
+    rays: u32,
+    constants: Constants,
+}
+
+common::shader_enum! {
+    /// What a pixel shows.
+    enum Show: SHOW {
+        Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
+        Color, Level,
+    }
+    /// What is carried from surface to surface, to say what a lookup covers of the texture.
+    enum Footprint: FOOTPRINT { Point, Flat, Curved, Differentials }
+}
+
+/// What a pipeline is made for: the specialization constants of its shaders.
+#[derive(Clone, Copy, PartialEq)]
+struct Constants {
+    show: Show,
+    footprint: Footprint,
+}
+
+common::shader_struct! {
+    /// What every shader of this chapter can read.
+    struct Push {
+        camera: CameraBasis,
+        scene: SceneAddresses,
+        light: DirectionalLight,
+        rays: u32,
+    }
+}
+
+impl Sample for Demo {
+    fn requirements() -> Requirements {
+        Requirements::ray_tracing().textures().mipmaps()
+    }
+
+    fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
+        let scene = setup.scene_or(mirrors::scene)?;
+        let camera = scene.camera;
+        let options = SceneOptions { mipmaps: true, ..setup.options };
+        let scene = SceneOnGpu::new(gpu, &scene, options)?;
+        let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
+        let constants = Constants { show: Show::Picture, footprint: Footprint::Curved };
+        Ok(Self { scene, pipelines: Variants::default(), camera, sun, rays: 1, constants })
+    }
+
+    // ANCHOR: controls
+    fn controls(&mut self, c: &mut Controls) {
+        c.choice("show", &mut self.constants.show);
+        c.choice("footprint", &mut self.constants.footprint);
+        c.integer("rays", &mut self.rays, 1..=32);
+        c.sun(&mut self.sun);
+        c.camera(&mut self.camera);
+    }
+    // ANCHOR_END: controls
+
+    fn render(&mut self, frame: &Frame) -> Result<()> {
+        // ANCHOR: trace
+        let push = Push {
+            camera: self.camera.basis(frame.aspect()),
+            scene: self.scene.addresses,
+            light: self.sun.light(),
+            rays: self.rays,
+        };
+        let descriptors = [
+            Descriptor::AccelerationStructure(&self.scene.tlas),
+            Descriptor::StorageImage(frame.image),
+        ];
+        let Variant { pipeline, sbt, .. } =
+            self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
+        pipeline.bind(frame.cmd, &descriptors, &push)?;
+        sbt.trace(frame.cmd, frame.area);
+        // ANCHOR_END: trace
+        Ok(())
+    }
+}
+
+// ANCHOR: pipeline
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+fn pipeline(
+    gpu: &Gpu,
+    textures: &TextureTable,
+    constants: Constants,
+) -> Result<RayTracingPipeline> {
+    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+        .raygen("camera.rgen")
+        .miss("sky.rmiss")
+        .miss("shadow.rmiss")
+        .hit(HitGroup::triangles().closest_hit("shade.rchit"))
+        .constant(0, constants.show)
+        .constant(1, constants.footprint)
+        .recursion(1)
+        .binding(Binding::AccelerationStructure)
+        .binding(Binding::StorageImage)
+        .textures(textures)
+        .push_constants::<Push>()
+        .build(gpu)
+}
+// ANCHOR_END: pipeline

@@ -1,0 +1,84 @@
+// What a mirror and a lens make of a ray's cone, and of the next pixels' rays.
+//
+// `curvature` is 1 / radius: positive where the surface bulges towards the ray, negative where it is hollow, and 0
+// where it is flat. `before` and `after` are the cosines of the ray and of its refraction to the normal, positive.
+// `ratio` is the index of refraction before the surface over that behind it.
+
+// ANCHOR: mirror
+// Across the cone the normals turn by curvature * width, and a mirror turns rays by twice that. A hollow one turns
+// them towards each other: the width goes through zero, and grows again with the other sign.
+Cone after_mirror(Cone cone, float t, float curvature) {
+    float width = width_at(cone, t);
+    return Cone(width, cone.spread + 2.0 * curvature * width);
+}
+// ANCHOR_END: mirror
+
+// ANCHOR: glass
+// Along the slant a refracted cone becomes wider by after / before, and spreads less by the same; across it neither
+// changes. One number has to stand for both: the root of their product, which keeps the area.
+Cone after_glass(Cone cone, float t, float curvature, float before, float after, float ratio) {
+    before = max(before, GRAZING);
+    after = max(after, GRAZING);
+    float width = width_at(cone, t);
+    float wider = sqrt(after / before);
+    float turned = (after - ratio * before) / before * curvature * width;
+    return Cone(wider * width, (ratio * cone.spread - turned) / wider);
+}
+// ANCHOR_END: glass
+
+// ANCHOR: beam
+// How the rays of the next pixel to the right (a) and of the next one below (b) differ from the ray: where they
+// begin, and in their directions.
+struct Beam {
+    Axes origin;
+    Axes direction;
+};
+// ANCHOR_END: beam
+
+float away_from_zero(float cosine) {
+    return cosine < 0.0 ? min(cosine, -GRAZING) : max(cosine, GRAZING);
+}
+
+// ANCHOR: met
+// Where a neighbour meets the plane of a hit, as a step from the hit.
+vec3 met(vec3 origin, vec3 step, float t, vec3 direction, vec3 normal) {
+    vec3 away = origin + t * step;
+    return away - dot(away, normal) / away_from_zero(dot(direction, normal)) * direction;
+}
+
+Axes met(Beam beam, float t, vec3 direction, vec3 normal) {
+    return Axes(met(beam.origin.a, beam.direction.a, t, direction, normal),
+                met(beam.origin.b, beam.direction.b, t, direction, normal));
+}
+// ANCHOR_END: met
+
+// ANCHOR: differentials
+// The derivatives of mirrored and of refracted directions (Igehy, "Tracing Ray Differentials", 1999). A step along
+// the surface turns the normal by curvature * step: exact on a sphere.
+vec3 mirrored_step(vec3 at, vec3 step, vec3 direction, vec3 normal, float curvature) {
+    vec3 turn = curvature * at;
+    return step - 2.0 * (dot(direction, normal) * turn + (dot(step, normal) + dot(direction, turn)) * normal);
+}
+
+vec3 refracted_step(vec3 at, vec3 step, vec3 direction, vec3 normal, float curvature, float after, float ratio) {
+    vec3 turn = curvature * at;
+    float before = -dot(direction, normal);
+    float change = dot(step, normal) + dot(direction, turn);      // of -before
+    float slower = ratio - ratio * ratio * before / max(after, GRAZING);
+    return ratio * step + (ratio * before - after) * turn - slower * change * normal;
+}
+// ANCHOR_END: differentials
+
+// ANCHOR: principal
+// Two steps that lean towards each other bound a narrow ellipse, and neither is its axis. Turned by this angle into
+// each other they are perpendicular, and bound the same one.
+Axes principal(Axes axes) {
+    float lean = 2.0 * dot(axes.a, axes.b);
+    float longer = dot(axes.a, axes.a) - dot(axes.b, axes.b);
+    if (lean == 0.0) {
+        return axes;        // and atan(0, 0) is undefined
+    }
+    float angle = 0.5 * atan(lean, longer);
+    return Axes(cos(angle) * axes.a + sin(angle) * axes.b, cos(angle) * axes.b - sin(angle) * axes.a);
+}
+// ANCHOR_END: principal

@@ -1,0 +1,30 @@
+// What the shaders of this chapter share: the push constants, and what the pipeline is made for.
+#include "common/camera.glsl"
+#include "common/scene.glsl"
+#include "common/shade.glsl"
+#include "common/false_color.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    CameraBasis camera;
+    SceneAddresses scene;
+    DirectionalLight light;
+    uint rays;       // a pixel has so many times so many
+} push;
+
+// What is fixed when the pipeline is made: code that cannot run is not even there.
+layout(constant_id = 0) const uint SHOW = 0;
+const uint SHOW_PICTURE = 0;
+const uint SHOW_NORMAL = 1;
+const uint SHOW_TRIANGLE = 2;
+const uint SHOW_HIT = 3;
+const uint SHOW_DIRECTION = 4;
+const uint SHOW_SHADOW = 5;
+const uint SHOW_ORIGIN = 6;
+const uint SHOW_COLOR = 7;
+const uint SHOW_LEVEL = 8;
+
+layout(constant_id = 1) const uint FOOTPRINT = 2;
+const uint FOOTPRINT_POINT = 0;           // a point: level 0, whatever the distance
+const uint FOOTPRINT_FLAT = 1;            // the ellipse of a cone, for which mirrors and glass are flat
+const uint FOOTPRINT_CURVED = 2;          // the ellipse of a cone that curvature bends
+const uint FOOTPRINT_DIFFERENTIALS = 3;   // from where the neighbouring pixels' rays would go

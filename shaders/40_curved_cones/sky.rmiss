@@ -1,0 +1,16 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+#include "push.glsl"
+#include "common/hit.glsl"
+#include "seen.glsl"
+
+layout(location = 0) rayPayloadInEXT Seen seen;
+
+// The ray hit nothing: it sees the sky.
+void main() {
+    seen.hit.t = -1.0;
+    seen.hit.color = sky(gl_WorldRayDirectionEXT);
+}

@@ -1,0 +1,59 @@
+//! 40_curved_cones: what a curved mirror and a lens make of a cone, held to rays, and how far each way to carry it is
+//! from 1,024 rays a pixel.
+
+mod hard;
+mod measured;
+mod rays;
+
+use common::app::Picture;
+use run::{bits, compiled_for, golden, render};
+
+const NAME: &str = "40_curved_cones";
+const SIZE: &str = "240x150";
+const FOOTPRINTS: [&str; 4] = ["point", "flat", "curved", "differentials"];
+
+fn picture(name: &str, size: &str, sets: &[&str]) -> Picture {
+    let arguments: Vec<&str> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+    render(name, size, &arguments).picture
+}
+
+/// The chapter's functions, before the files of 02.
+fn bent() -> String {
+    let files = ["common/footprint.glsl", "40_curved_cones/bent.glsl"];
+    files
+        .map(|file| std::fs::read_to_string(run::root().join("shaders").join(file)).unwrap())
+        .concat()
+}
+
+#[test]
+fn the_picture_is_the_golden_one_and_repeats() {
+    let [first, second] = [0, 1].map(|_| picture(NAME, SIZE, &[]));
+    assert_eq!(bits(&first), bits(&second));
+    // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
+    golden(NAME, &first, 0.002);
+}
+
+/// The bare floor, with mirrors and glass out of sight.
+#[test]
+fn without_a_curved_surface_in_view_it_is_19_to_the_bit() {
+    let from = ["camera eye=700,3,-40", "camera target=720,0,-60", "show=color"];
+    let of = |name: &str, footprint: &str| {
+        let footprint = format!("footprint={footprint}");
+        bits(&picture(name, SIZE, &[&from[..], &[&footprint]].concat()))
+    };
+    let parent = of("19_ray_cones", "ellipse");
+    assert_eq!(of(NAME, "curved"), parent);
+    assert_eq!(of(NAME, "flat"), parent);
+    assert_eq!(of(NAME, "point"), of("19_ray_cones", "point"));
+    assert_ne!(of(NAME, "point"), parent, "the view has no far floor");
+}
+
+#[test]
+fn its_program_spills_no_register() {
+    for footprint in FOOTPRINTS {
+        let set = format!("footprint={footprint}");
+        let Some(programs) = compiled_for(NAME, "navi31", &["--set", &set]) else { return };
+        assert_eq!(programs.len(), 1, "rays do not nest: one program");
+        assert_eq!(programs[0]["spilled_registers"], 0, "{}", programs[0]);
+    }
+}
