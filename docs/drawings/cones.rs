@@ -98,7 +98,9 @@ fn at_mirror(s: &mut Sheet, hit: DVec2, radius: f64) {
     s.line(&(-24..=24).map(arc).collect::<Vec<_>>(), LINE, 4.0);
     let (slope, half, far) = (0.85, 0.055, 190.0);
     let eye = hit - DVec2::from_angle(slope) * 165.0;
-    // Where a ray ends, and on the way where it is mirrored: at the circle or at its tangent.
+    // What is drawn ends square to the middle of the mirrored cone.
+    let onwards = DVec2::from_angle(-slope);
+    // Where a ray is mirrored, at the circle or at its tangent, and where it ends.
     let traced = |turn: f64, is_flat: bool| {
         let along = DVec2::from_angle(slope + turn);
         let to_center = eye - center;
@@ -107,18 +109,28 @@ fn at_mirror(s: &mut Sheet, hit: DVec2, radius: f64) {
         let at = eye
             + along * if is_flat { (hit.y - eye.y) / along.y } else { -b - radius.signum() * root };
         let normal = if is_flat { DVec2::NEG_Y } else { (at - center) / radius };
-        [at, at + (along - 2.0 * along.dot(normal) * normal) * far]
+        let along = along - 2.0 * along.dot(normal) * normal;
+        [at, at + along * ((far - (at - hit).dot(onwards)) / along.dot(onwards))]
     };
     let [low, high] = [-half, half].map(|turn| traced(turn, false));
-    s.polygon(&[eye, low[0], high[0]].map(point), YOURS, BROWN);
+    s.polygon(&[eye, low[0], high[0]].map(point), YOURS, "none");
     s.polygon(&[low[0], low[1], high[1], high[0]].map(point), YOURS, "none");
-    for [from, to] in [low, high] {
-        s.line(&[from, to].map(point), BROWN, 1.5);
-    }
     for [from, to] in [-half, half].map(|turn| traced(turn, true)) {
         s.dashes(&[from, to].map(point), RED, 1.4);
     }
+    for [at, end] in [low, high] {
+        s.line(&[eye, at, end].map(point), BROWN, 1.5);
+    }
     s.dot(point(eye), 5.0, LINE);
     s.note([eye.x - 10.0, eye.y - 10.0], Middle, "eye");
+    s.note([hit.x - 18.0, hit.y - 18.0], Middle, "w");
     s.note([hit.x, hit.y + 48.0], Middle, "dashed: as from a flat mirror");
+    if radius > 0.0 {
+        return s.note([hit.x + 150.0, hit.y - 60.0], Start, "spread s + 2kw");
+    }
+    let [first, second] = [low, high].map(|[at, end]| (end - at).normalize());
+    let focus = low[0] + first * ((high[0] - low[0]).perp_dot(second) / first.perp_dot(second));
+    s.dot(point(focus), 4.0, RED);
+    s.say([focus.x + 14.0, focus.y + 18.0], Start, "focus: the width is 0");
+    s.say([focus.x - 52.0, focus.y - 62.0], Middle, "beyond it, negative");
 }

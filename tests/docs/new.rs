@@ -78,7 +78,7 @@ fn with_a_child_of_each() -> (TempDir, Vec<[String; 2]>) {
     let mut parents = ::run::chapters();
     parents.retain(|name| !from.join("samples").join(name).join("Cargo.toml").is_file());
     let children = parents.into_iter().enumerate().map(|(index, parent)| {
-        let (number, name) = (index + 40, format!("child_of_{}", &parent[..2]));
+        let (number, name) = (index + 60, format!("child_of_{}", &parent[..2]));
         let mut command = Command::new(::run::program("chapters"));
         command.args(["new", &number.to_string(), &name, "--from", &parent]);
         let outcome = run(command.arg("--root").arg(to));
