@@ -70,15 +70,19 @@ vec3 refracted_step(vec3 at, vec3 step, vec3 direction, vec3 normal, float curva
 // ANCHOR_END: differentials
 
 // ANCHOR: principal
-// Two steps that lean towards each other bound a narrow ellipse, and neither is its axis. Turned by this angle into
-// each other they are perpendicular, and bound the same one.
+// Two steps that lean towards each other bound a narrow ellipse, and neither is its axis. Turned by an angle into
+// each other they are perpendicular, and bound the same one. Twice the angle has the tangent lean / longer; of the
+// two angles, this is the one of at most 45 degrees, and `into` is its tangent.
 Axes principal(Axes axes) {
     float lean = 2.0 * dot(axes.a, axes.b);
     float longer = dot(axes.a, axes.a) - dot(axes.b, axes.b);
-    if (lean == 0.0) {
-        return axes;        // and atan(0, 0) is undefined
+    float size = sqrt(longer * longer + lean * lean);
+    float sum = longer < 0.0 ? longer - size : longer + size;
+    if (sum == 0.0) {
+        return axes;        // those of a circle
     }
-    float angle = 0.5 * atan(lean, longer);
-    return Axes(cos(angle) * axes.a + sin(angle) * axes.b, cos(angle) * axes.b - sin(angle) * axes.a);
+    float into = lean / sum;
+    float cosine = inversesqrt(1.0 + into * into);
+    return Axes(cosine * (axes.a + into * axes.b), cosine * (axes.b - into * axes.a));
 }
 // ANCHOR_END: principal

@@ -57,10 +57,10 @@ fn principal_axes_are_perpendicular_and_bound_the_same_area() {
         vec3 a = vec3(float(at.x) / 8.0, 0.5, 0.0);
         Axes axes = principal(Axes(a, vec3(1.0, float(at.y) / 8.0, 0.0)));
         float area = length(cross(a, vec3(1.0, float(at.y) / 8.0, 0.0)));
-        answer = vec4(dot(axes.a, axes.b), length(axes.a) * length(axes.b), area, length(axes.a));";
+        answer = vec4(dot(axes.a, axes.b), length(axes.a) * length(axes.b), area, max(length(axes.a), length(axes.b)));";
     for &[dot, product, area, longer] in &evaluate(&bent(), body, "24x24").pixels {
-        // Vulkan lets sin and cos be off by 2^-11, and atan by 4,096 ULP.
-        let rounding = 2f32.powi(-9) * longer * longer;
+        // Square roots and quotients may be off by 3 ULP, all else by a rounding each.
+        let rounding = 2f32.powi(-19) * longer * longer;
         assert!(
             dot.abs() <= rounding && (product - area).abs() <= rounding,
             "{dot} {product} {area}"
