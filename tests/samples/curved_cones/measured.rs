@@ -107,7 +107,7 @@ fn error_and_flicker_in_each_of_the_three() {
 #[ignore = "by hand: takes times"]
 fn time_by_footprint() {
     let compare = format!("footprint={}", FOOTPRINTS.join("|"));
-    let report = render(NAME, "480x300", &["--frames", "21", "--compare", &compare]).report;
+    let report = render(NAME, "480x300", &["--frames", "101", "--compare", &compare]).report;
     let mut table = Map::new();
     for (i, footprint) in FOOTPRINTS.iter().enumerate() {
         let ratio = &report["comparison"]["values"][i]["ratio"]["median"];
