@@ -29,16 +29,21 @@ const GRAIN: usize = 4096;
 /// # Panics
 /// Beyond 2^32 boxes.
 pub fn binned(bounds: &[Bounds]) -> Tree {
-    binned_on(bounds, thread::available_parallelism().map_or(1, NonZero::get))
+    binned_into(bounds, FOLDED)
 }
 
-fn binned_on(bounds: &[Bounds], threads: usize) -> Tree {
+/// The same with at most so many primitives in a leaf.
+pub(crate) fn binned_into(bounds: &[Bounds], most: u32) -> Tree {
+    binned_on(bounds, most, thread::available_parallelism().map_or(1, NonZero::get))
+}
+
+fn binned_on(bounds: &[Bounds], most: u32, threads: usize) -> Tree {
     assert!(u32::try_from(bounds.len()).is_ok(), "{} boxes: 32 bits count them", bounds.len());
     let boxes = bounds.iter().enumerate().filter(|(_, bounds)| has_place(bounds));
     let mut primitives: Vec<Primitive> = boxes
         .map(|(index, &bounds)| Primitive { hull: bounds.into(), index: index as u32 })
         .collect();
-    let growth = Growth { idle: AtomicIsize::new(threads as isize - 1) };
+    let growth = Growth { most, idle: AtomicIsize::new(threads as isize - 1) };
     let mut nodes = Vec::new();
     let root = growth.grow(&mut primitives, 0, 1, &mut nodes);
     root.into_tree(nodes, primitives.iter().map(|primitive| primitive.index).collect())
@@ -53,6 +58,8 @@ struct Primitive {
 
 /// A build.
 struct Growth {
+    /// How many primitives a leaf may have.
+    most: u32,
     /// How many more threads may be at work.
     idle: AtomicIsize,
 }
@@ -75,7 +82,7 @@ impl Growth {
         }
         let at = nodes.len();
         nodes.push(Node { children: [Child::NONE; 2] });
-        let middle = split(part, most_below(level));
+        let middle = split(part, most_below(self.most, level));
         let (left, right) = part.split_at_mut(middle);
         let (second, level) = (first + middle as u32, level + 1);
         let children = if left.len().min(right.len()) >= GRAIN && self.has_idle() {
@@ -83,7 +90,7 @@ impl Growth {
         } else {
             [self.grow(left, first, level, nodes), self.grow(right, second, level, nodes)]
         };
-        Subtree::join(nodes, at, children)
+        Subtree::join(nodes, at, children, self.most)
     }
     // ANCHOR_END: grow
 
@@ -130,9 +137,10 @@ impl Growth {
 }
 
 // ANCHOR: split
-/// The most primitives that fit below a node on a level: twice as many on each level above the last.
-fn most_below(level: u32) -> u64 {
-    u64::from(FOLDED) << (DEPTH - level)
+/// The most primitives that fit below a node on a level: what a leaf may have on the last, and twice as many on each
+/// level above.
+fn most_below(most: u32, level: u32) -> u64 {
+    u64::from(most) << (DEPTH - level)
 }
 
 /// Puts two primitives or more into two parts, and says how many are in the first. Neither has more than `most`.

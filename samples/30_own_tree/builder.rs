@@ -4,9 +4,10 @@ use anyhow::Result;
 use common::gpu::{Buffer, Gpu};
 use common::scene::Mesh;
 
-use crate::{
-    Bounds, Corners, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles, binned, reinserted,
-};
+use crate::binned::binned_into;
+use crate::reinsert::reinserted_into;
+use crate::subtree::FOLDED;
+use crate::{Bounds, Corners, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles};
 
 common::shader_enum! {
     /// How the trees of meshes are built. The tree over the instances is built on the host.
@@ -26,8 +27,20 @@ const ROUNDS: u32 = 3;
 impl Builder {
     /// A tree over boxes, built on the host.
     pub fn over(self, bounds: &[Bounds]) -> Tree {
-        let tree = binned(bounds);
-        if self == Self::Reinserted { reinserted(tree, bounds, ROUNDS) } else { tree }
+        self.into_leaves(bounds, FOLDED)
+    }
+
+    // ANCHOR: instances
+    /// A tree over the boxes of instances. To enter one costs a ray as much as several nodes, so no two share a
+    /// leaf: a ray that meets the leaf would enter both.
+    pub fn over_instances(self, bounds: &[Bounds]) -> Tree {
+        self.into_leaves(bounds, 1)
+    }
+    // ANCHOR_END: instances
+
+    fn into_leaves(self, bounds: &[Bounds], most: u32) -> Tree {
+        let tree = binned_into(bounds, most);
+        if self == Self::Reinserted { reinserted_into(tree, bounds, ROUNDS, most) } else { tree }
     }
 
     /// A tree over the triangles of each mesh, whose corners are `triangles`.

@@ -23,7 +23,7 @@ pub use check::{DEPTH, LEAF, check};
 pub use device_tree::{Corners, DeviceTree, MOST_TRIANGLES, Scratch};
 pub use hull::has_place;
 pub use on_device::{DeviceBuilder, Triangles};
-pub use on_gpu::{Placed, RAYS, Trees, TreesOnGpu};
+pub use on_gpu::{Placed, RAYS, TRACED, Trees, TreesOnGpu};
 pub use quality::{INTERSECTION, TRAVERSAL, bytes_per_primitive, cost, depth};
 pub use quantised::{Quantised, quantised};
 pub use refit::refit;

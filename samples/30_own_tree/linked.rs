@@ -167,14 +167,20 @@ impl Linked {
     }
     // ANCHOR_END: renew
 
-    /// The tree for a shader, small parts folded into leaves.
-    pub fn into_tree(self) -> Tree {
+    /// The tree for a shader, small parts folded into leaves of at most `most` primitives.
+    pub fn into_tree(self, most: u32) -> Tree {
         let (mut nodes, mut order) = (Vec::new(), Vec::new());
-        let root = self.subtree(self.root, 1, &mut nodes, &mut order);
+        let root = self.subtree((self.root, 1), most, &mut nodes, &mut order);
         root.into_tree(nodes, order)
     }
 
-    fn subtree(&self, at: u32, level: u32, nodes: &mut Vec<Node>, order: &mut Vec<u32>) -> Subtree {
+    fn subtree(
+        &self,
+        (at, level): (u32, u32),
+        most: u32,
+        nodes: &mut Vec<Node>,
+        order: &mut Vec<u32>,
+    ) -> Subtree {
         let first = order.len() as u32;
         let Part { hull, children, .. } = self[at];
         let Some(children) = self[at].children() else {
@@ -183,12 +189,12 @@ impl Linked {
         };
         let at = nodes.len();
         nodes.push(Node { children: [Child::NONE; 2] });
-        let children = children.map(|child| self.subtree(child, level + 1, nodes, order));
+        let children = children.map(|child| self.subtree((child, level + 1), most, nodes, order));
         // Taken apart, a leaf on the last level has levels below it that no tree may have.
         if level > DEPTH {
             nodes.truncate(at);
             return Subtree::leaf(hull, first, order.len() as u32 - first);
         }
-        Subtree::join(nodes, at, children)
+        Subtree::join(nodes, at, children, most)
     }
 }

@@ -49,6 +49,9 @@ common::shader_struct! {
 /// The shader that answers any rays, from a buffer to a buffer: what tests ask.
 pub const RAYS: &str = "rays.comp";
 
+/// The shaders that have the device itself answer them, where it has no queries: what begins, misses, hits.
+pub const TRACED: [&str; 3] = ["rays.rgen", "rays.rmiss", "rays.rchit"];
+
 /// The trees of a scene on the device.
 pub struct TreesOnGpu {
     /// Of the [`Trees`].
@@ -80,7 +83,7 @@ impl TreesOnGpu {
             if is_there { moved((low, high), &to_world) } else { NOWHERE }
         });
         let bounds: Vec<_> = bounds.collect();
-        let top = builder.over(&bounds);
+        let top = builder.over_instances(&bounds);
         // ANCHOR_END: top
 
         // ANCHOR: pack

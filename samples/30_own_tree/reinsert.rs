@@ -9,6 +9,7 @@ use common::workers;
 
 use crate::check::DEPTH;
 use crate::linked::{Linked, NOBODY};
+use crate::subtree::FOLDED;
 use crate::tree::{Bounds, Tree};
 
 /// Parts for which a thread searches at a time.
@@ -24,13 +25,18 @@ const SEARCHED: u32 = 512;
 /// # Panics
 /// If the tree is none over these boxes: see [`check`](crate::check()).
 pub fn reinserted(tree: Tree, bounds: &[Bounds], rounds: u32) -> Tree {
+    reinserted_into(tree, bounds, rounds, FOLDED)
+}
+
+/// The same with at most so many primitives in a leaf.
+pub(crate) fn reinserted_into(tree: Tree, bounds: &[Bounds], rounds: u32, most: u32) -> Tree {
     let Some(mut linked) = Linked::new(&tree, bounds) else { return tree };
     for _ in 0..rounds {
         if !linked.round() {
             break;
         }
     }
-    linked.into_tree()
+    linked.into_tree(most)
 }
 
 /// A place for a part: beside another.

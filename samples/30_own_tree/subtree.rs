@@ -31,12 +31,12 @@ impl Subtree {
     }
 
     /// Two that lie beside each other, under the node `at`, below which `nodes` holds theirs and no others.
-    /// Where a leaf is no dearer, that is what they become.
-    pub fn join(nodes: &mut Vec<Node>, at: usize, children: [Self; 2]) -> Self {
+    /// Where a leaf is no dearer, and holds no more than `most`, that is what they become.
+    pub fn join(nodes: &mut Vec<Node>, at: usize, children: [Self; 2], most: u32) -> Self {
         let [a, b] = children;
         let leaf = Self::leaf(a.hull.join(&b.hull), a.first, a.count + b.count);
         let cost = TRAVERSAL * leaf.hull.half_area() + a.cost + b.cost;
-        if leaf.count <= FOLDED && leaf.cost <= cost {
+        if leaf.count <= most && leaf.cost <= cost {
             nodes.truncate(at);
             return leaf;
         }

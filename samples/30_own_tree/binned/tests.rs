@@ -1,7 +1,7 @@
 use common::glam::Vec3;
 use proptest::prelude::*;
 
-use super::{GRAIN, binned, binned_on};
+use super::{FOLDED, GRAIN, binned, binned_on};
 use crate::{Bounds, Child, DEPTH, Tree, check, cost, depth};
 
 /// A hash of a number (splitmix64), as a number from 0 to 1.
@@ -37,10 +37,10 @@ fn exponentials(each: usize) -> Vec<Bounds> {
 #[test]
 fn any_number_of_threads_builds_the_same_bytes() {
     let bounds = crowd(40 * GRAIN as u64);
-    let one = binned_on(&bounds, 1);
+    let one = binned_on(&bounds, FOLDED, 1);
     check(&one, &bounds).unwrap();
     for threads in [2, 3, 7, 64] {
-        assert!(bytes(&binned_on(&bounds, threads)) == bytes(&one), "{threads} threads");
+        assert!(bytes(&binned_on(&bounds, FOLDED, threads)) == bytes(&one), "{threads} threads");
     }
 }
 
