@@ -9,34 +9,9 @@
 // Any rays, given and answered in buffers: by the walk, by every triangle in turn, or by the device.
 #include "constants.glsl"
 #include "walk.glsl"
+#include "rays.glsl"
 
 layout(local_size_x_id = 4, local_size_y_id = 5) in;
-
-struct Given {
-    vec3 origin;
-    float tmax;
-    vec3 direction;
-    uint any;             // not 0: any hit will do
-};
-
-struct Answer {
-    float t;
-    uint instance;        // of the scene; NOTHING for a miss
-    uint position;        // among all corners; of a query, the primitive
-    uint count;           // nodes and triangles that it took; by brute force, triangles that were met
-};
-
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer AllGiven { Given at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Answers { Answer at[]; };
-
-layout(push_constant, scalar) uniform Launch {
-    AllTrees trees;
-    AllGiven given;
-    Answers answers;
-    uint rays;
-    uint across;          // invocations in a row of the dispatch
-    uint instances;
-} launch;
 
 void visit(Trees trees, Node node, uint inside) {}
 

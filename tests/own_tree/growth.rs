@@ -38,7 +38,7 @@ fn bounds(scene: &Scene) -> Vec<Bounds> {
 fn steps(scene: &Scene, builder: Builder) -> f64 {
     let rig = Rig::beside_the_device(scene, builder);
     let rays = primary(scene, [480, 300]);
-    let (answers, _) = rig.answers(&rig.pipeline(By::Walk, BEST), By::Walk, &rays);
+    let (answers, _) = rig.answers(&rig.way(By::Walk, BEST), &rays);
     answers.iter().map(|answer| f64::from(answer.count)).sum::<f64>() / rays.len() as f64
 }
 

@@ -167,8 +167,8 @@ pub fn hunt(rungs: &[Rungs], count: usize, seed: u64, arithmetic: Arithmetic) ->
         for (rungs, total) in rungs.iter().zip(&mut counts) {
             let all = by_all
                 .entry(rungs.triangles)
-                .or_insert_with(|| rig.answers(&rig.pipeline(By::All, *rungs), By::All, &given).0);
-            let walked = rig.answers(&rig.pipeline(By::Walk, *rungs), By::Walk, &given).0;
+                .or_insert_with(|| rig.answers(&rig.way(By::All, *rungs), &given).0);
+            let walked = rig.answers(&rig.way(By::Walk, *rungs), &given).0;
             total.add(&walked, all);
         }
     }

@@ -19,7 +19,7 @@ fn met(columns: [Vec3; 3]) -> usize {
         Given { origin: Vec3::ZERO, tmax: 1e30, direction: direction.as_vec3(), any: 0 }
     };
     let rays: Vec<_> = (0..1000).map(ray).collect();
-    let (answers, _) = rig.answers(&rig.pipeline(By::Walk, BEST), By::Walk, &rays);
+    let (answers, _) = rig.answers(&rig.way(By::Walk, BEST), &rays);
     assert_eq!(rig.gpu.validation().all(), [""; 0]);
     answers.iter().filter(|answer| answer.instance != NOTHING).count()
 }

@@ -55,7 +55,7 @@ fn secondary(
 /// Kinds of rays in a scene: through pixels, from there to the light, and from there anywhere.
 fn kinds(rig: &Rig, scene: &Scene) -> [(&'static str, Vec<Given>); 3] {
     let given = primary(scene, [960, 600]);
-    let (answers, _) = rig.answers(&rig.pipeline(By::Query, BEST), By::Query, &given);
+    let (answers, _) = rig.answers(&rig.way(By::Device, BEST), &given);
     let light = Vec3::new(0.4, 0.3, 0.2).normalize();
     let mut random = Random(3);
     let bounce = || {
@@ -77,19 +77,19 @@ fn misses(answer: &Answer) -> bool {
     answer.instance == NOTHING
 }
 
-/// How many times as fast walks are as the device's queries, in processor time, for each kind of ray.
+/// How many times as fast walks are as what the device has, for each kind of ray.
 fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     const ROUNDS: usize = 9;
     let rig = Rig::beside_the_device(scene, Builder::Reinserted);
-    let (walk, query) = (rig.pipeline(By::Walk, BEST), rig.pipeline(By::Query, BEST));
+    let (walk, device) = (rig.way(By::Walk, BEST), rig.way(By::Device, BEST));
     let exact = LazyCell::new(|| reference(scene));
     for (kind, rays) in kinds(&rig, scene) {
         let (mut ratios, mut rates, mut steps) = (Vec::new(), Vec::new(), 0.0);
         let mut differing: Vec<(&Given, Answer)> = Vec::new();
         for _ in 0..ROUNDS {
-            let (ours, own) = rig.answers(&walk, By::Walk, &rays);
-            let (theirs, device) = rig.answers(&query, By::Query, &rays);
-            ratios.push(device / own);
+            let (ours, own) = rig.answers(&walk, &rays);
+            let (theirs, its) = rig.answers(&device, &rays);
+            ratios.push(its / own);
             rates.push(rays.len() as f64 / own * 1e-3);
             let both = rays.iter().zip(&ours).zip(&theirs);
             let differ = both.filter(|((_, ours), theirs)| misses(ours) != misses(theirs));
@@ -106,11 +106,12 @@ fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
         let walk_right = differing.iter().filter(is_right).count();
         println!(
             "{name} {kind}: {ratio:.2} times as fast ({low:.2} to {high:.2}); {rate:.2} million rays \
-             a second of a processor; {steps:.1} steps; {differ} of {} differ in hit or miss, the walk \
+             a second; {steps:.1} steps; {differ} of {} differ in hit or miss, the walk \
              is right in {walk_right}",
             rays.len()
         );
-        for (what, value) in [("ratio", ratio), ("low", low), ("high", high), ("steps", steps)] {
+        let timed = [("ratio", ratio), ("low", low), ("high", high), ("rate", 1e6 * rate)];
+        for (what, value) in timed.into_iter().chain([("steps", steps)]) {
             figures.insert(format!("{name}.{kind}.{what}"), value.into());
         }
         figures.insert(format!("{name}.{kind}.differ"), differ.into());
@@ -178,13 +179,12 @@ fn the_time_of_each_rung() {
     let [(_, primary), _, (_, bounce)] = kinds(&rig, &scene);
     let rays = [primary, bounce].concat();
     let mut figures = Map::new();
-    let best = rig.pipeline(By::Walk, BEST);
+    let best = rig.way(By::Walk, BEST);
     let triangles = [("moeller", MOELLER), ("watertight", WATERTIGHT), ("two-float", TWO_FLOAT)];
     for (name, triangles) in triangles {
         for (boxes, of_boxes) in (BARE..).zip(["bare", "guess", "ize", "bound", "two-float"]) {
-            let walk = rig.pipeline(By::Walk, Rungs { boxes, triangles, quantised: false });
-            let ratio =
-                |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
+            let walk = rig.way(By::Walk, Rungs { boxes, triangles, quantised: false });
+            let ratio = |_| rig.answers(&walk, &rays).1 / rig.answers(&best, &rays).1;
             let [low, ratio, high] = quartiles((0..ROUNDS).map(ratio).collect());
             println!("{name} {of_boxes}: {ratio:.2} ({low:.2} to {high:.2})");
             for (what, value) in [("", ratio), (".low", low), (".high", high)] {
@@ -192,8 +192,8 @@ fn the_time_of_each_rung() {
             }
         }
     }
-    let walk = rig.pipeline(By::Walk, PACKED);
-    let ratio = |_| rig.answers(&walk, By::Walk, &rays).1 / rig.answers(&best, By::Walk, &rays).1;
+    let walk = rig.way(By::Walk, PACKED);
+    let ratio = |_| rig.answers(&walk, &rays).1 / rig.answers(&best, &rays).1;
     let [_, ratio, _] = quartiles((0..ROUNDS).map(ratio).collect());
     figures.insert("quantised".to_owned(), ratio.into());
     println!("36 bytes: {ratio:.2}");

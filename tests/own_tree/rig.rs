@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use common::glam::Vec3;
 use common::gpu::{
-    Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, Requirements,
+    Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, GpuOptions, HitGroup,
+    RayTracingPipeline, Requirements, ShaderBindingTable, Timer,
 };
 use common::scene::{Scene, SceneOnGpu, SceneOptions};
 use instruments::arithmetic::Arithmetic;
-use own_tree::{Builder, OwnScene, RAYS, Trees};
+use own_tree::{Builder, OwnScene, RAYS, TRACED, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
@@ -46,11 +47,19 @@ common::shader_struct! {
 }
 
 /// Who answers.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub enum By {
     Walk,
     All,
-    Query,
+    /// What the device itself has: its ray queries, or its pipelines where it offers no queries.
+    Device,
+}
+
+/// Something that answers rays.
+pub enum Way {
+    Computed(ComputePipeline),
+    Queried(ComputePipeline),
+    Traced(RayTracingPipeline, ShaderBindingTable),
 }
 
 /// How boxes and triangles are tested: the chapter's choices, by their numbers.
@@ -84,6 +93,8 @@ fn worked() -> f64 {
 pub struct Rig {
     pub gpu: Gpu,
     pub own: OwnScene,
+    /// Whether the device offers queries, and is to be asked.
+    pub queries: bool,
     /// What the device has built, where it is asked.
     pub levels: Option<SceneOnGpu>,
     instances: u32,
@@ -100,49 +111,72 @@ impl Rig {
         Self::make(scene, builder, false, arithmetic)
     }
 
-    /// For walks and queries; without validation, which would be timed.
+    /// For walks and what the device has; without validation, which would be timed.
     pub fn beside_the_device(scene: &Scene, builder: Builder) -> Self {
         Self::make(scene, builder, true, Arithmetic::Driver)
     }
 
-    fn make(scene: &Scene, builder: Builder, queries: bool, arithmetic: Arithmetic) -> Self {
-        let requirements = Requirements::ray_tracing().textures();
-        let requirements = if queries { requirements.ray_query() } else { requirements };
-        let (validate, emulation) = (!queries, Arc::new(arithmetic));
-        let options = GpuOptions { requirements, validate, emulation, ..GpuOptions::default() };
-        let gpu = Gpu::new(&options).expect("there is a device");
-        let own = OwnScene::new(&gpu, scene, builder).expect("it has room");
-        let levels = queries
-            .then(|| SceneOnGpu::new(&gpu, scene, SceneOptions::default()).expect("it has room"));
-        Self { gpu, own, levels, instances: scene.instances.len() as u32 }
-    }
-
-    /// A pipeline that answers rays.
-    pub fn pipeline(&self, by: By, rungs: Rungs) -> ComputePipeline {
-        let builder = ComputePipeline::builder(NAME)
-            .compute(RAYS)
-            .workgroup(4, [256, 1])
-            .constant(1, rungs.boxes)
-            .constant(2, rungs.triangles)
-            .constant(3, self.own.trees.stack)
-            .constant(6, u32::from(rungs.quantised))
-            .push_constants::<Launch>()
-            .rounding_to_nearest_even(&self.gpu);
-        let builder = match by {
-            By::Walk => builder,
-            By::All => builder.define("BY_ALL", 1),
-            By::Query => builder.define("BY_QUERY", 1).binding(Binding::AccelerationStructure),
+    fn make(scene: &Scene, builder: Builder, beside: bool, arithmetic: Arithmetic) -> Self {
+        let emulation = Arc::new(arithmetic);
+        let device = |requirements| {
+            let emulation = emulation.clone();
+            let options =
+                GpuOptions { requirements, validate: !beside, emulation, ..GpuOptions::default() };
+            Gpu::new(&options)
         };
-        builder.build_compute(&self.gpu).expect("it compiles")
+        let requirements = || Requirements::ray_tracing().textures();
+        let with_queries = if beside { device(requirements().ray_query()).ok() } else { None };
+        let queries = with_queries.is_some();
+        let gpu =
+            with_queries.unwrap_or_else(|| device(requirements()).expect("there is a device"));
+        let own = OwnScene::new(&gpu, scene, builder).expect("it has room");
+        let levels = beside
+            .then(|| SceneOnGpu::new(&gpu, scene, SceneOptions::default()).expect("it has room"));
+        Self { gpu, own, queries, levels, instances: scene.instances.len() as u32 }
     }
 
-    /// The answer to each ray, and the milliseconds that processors worked for them.
-    pub fn answers(
-        &self,
-        pipeline: &ComputePipeline,
-        by: By,
-        given: &[Given],
-    ) -> (Vec<Answer>, f64) {
+    /// A way to have rays answered.
+    pub fn way(&self, by: By, rungs: Rungs) -> Way {
+        let traced = |gpu: &Gpu| {
+            let [raygen, miss, closest_hit] = TRACED;
+            RayTracingPipeline::builder(NAME)
+                .raygen(raygen)
+                .miss(miss)
+                .hit(HitGroup::triangles().closest_hit(closest_hit))
+                .binding(Binding::AccelerationStructure)
+                .push_constants::<Launch>()
+                .build(gpu)
+        };
+        let computed = || {
+            ComputePipeline::builder(NAME)
+                .compute(RAYS)
+                .workgroup(4, [256, 1])
+                .constant(1, rungs.boxes)
+                .constant(2, rungs.triangles)
+                .constant(3, self.own.trees.stack)
+                .constant(6, u32::from(rungs.quantised))
+                .push_constants::<Launch>()
+                .rounding_to_nearest_even(&self.gpu)
+        };
+        let way = match by {
+            By::Walk => computed().build_compute(&self.gpu).map(Way::Computed),
+            By::All => computed().define("BY_ALL", 1).build_compute(&self.gpu).map(Way::Computed),
+            By::Device if self.queries => computed()
+                .define("BY_QUERY", 1)
+                .binding(Binding::AccelerationStructure)
+                .build_compute(&self.gpu)
+                .map(Way::Queried),
+            By::Device => traced(&self.gpu).and_then(|pipeline| {
+                let table = ShaderBindingTable::new(&self.gpu, &pipeline)?;
+                Ok(Way::Traced(pipeline, table))
+            }),
+        };
+        way.expect("it compiles")
+    }
+
+    /// The answer to each ray, and the milliseconds that they took: of processors, where the device is
+    /// software, and by the device's clock elsewhere.
+    pub fn answers(&self, way: &Way, given: &[Given]) -> (Vec<Answer>, f64) {
         let rays =
             Buffer::with_data(&self.gpu, "rays", given, Buffer::ADDRESSED).expect("room for rays");
         let size = size_of::<Answer>() * given.len();
@@ -156,20 +190,38 @@ impl Rig {
             across: ACROSS,
             instances: self.instances,
         };
-        let levels = self.levels.iter().filter(|_| by == By::Query);
-        let levels = levels.map(|levels| Descriptor::AccelerationStructure(&levels.tlas));
-        let descriptors: Vec<_> = levels.collect();
+        let levels = self.levels.iter();
+        let levels: Vec<_> =
+            levels.map(|levels| Descriptor::AccelerationStructure(&levels.tlas)).collect();
         let rows = (given.len() as u32).div_ceil(ACROSS);
         let area = ash::vk::Extent2D { width: ACROSS, height: rows }.into();
+        let timer = Timer::new(&self.gpu).expect("room for a timer");
         let begun = worked();
         self.gpu
             .submit(|cmd| {
-                pipeline.bind(cmd, &descriptors, &launch)?;
-                pipeline.dispatch(cmd, area);
+                timer.start(cmd);
+                match way {
+                    Way::Computed(pipeline) => {
+                        pipeline.bind(cmd, &[], &launch)?;
+                        pipeline.dispatch(cmd, area);
+                    }
+                    Way::Queried(pipeline) => {
+                        pipeline.bind(cmd, &levels, &launch)?;
+                        pipeline.dispatch(cmd, area);
+                    }
+                    Way::Traced(pipeline, table) => {
+                        pipeline.bind(cmd, &levels, &launch)?;
+                        table.trace(cmd, area);
+                    }
+                }
+                timer.stop(cmd);
                 Ok(())
             })
             .expect("the device does it");
-        let milliseconds = (worked() - begun) * 1e3;
+        let milliseconds = match self.gpu.chosen.software {
+            true => (worked() - begun) * 1e3,
+            false => timer.milliseconds().expect("the device has a clock"),
+        };
         (answers.read().expect("they come back"), milliseconds)
     }
 }
