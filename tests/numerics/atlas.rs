@@ -155,7 +155,11 @@ fn the_worst_arithmetic_is_seen() {
         ["called", "called again", "most calls"].map(|name| number(found, name))
     };
     let [called, again, most] = of("without the flag");
-    assert!(again == called && most == 2.0, "{called} {again} {most}");
+    assert!(again >= called && most >= 2.0, "{called} {again} {most}");
+    // This driver itself calls once; another may call as often as it likes.
+    if run::device::is_software() {
+        assert!(again == called && most == 2.0, "{called} {again} {most}");
+    }
     assert_eq!(of("with the flag")[1..], [0.0, 1.0]);
     let found = case(&worst, "boxes", "box from 10");
     assert_eq!(number(found, "offered beside it") + number(found, "meet it"), 200.0);

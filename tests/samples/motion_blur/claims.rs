@@ -2,7 +2,7 @@
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
-use run::{bits, figures, render, same_answers};
+use run::{Near, bits, device, figures, render, same_answers, same_colors};
 use serde_json::{Value, json};
 
 use super::shutter::{Between, Pose, between};
@@ -12,9 +12,9 @@ use super::{NAME, picture};
 const VIEW: [&str; 4] =
     ["frame=932", "camera eye=-4,4.6,9", "camera target=-2.2,1.2,0", "field of view=20"];
 
-fn seen_by(name: &str, sets: &[&str]) -> Vec<[u32; 4]> {
+fn seen_by(name: &str, sets: &[&str]) -> Picture {
     let sets = VIEW.iter().chain(sets).flat_map(|&set| ["--set", set]);
-    bits(&render(name, "96x60", &sets.collect::<Vec<_>>()).picture)
+    render(name, "96x60", &sets.collect::<Vec<_>>()).picture
 }
 
 #[test]
@@ -25,12 +25,19 @@ fn without_a_shutter_it_is_its_parent_to_the_bit() {
         let parent = seen_by("14_animation", &[show]);
         for method in ["method=swept", "method=moments"] {
             let own = seen_by(NAME, &[show, method, "shutter=0", "turns=0"]);
-            assert!(own == parent, "{show} {method}");
+            let what = format!("{show} {method}");
+            match show {
+                "show=shadow origin" | "show=ray direction" => {
+                    same_answers(&what, NAME, &own, &parent);
+                }
+                _ => same_colors(&what, NAME, &own, &parent),
+            }
         }
     }
     let parent = seen_by("14_animation", &["show=picture"]);
-    assert!(seen_by(NAME, &["turns=0"]) != parent, "an open shutter shows nothing else");
-    assert!(seen_by(NAME, &["shutter=0"]) != parent, "nothing turns");
+    let differs = |sets: &[&str]| bits(&seen_by(NAME, sets)) != bits(&parent);
+    assert!(differs(&["turns=0"]), "an open shutter shows nothing else");
+    assert!(differs(&["shutter=0"]), "nothing turns");
 }
 
 /// Where nothing is under way, samples are all the same, and their mean is what one sees.
@@ -61,10 +68,12 @@ fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
     let [moments, swept] = ["method=moments", "method=swept"]
         .map(|method| picture("240x150", &[], &[&one[..], &[method]].concat()));
     let differ = moments.pixels.iter().zip(&swept.pixels).filter(|(a, b)| a != b).count();
-    assert!(
-        differ <= 8,
-        "{differ} pixels: two triangle tests may differ at edges of shadows alone"
-    );
+    // Two triangle tests may differ at edges of shadows alone; llvmpipe's is that of the chapter.
+    let most = match device::is_software() {
+        true => 8,
+        false => Near::of(NAME).both().flips(&moments) as usize,
+    };
+    assert!(differ <= most, "{differ} pixels of {most}");
 }
 
 /// Halfway, the mean of two matrices is narrower by the cosine of half the angle, in both directions across the axis.
