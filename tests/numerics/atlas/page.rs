@@ -7,10 +7,11 @@ use serde_json::{Map, Value};
 use super::{case, cases, number, row};
 
 /// The cards of the page, by the names of its measurements.
-const CARDS: [(&str, &str); 3] = [
+const CARDS: [(&str, &str); 4] = [
     ("llvmpipe", "llvmpipe-llvm-15-0-6-256-bits"),
     ("newer", "llvmpipe-llvm-22-1-8-256-bits"),
     ("worst", "llvmpipe-llvm-15-0-6-256-bits-worst"),
+    ("h200", "nvidia-h200"),
 ];
 
 /// The atlas of a card.
@@ -82,7 +83,7 @@ struct Shown<'a> {
 }
 
 /// A panel for each thing that is varied: the largest errors, and those that 99 of 100 rays do not exceed.
-fn triangles(shown: &Shown, [llvmpipe, worst]: [&Value; 2]) {
+fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
     let panel = |varied, x: &dyn Fn(f64) -> f64, axis| {
         let line = |name, atlas, part: &str| {
             let y = format!("{} {part}", shown.of);
@@ -99,6 +100,7 @@ fn triangles(shown: &Shown, [llvmpipe, worst]: [&Value; 2]) {
             series: vec![
                 line("llvmpipe, 99 of 100", llvmpipe, "p99"),
                 line("llvmpipe, largest", llvmpipe, "max"),
+                line("H200, largest", h200, "max"),
                 line("worst, largest", worst, "max"),
             ],
         }
@@ -178,7 +180,7 @@ fn boxes(atlas: &Value) {
 #[ignore = "by hand: draws the charts of docs/what-hardware-computes.md from the cards"]
 fn charts() {
     let cards = CARDS.map(|(_, file)| card(file));
-    let [llvmpipe, _, worst] = cards.each_ref();
+    let [llvmpipe, _, worst, h200] = cards.each_ref();
     let t = Shown {
         file: "what-hardware-computes_t.svg",
         of: "t",
@@ -193,8 +195,8 @@ fn charts() {
         label: "error of a weight, thousandths",
         ticks: &[0.00001, 0.001, 0.1, 10.0, 1000.0],
     };
-    triangles(&t, [llvmpipe, worst]);
-    triangles(&weights, [llvmpipe, worst]);
+    triangles(&t, [llvmpipe, worst, h200]);
+    triangles(&weights, [llvmpipe, worst, h200]);
     seams(llvmpipe);
     boxes(llvmpipe);
     let worst = case(worst, "duplicates", "without the flag");
