@@ -59,7 +59,7 @@ pub enum By {
 pub enum Way {
     Computed(ComputePipeline),
     Queried(ComputePipeline),
-    Traced(RayTracingPipeline, ShaderBindingTable),
+    Traced(Box<(RayTracingPipeline, ShaderBindingTable)>),
 }
 
 /// How boxes and triangles are tested: the chapter's choices, by their numbers.
@@ -168,7 +168,7 @@ impl Rig {
                 .map(Way::Queried),
             By::Device => traced(&self.gpu).and_then(|pipeline| {
                 let table = ShaderBindingTable::new(&self.gpu, &pipeline)?;
-                Ok(Way::Traced(pipeline, table))
+                Ok(Way::Traced(Box::new((pipeline, table))))
             }),
         };
         way.expect("it compiles")
@@ -209,7 +209,8 @@ impl Rig {
                         pipeline.bind(cmd, &levels, &launch)?;
                         pipeline.dispatch(cmd, area);
                     }
-                    Way::Traced(pipeline, table) => {
+                    Way::Traced(traced) => {
+                        let (pipeline, table) = &**traced;
                         pipeline.bind(cmd, &levels, &launch)?;
                         table.trace(cmd, area);
                     }
