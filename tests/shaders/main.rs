@@ -159,11 +159,12 @@ fn every_file_is_used_by_a_chapter() {
     for stage in tracer.split('"').filter(|word| word.starts_with("atlas")) {
         used.extend(compile(&format!("24_accuracy/{stage}")).unwrap().files());
     }
-    // Nor do the trees that are built on the device, and the shader that answers their tests.
+    // Nor do the trees that are built on the device, and the shaders that answer their tests.
     for source in ["on_device.rs", "on_gpu.rs"] {
         let source = run::root().join("samples/30_own_tree").join(source);
         let source = std::fs::read_to_string(source).expect("a source");
-        for stage in source.split('"').filter(|word| word.ends_with(".comp")) {
+        let is_shader = |word: &&str| word.ends_with(".comp") || word.starts_with("rays.");
+        for stage in source.split('"').filter(is_shader) {
             used.extend(compile(&format!("30_own_tree/{stage}")).unwrap().files());
         }
     }
