@@ -159,6 +159,29 @@ fn balls() -> Scene {
     scene
 }
 
+/// A device without queries is asked by its pipelines: the same rays, and the same answers.
+#[test]
+fn what_is_traced_is_what_is_queried() {
+    let scene = Scene::chess().expect("the chess set");
+    let mut rig = Rig::beside_the_device(&scene, Builder::Binned);
+    let queried = rig.way(By::Device, BEST);
+    rig.queries = false;
+    let traced = rig.way(By::Device, BEST);
+    let nearest = primary(&scene, [96, 60]);
+    let [(ours, _), (theirs, _)] = [&queried, &traced].map(|way| rig.answers(way, &nearest));
+    for (one, other) in ours.iter().zip(&theirs) {
+        // At an edge another triangle may answer, at the same distance.
+        let is_tie = (one.t - other.t).abs() <= 1e-5 * one.t && misses(one) == misses(other);
+        assert!(is_tie, "{} and {}, of {} and {}", one.t, other.t, one.instance, other.instance);
+    }
+    let same = ours.iter().zip(&theirs).filter(|(a, b)| a.instance == b.instance).count();
+    assert!(same + 4 >= nearest.len(), "{same} of {}", nearest.len());
+    let any: Vec<_> = nearest.iter().map(|ray| Given { any: 1, ..*ray }).collect();
+    let [(ours, _), (theirs, _)] = [&queried, &traced].map(|way| rig.answers(way, &any));
+    assert!(ours.iter().map(misses).eq(theirs.iter().map(misses)));
+    assert!(ours.iter().any(misses) && !ours.iter().all(misses));
+}
+
 #[test]
 #[ignore = "by hand: takes times"]
 fn walks_beside_queries() {
