@@ -112,7 +112,8 @@ fn boxes(gpu: &Gpu, shapes: &[Shape], asked: &[(usize, Ray)]) -> Result<Level> {
         let (low, high) = shape.bounds();
         // As in `common::gpu::padded`; an instance's matrix takes three products and their sum.
         let roundings = if matches!(shape, Shape::Instance(_)) { 18.0 } else { 10.0 };
-        let margin = DVec3::splat(roundings * 2f64.powi(-24) * reach);
+        let coordinate = low.abs().max(high.abs());
+        let margin = 2f64.powi(-24) * (DVec3::splat(roundings * reach) + 2.0 * coordinate);
         let corners = [down(low - margin), up(high + margin)];
         let input = boxes_on_gpu(gpu, "box", &[corners])?;
         let geometry = Geometry::Aabbs { boxes: input.address, count: 1, opaque: true };
