@@ -302,6 +302,16 @@ pub fn is_offered(chapter: &str) -> bool {
     !lacking
 }
 
+/// Ends a test here where its device does not offer what a chapter needs; a line says so.
+#[macro_export]
+macro_rules! needs {
+    ($chapter:expr) => {
+        if !$crate::is_offered($chapter) {
+            return;
+        }
+    };
+}
+
 /// The chapters, in their order: the folders of `samples/` that begin with a number.
 pub fn chapters() -> Vec<String> {
     let folders = root().join("samples").read_dir().expect("samples/ can be read");

@@ -43,6 +43,7 @@ fn every_hit_agrees_with_the_reference() {
 /// the weights of a corner differ in the last place everywhere.
 #[test]
 fn it_is_the_picture_of_16() {
+    run::needs!("16_ray_query");
     let of_16 = render("16_ray_query", SIZE, &[]).picture;
     let own = picture(&[]);
     let far = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 1.0 / 255.0);

@@ -19,12 +19,14 @@ const ULP: f64 = f32::EPSILON as f64;
 
 #[test]
 fn the_picture_is_the_golden_one() {
+    run::needs!(NAME);
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
 }
 
 #[test]
 fn both_ways_give_the_same_bits() {
+    run::needs!(NAME);
     for show in ["picture", "normal", "geometric normal", "hit point"] {
         let seen = ["acceleration structure", "buffer"].map(|positions| {
             let sets = [format!("show={show}"), format!("positions={positions}")];
@@ -40,6 +42,7 @@ fn both_ways_give_the_same_bits() {
 
 #[test]
 fn positions_cost_no_memory_of_ours() {
+    run::needs!(NAME);
     // How large a structure is that has positions to tell is the driver's affair: some store them again.
     let bytes = |positions: &str| {
         let positions = format!("positions={positions}");
@@ -163,6 +166,7 @@ fn in_f64(affine: &Affine3A) -> DAffine3 {
 
 #[test]
 fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does_not() {
+    run::needs!(NAME);
     let scene = Scene::chess().expect("the chess set");
     let mut table = Map::new();
     let towards = (scene.camera.eye - scene.camera.target).normalize();
@@ -188,6 +192,7 @@ fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does
 
 #[test]
 fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_not() {
+    run::needs!(NAME);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let camera = Camera::new(DVec3::new(0.2, 1.0, 0.3), DVec3::ZERO, 40.0);
     let mut table = Map::new();

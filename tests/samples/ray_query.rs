@@ -32,12 +32,14 @@ fn same(arguments: &[&str]) {
 
 #[test]
 fn the_picture_is_the_golden_one() {
+    run::needs!(NAME);
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &render(NAME, "240x150", &[]).picture, 0.002);
 }
 
 #[test]
 fn queries_give_the_bits_of_the_pipeline_in_every_view() {
+    run::needs!(NAME);
     for show in ["normal", "triangle", "hit", "ray direction", "shadow", "shadow origin"] {
         same(&["--set", &format!("show={show}")]);
     }
@@ -45,6 +47,7 @@ fn queries_give_the_bits_of_the_pipeline_in_every_view() {
 
 #[test]
 fn queries_give_the_bits_of_the_pipeline_in_every_light() {
+    run::needs!(NAME);
     same(&[]);
     same(&["--set", "sun azimuth=300"]);
     same(&["--set", "sun elevation=0"]);
@@ -64,6 +67,7 @@ fn queries_give_the_bits_of_the_pipeline_in_the_worst_arithmetic() {
 
 #[test]
 fn no_workgroup_s_shape_leaves_out_a_pixel_or_traces_another() {
+    run::needs!(NAME);
     let by_pipeline = picture(PIPELINE, &["--set", "show=hit"]);
     for shape in WORKGROUPS {
         let set = format!("workgroup={shape}");
@@ -84,6 +88,7 @@ fn no_workgroup_s_shape_leaves_out_a_pixel_or_traces_another() {
 
 #[test]
 fn a_workgroup_larger_than_the_device_takes_is_refused_in_one_line() {
+    run::needs!(NAME);
     let requirements = Requirements::ray_tracing().ray_query();
     let gpu = Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).expect("a device");
     let limit = gpu.limits.core.max_compute_work_group_invocations;
@@ -95,6 +100,7 @@ fn a_workgroup_larger_than_the_device_takes_is_refused_in_one_line() {
 
 #[test]
 fn a_query_needs_no_groups_and_no_table() {
+    run::needs!(NAME);
     let report = render(NAME, "8x8", &[]).report;
     assert_eq!(report["groups"], 0);
     assert_eq!(report["stages"], serde_json::json!(["16_ray_query/trace.comp"]));

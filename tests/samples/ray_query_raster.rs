@@ -21,6 +21,7 @@ fn picture(size: &str, sets: &[&str]) -> Picture {
 
 #[test]
 fn the_picture_is_the_golden_one() {
+    run::needs!(NAME);
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &picture(SIZE, &[]), 0.002);
 }
@@ -28,6 +29,7 @@ fn the_picture_is_the_golden_one() {
 /// Without occlusion it is the picture of 16: what differs is a few pixels at edges.
 #[test]
 fn raster_and_rays_give_the_picture_of_16() {
+    run::needs!(NAME);
     let of_16 = render("16_ray_query", SIZE, &[]).picture;
     for primary in ["primary=rays", "primary=raster"] {
         let (mean, outliers) = flip(&of_16, &picture(SIZE, &["occlusion rays=0", primary]));
@@ -39,6 +41,7 @@ fn raster_and_rays_give_the_picture_of_16() {
 /// What a compute shader reads was drawn in the same frame: not in the last one, of another view.
 #[test]
 fn a_frame_from_elsewhere_is_drawn_anew() {
+    run::needs!(NAME);
     // The first value is shown again at the end.
     let views = "camera eye=5,3,6|-5.6,4.8,9.2";
     let arguments = ["--compare", views, "--frames", "1", "--set", "occlusion rays=0"];
@@ -49,6 +52,7 @@ fn a_frame_from_elsewhere_is_drawn_anew() {
 
 #[test]
 fn a_picture_larger_than_a_device_draws_is_refused_in_one_line() {
+    run::needs!(NAME);
     let (code, line) = refused(NAME, &["--headless", "--size", "100000x4"]);
     assert_eq!(code, 2);
     assert!(line.contains("100000x4 is too large"), "{line}");
@@ -56,6 +60,7 @@ fn a_picture_larger_than_a_device_draws_is_refused_in_one_line() {
 
 #[test]
 fn weights_are_numbers_also_where_nothing_is_seen() {
+    run::needs!(NAME);
     let picture = picture("64x40", &["show=weights"]);
     assert!(picture.pixels.iter().flatten().all(|value| value.is_finite()));
 }

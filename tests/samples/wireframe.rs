@@ -11,6 +11,7 @@ const NAME: &str = "20_wireframe";
 
 #[test]
 fn the_picture_is_the_golden_one_and_repeats() {
+    run::needs!(NAME);
     let [first, second] = [0, 1].map(|_| render(NAME, "240x150", &[]).picture);
     assert_eq!(bits(&first), bits(&second));
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
@@ -78,6 +79,7 @@ fn ink(picture: &Picture, row: usize, reach: usize) -> f64 {
 
 #[test]
 fn a_line_is_as_wide_as_asked() {
+    run::needs!(NAME);
     for width in [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 7.0, 20.0] {
         let measured = FRONT.measured(width, &[]);
         assert!((measured - width).abs() < 1e-3, "{width}: {measured}");
@@ -86,6 +88,7 @@ fn a_line_is_as_wide_as_asked() {
 
 #[test]
 fn its_width_does_not_depend_on_size_distance_or_slant() {
+    run::needs!(NAME);
     for turned in [0.0, 45.0, -60.0, 80.0, 85.0] {
         let measured = Diamond { size: 3.0, distance: 6.0, turned, shown: 0.5 }.measured(3.0, &[]);
         assert!((measured - 3.0).abs() < 1e-3, "turned by {turned} degrees: {measured}");
@@ -111,6 +114,7 @@ fn its_width_does_not_depend_on_size_distance_or_slant() {
 
 #[test]
 fn a_line_of_constant_weight_is_as_wide_as_its_triangle_is_large() {
+    run::needs!(NAME);
     let weight = ["--set", "constant=barycentric"];
     let width = |diamond: Diamond| diamond.measured(10.0, &weight);
     let whole = width(FRONT);
@@ -125,6 +129,7 @@ fn a_line_of_constant_weight_is_as_wide_as_its_triangle_is_large() {
 /// Of many small triangles: a long lens far away sees the same lines.
 #[test]
 fn a_scene_has_as_much_ink_from_afar() {
+    run::needs!(NAME);
     let ink = |distance: f64| -> f64 {
         let eye = [0.6, 0.45, 0.66].map(|x| (x * distance).to_string()).join(",");
         let degrees = 2.0 * (4.2 / distance).atan().to_degrees();
@@ -148,6 +153,7 @@ fn a_scene_has_as_much_ink_from_afar() {
 /// A corner behind the eye has no place in the picture, and the edge that leads to it has.
 #[test]
 fn edges_to_corners_behind_the_eye_are_as_wide() {
+    run::needs!(NAME);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("ground.obj");
     // The shared edge runs under the eye, from far ahead to far behind.
@@ -166,6 +172,7 @@ fn edges_to_corners_behind_the_eye_are_as_wide() {
 
 #[test]
 fn hidden_lines_are_fainter_and_leave_what_is_seen_as_it_is() {
+    run::needs!(NAME);
     let [seen, all] = ["off", "on"].map(|hidden| {
         let hidden = format!("hidden lines={hidden}");
         render(NAME, "120x75", &["--set", "show=lines", "--set", &hidden]).picture

@@ -47,6 +47,7 @@ fn root_mean_square(pixels: &[(usize, f64)], picture: &Picture) -> f64 {
 
 #[test]
 fn the_mean_of_many_rays_is_the_closed_form() {
+    run::needs!(NAME);
     let pixels = exact();
     assert!(pixels.len() > 2000, "{}", pixels.len());
     // With one ray a pixel each is open or not, and independent of its neighbours.
@@ -67,6 +68,7 @@ fn the_mean_of_many_rays_is_the_closed_form() {
 
 #[test]
 fn the_error_falls_faster_than_by_the_root_of_the_rays() {
+    run::needs!(NAME);
     let pixels = exact();
     let variance: f64 = pixels.iter().map(|(_, open)| open * (1.0 - open)).sum();
     let one = (variance / pixels.len() as f64).sqrt();

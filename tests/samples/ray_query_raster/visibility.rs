@@ -151,6 +151,7 @@ impl View<'_> {
 
 #[test]
 fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
+    run::needs!(NAME);
     let view = View::of((480, 300));
     let [raster, rays] = ["raster", "rays"].map(|primary| view.count(primary));
     println!("{raster:?}\n{rays:?}");
@@ -195,6 +196,7 @@ fn no_crack_opens_in_the_worst_arithmetic() {
 /// The same view from farther and farther away, by a telescope: what the depth test mistakes.
 #[test]
 fn reversed_floats_tell_near_from_far_where_others_do_not() {
+    run::needs!(NAME);
     let here = View::of((120, 75));
     let mut found = serde_json::Map::new();
     let mut mistaken = |times: f64, name: &str, depth: &str| {
