@@ -48,7 +48,9 @@ fn gpu() -> Gpu {
 fn nests() -> bool {
     let limit = gpu().limits.max_ray_recursion_depth;
     if limit < 10 {
-        println!("not tried: the device allows a recursion depth of {limit}, less than the 10 of this test");
+        println!(
+            "not tried: the device allows a recursion depth of {limit}, less than the 10 of this test"
+        );
     }
     limit >= 10
 }

@@ -88,6 +88,12 @@ fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
         let line = |name, atlas, part: &str| {
             let y = format!("{} {part}", shown.of);
             let mut points = points(atlas, "triangles", varied, x, &y);
+            if varied == "size" {
+                // One that varies nothing: among the distances it is that of 10.
+                let found = case(atlas, "triangles", "distance 10");
+                points.push([1.0, number(found, &y)]);
+                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            }
             points.iter_mut().for_each(|point| point[1] *= shown.scale);
             // A legend beside the panels is enough.
             let name = if varied == "tilt" { name } else { "" };
@@ -109,9 +115,9 @@ fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
     let [distances, sizes, tilts] =
         [[1.0, 100.0, 1e4, 1e6], [1e-6, 1e-3, 1.0, 1e4], [0.01, 0.1, 1.0, 100.0]];
     let charts = [
-        panel("distance", &same, logarithmic("distance, of size 1", &distances)),
-        panel("size", &same, logarithmic("size, from 10 away", &sizes)),
-        panel("tilt", &|tilt| 90.0 - tilt, logarithmic("degrees to edge-on", &tilts)),
+        panel("distance", &same, logarithmic("distance (of a triangle of size 1)", &distances)),
+        panel("size", &same, logarithmic("size (of a triangle 10 away)", &sizes)),
+        panel("tilt", &|tilt| 90.0 - tilt, logarithmic("degrees between ray and triangle", &tilts)),
     ];
     plot::draw(shown.file, (330, 300), &charts);
 }
