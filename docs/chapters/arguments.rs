@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use common::usage::Usage;
 use instruments::arithmetic::Arithmetic;
 
@@ -186,9 +186,11 @@ pub fn parse() -> Result<Arguments> {
         let first = lines.next().map(|line| line.trim_start_matches("error: ").to_owned());
         let listed = lines.take_while(|line| line.starts_with("  ")).map(str::trim);
         let line = first.map(|first| listed.fold(first, |line, next| format!("{line} {next}")));
-        let line = line.as_deref().unwrap_or(
-            "no command; there is list, diff, new, start, sync, measure, merge, survey, mistake, exercise, book, nightly, words, check",
-        );
+        let line = line.unwrap_or_else(|| {
+            let command = Arguments::command();
+            let names: Vec<_> = command.get_subcommands().map(clap::Command::get_name).collect();
+            format!("no command; there is {}", names.join(", "))
+        });
         Usage(format!("{line}; --help lists the commands")).into()
     })
 }

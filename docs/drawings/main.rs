@@ -93,7 +93,20 @@ fn write_all() -> Result<(), String> {
     Ok(())
 }
 
+const USAGE: &str = "usage: cargo run -p drawings    write all drawings to docs/images";
+
 fn main() -> ExitCode {
+    match std::env::args().nth(1).as_deref() {
+        None => (),
+        Some("--help" | "-h") => {
+            println!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        Some(other) => {
+            eprintln!("error: unexpected argument '{other}'; {USAGE}");
+            return ExitCode::from(2);
+        }
+    }
     match write_all() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -130,7 +130,9 @@ impl Project {
     /// # Errors
     /// If a `Cargo.toml` is missing, or says what it should not.
     pub fn open(root: &Path) -> Result<Self> {
-        let manifest = read(&root.join("Cargo.toml"))?;
+        let manifest = read(&root.join("Cargo.toml")).with_context(|| {
+            format!("'{}' is not the project's folder, which --root names", root.display())
+        })?;
         let read: Manifest = toml::from_str(&manifest).map_err(|error| {
             let before = error.span().map_or("", |span| &manifest[..span.start]);
             let what = error.message().replace('\n', " ");
