@@ -51,17 +51,18 @@ pub fn wait<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
 impl Desk {
     /// Opens a sample with arguments and environment, and waits until its window shows a picture.
     pub fn open(name: &str, arguments: &[&str], environment: &[(&str, &Path)]) -> Self {
-        Self::begin(name, arguments, environment).with_a_picture()
+        let desk = Self::begin(name, arguments, environment);
+        desk.wait_for_a_picture();
+        desk
     }
 
     /// Waits until its window shows a picture.
-    pub fn with_a_picture(self) -> Self {
+    pub fn wait_for_a_picture(&self) {
         wait("a picture", || {
             let shown = self.shown();
             let (width, height) = shown.dimensions();
             (shown.get_pixel(width - 1, 0) != shown.get_pixel(width - 1, height - 1)).then_some(())
         });
-        self
     }
 
     /// The same, and waits until there is a window.

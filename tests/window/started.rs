@@ -91,5 +91,6 @@ fn a_started_crate_is_built_with_nothing_else_tested_and_edited_live() {
     program.arg("--default-signal=INT,TERM,HUP").arg(target.join("debug/glow"));
     let environment = [("XDG_CACHE_HOME", &*home)];
     let desk = Desk::begin_by(program, &["--validate", "--size", "640x420"], &environment);
-    follows_an_edit(desk.with_a_picture(), &folder.join("shaders/glow"));
+    desk.wait_for_a_picture();
+    follows_an_edit(desk, &folder.join("shaders/glow"));
 }
