@@ -91,10 +91,11 @@ fn a_display_may_want_more_images() {
     assert_eq!(counted, Counted { swapchains: 1, acquired: 20, presented: 20 });
 }
 
-/// A small picture takes a few milliseconds here, and the display is shown one in 12.
+/// A picture this small takes a fraction of a millisecond, and the display is shown one in 12; on a busy machine,
+/// larger ones take as long as that.
 #[test]
 fn pictures_are_added_to_a_mean_without_waiting_for_the_display() {
-    let arguments = ["--size", "64x40", "--frames", "30"];
+    let arguments = ["--size", "16x10", "--frames", "30"];
     let (_, output) = under("fast=30", "04_jitter_camera", &arguments, |_| ());
     let [frames, pictures] = frames_and_pictures(&output);
     println!("{frames} frames of {pictures} pictures");
