@@ -79,7 +79,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(Scene::chess)?;
+        let mut source = Scene::chess()?;
         source.model.materials.extend(shapes::materials());
         let order = if setup.options.ordering { Order::Halves } else { Order::Given };
         let (scene, count) = (SceneKind::RandomBall, 10_000);

@@ -79,9 +79,13 @@ fn frames_that_cannot_be_animated() {
     }
     for (name, arguments, words) in [
         ("01_foundation", &[][..], "this program plays no frames"),
-        ("14_animation", &["--compare", "flag=rebuilt|updated"], "leave one of both out"),
+        (
+            "14_animation",
+            &["--compare", "flag=rebuilt|updated"],
+            "'--compare <NAME=A|B|…>' cannot be used with '--animate'",
+        ),
         ("14_animation", &["--set", "play=off"], "play=off stops it: leave that out"),
-        ("14_animation", &["--pixel", "1,1"], "cannot be used with '--out <FILE>'"),
+        ("14_animation", &["--pixel", "1,1"], "cannot be used with"),
     ] {
         let frames = ["--headless", "--animate", "--frames", "4", "--out", "a.png"];
         let (code, line) = run::refused(name, &[arguments, &frames].concat());
@@ -96,6 +100,17 @@ fn frames_that_cannot_be_animated() {
 fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
     let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
     assert!(code == 2 && line.contains("--compile-for is for 02 and on"), "{line}");
+}
+
+#[test]
+fn what_only_tells_takes_no_other_task() {
+    for (arguments, other) in [
+        (["--pixel", "1,1"], "'--pixel <X,Y|click>'"),
+        (["--list-devices", "--validate"], "'--list-devices'"),
+    ] {
+        let listed = [&["--list-controls"], &arguments[..]].concat();
+        refused(&listed, 2, &["'--list-controls'", other, "cannot be used with"]);
+    }
 }
 
 #[test]

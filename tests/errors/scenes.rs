@@ -264,6 +264,11 @@ fn things_that_are_wrong() {
     );
     let strand = |nodes: &str| format!("{PAINT}[[strand]]\nmaterial = \"a\"\nnodes = {nodes}\n");
     table_refused(&strand("[[0, 1, 0, 1]]"), "s.toml:10: 1 nodes; a strand has 2 or more");
+    table_refused(
+        &strand("[[0, 1, 0, 0], [0, 2, 0, 0.0]]"),
+        "s.toml:10: every radius is 0, and such a strand has no surface",
+    );
+    table_refused("[[material]]\nname = \"\"\n", "s.toml:6: a material has a name: name = \"red\"");
     table_refused(&strand("[[0, 1, 0], [0, 2, 0, 1]]"), "s.toml:10: 3 numbers where there are 4");
     table_refused(
         &strand("[[0, 1, 0, 1], [0, 2, 0, -1]]"),

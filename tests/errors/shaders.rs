@@ -201,6 +201,12 @@ fn shaders_that_are_missing() {
     shaders_refused(folder.path(), &["there is no shader '02_basic/sky.rmiss' in '"]);
     let words = ["in 'no such folder'; SHADERS names it; a copy of the book's shaders is right"];
     shaders_refused(Path::new("no such folder"), &words);
+    shaders_refused(Path::new(""), &["SHADERS in the environment is empty"]);
+    let file = folder.path().join("02_basic/camera.rgen");
+    shaders_refused(
+        &file,
+        &["SHADERS names '", "camera.rgen', a file; a folder of shaders is right"],
+    );
 }
 
 #[test]

@@ -70,6 +70,7 @@ fn the_rays_of_a_pixel_are_those_of_the_picture() {
 fn what_traces_and_prints_nothing_is_told_so() {
     run::needs!("16_ray_query");
     let (code, line) = run::refused("16_ray_query", &["--size", SIZE, "--pixel", "3,4"]);
-    let nothing = "no shader traced a ray or printed anything for pixel 3,4: write PRINT(";
+    let nothing = "no shader called traceRayEXT or printed anything for pixel 3,4, and the rays of a rayQueryEXT \
+                   are not recorded: write PRINT(";
     assert!(code == 1 && line.contains(nothing), "{line}");
 }

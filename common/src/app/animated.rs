@@ -73,7 +73,7 @@ impl Animated {
     /// Begins the animation that a run is to write.
     ///
     /// # Errors
-    /// [`Usage`] if the sample shows nothing that moves, or renders no frames one after the other.
+    /// [`Usage`] if the sample shows nothing that moves.
     pub fn begin(run: &mut Run) -> Result<Self> {
         let Some(playback) = run.sample.playback() else {
             let what = "--animate is for chapters that play frames, such as 14_animation";
@@ -83,12 +83,7 @@ impl Animated {
             let what = "--animate shows what is played, and play=off stops it: leave that out";
             return Err(Usage(what.to_owned()).into());
         }
-        let count = run.args.frames;
-        if run.frames.len() != 1 || run.frames[0] != (0..count) || run.apart {
-            let what = "--animate shows the frames of --frames one after the other, and another option has this run";
-            return Err(Usage(format!("{what} render other frames: leave one of both out")).into());
-        }
-        Self::new(run.args.size.width, run.args.size.height, count)
+        Self::new(run.args.size.width, run.args.size.height, run.args.frames)
     }
 
     fn new(width: u32, height: u32, count: u32) -> Result<Self> {

@@ -44,7 +44,7 @@ pub struct Args {
     pub sets: Vec<(String, String)>,
 
     /// Print the controls: name, kind, possible values, value
-    #[arg(long)]
+    #[arg(long, conflicts_with = "list_devices")]
     pub list_controls: bool,
 
     /// Use this device: a number of --list-devices or a part of its name

@@ -196,6 +196,9 @@ pub fn nodes<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f32; 4]>, D::Err
     }
     match nodes.len() {
         0 | 1 => Err(D::Error::custom(format!("{} nodes; a strand has 2 or more", nodes.len()))),
+        _ if nodes.iter().all(|&[.., radius]| radius == 0.0) => {
+            Err(D::Error::custom("every radius is 0, and such a strand has no surface"))
+        }
         _ => Ok(nodes.into_iter().map(|node| node.map(|part| part as f32)).collect()),
     }
 }

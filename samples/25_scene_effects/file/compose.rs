@@ -111,6 +111,11 @@ impl Description {
         let mut painted = HashSet::new();
         for paint in &self.material {
             let name = &paint.get_ref().name;
+            if name.is_empty() {
+                return Err(
+                    source.error(paint.span().start, "a material has a name: name = \"red\"")
+                );
+            }
             if !painted.insert(name) {
                 let what = format!("a second material {}", quoted(name));
                 return Err(source.error(paint.span().start, &what));

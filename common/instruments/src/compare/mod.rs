@@ -34,7 +34,7 @@ const FALLING: f64 = 0.97;
 #[group(skip)]
 pub struct Options {
     /// Time a control's values in turns, --frames rounds, and print a table
-    #[arg(long, value_name = "NAME=A|B|…", conflicts_with = "list_controls")]
+    #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "animate"])]
     pub compare: Option<String>,
 }
 

@@ -31,7 +31,9 @@ pub struct Options {
         value_name = "X,Y|click",
         value_parser = which,
         allow_hyphen_values = true,
-        conflicts_with_all = ["validate", "out", "report", "compare", "samples", "compile_for", "arithmetic"]
+        conflicts_with_all = [
+            "validate", "out", "report", "compare", "samples", "compile_for", "arithmetic", "animate", "list_controls",
+        ]
     )]
     pub pixel: Option<Which>,
 }
@@ -178,8 +180,8 @@ impl Probe {
         }
         match (rays, printed.is_empty(), printing) {
             (0, true, _) => bail!(
-                "no shader traced a ray or printed anything for pixel {x},{y}: write PRINT(\"t = %f\", t); where \
-                 it comes by"
+                "no shader called traceRayEXT or printed anything for pixel {x},{y}, and the rays of a rayQueryEXT \
+                 are not recorded: write PRINT(\"t = %f\", t); where it comes by"
             ),
             (_, true, Some(shader)) => {
                 let _ = writeln!(

@@ -28,7 +28,7 @@ use common::{files, output};
 #[group(skip)]
 pub struct Options {
     /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
-    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare"])]
+    #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare", "animate"])]
     pub samples: Option<Range<u32>>,
 
     /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C

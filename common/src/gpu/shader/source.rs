@@ -78,6 +78,18 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
 /// Where the shader at `path` lies: in the first of the folders that has it.
 fn find(path: &str) -> Result<PathBuf> {
     let folders = folders();
+    if let Some(named) = std::env::var_os("SHADERS") {
+        ensure!(
+            !named.is_empty(),
+            "SHADERS in the environment is empty: unset it, or name a folder of shaders"
+        );
+        let named = Path::new(&named);
+        ensure!(
+            !named.is_file(),
+            "SHADERS names '{}', a file; a folder of shaders is right",
+            named.display()
+        );
+    }
     let mut files = folders.iter().map(|folder| folder.join(path));
     let right = match (std::env::var_os("SHADERS"), &folders[..]) {
         (None, _) => "SHADERS in the environment names another folder for the first of them",
