@@ -142,7 +142,8 @@ impl<'a> NewChapter<'a> {
     fn manifest(&self) -> String {
         let Chapter { name, title, teaches, part, needs, .. } = &self.chapter;
         let from = &self.from.name;
-        let bin = format!("[[bin]]\nname = \"{name}\"\npath = \"samples/{name}/main.rs\"\n\n");
+        let path = format!("samples/{name}/main.rs");
+        let bin = format!("[[bin]]\nname = \"{name}\"\npath = \"{path}\"\ntest = false\n\n");
         let needs = needs.iter().map(|need| format!("{need:?}")).collect::<Vec<_>>().join(", ");
         let part = match &part[..] {
             "" => String::new(),
