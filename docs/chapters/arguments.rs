@@ -53,7 +53,7 @@ pub enum Command {
         #[arg(long)]
         page: bool,
         /// Lines around each change
-        #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16))]
+        #[arg(long, value_name = "N", default_value_t = 3, value_parser = context, allow_hyphen_values = true)]
         context: u16,
     },
     /// Make a chapter as a copy of another, such as `new 13 callable_shader --from 05`
@@ -96,8 +96,8 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
         out: PathBuf,
         /// Stop a program after so many whole seconds, 1 to 86400
-        #[arg(long, value_name = "SECONDS", default_value_t = 180,
-            value_parser = clap::value_parser!(u64).range(1..=86400))]
+        #[arg(long, value_name = "SECONDS", default_value_t = 180, value_parser = limit,
+            allow_hyphen_values = true)]
         limit: u64,
         /// Find out besides what the device's own traversal computes: half a minute on a software driver
         #[arg(long)]
@@ -162,6 +162,17 @@ pub enum Command {
     Words,
     /// Name everything that is stale, missing or stray; exit code 1 if anything is
     Check,
+}
+
+/// Lines around a change.
+fn context(text: &str) -> Result<u16, String> {
+    text.parse().map_err(|_| format!("lines are a whole number from 0 to {}", u16::MAX))
+}
+
+/// Seconds for a program.
+fn limit(text: &str) -> Result<u64, String> {
+    let known = text.parse().ok().filter(|seconds| (1..=86400).contains(seconds));
+    known.ok_or_else(|| "a limit is a whole number of seconds from 1 to 86400, a day".to_owned())
 }
 
 /// The project that this tool belongs to, by a path without `..`: errors show it.

@@ -134,6 +134,15 @@ fn a_comparison_is_plain_when_piped() {
     let new = "shaders/common/false_color.glsl, new: included by shaders/02_basic/push.glsl";
     assert!(shaders.contains(new), "{shaders}");
     assert_eq!(fixture.run(&["diff", "01", "01"]).out.lines().last(), Some("Nothing differs."));
+    for wrong in ["-1", "few", "65536"] {
+        let refused = fixture.run(&["diff", "01", "02", "--context", wrong]);
+        assert_eq!((refused.code, refused.err.lines().count()), (2, 1), "{}", refused.err);
+        assert!(
+            refused.err.contains("lines are a whole number from 0 to 65535"),
+            "{}",
+            refused.err
+        );
+    }
     // A chapter's parent is the older one, whichever is named first; pages are compared if one asks for it.
     let both = fixture.run(&["diff", "01", "02"]).out;
     assert_eq!(fixture.run(&["diff", "02", "01"]).out, both);

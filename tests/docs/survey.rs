@@ -238,6 +238,17 @@ fn a_device_that_is_not_there_is_refused_before_anything_runs() {
 }
 
 #[test]
+fn a_limit_that_is_none_is_refused() {
+    let project = project();
+    for wrong in ["abc", "0", "-5", "86401"] {
+        let outcome = project.run(&["survey", "--limit", wrong]);
+        assert_eq!((outcome.code, &*outcome.out), (2, ""), "{}", outcome.err);
+        let right = "a limit is a whole number of seconds from 1 to 86400, a day";
+        assert!(outcome.err.contains(right) && outcome.err.lines().count() == 1, "{}", outcome.err);
+    }
+}
+
+#[test]
 fn a_place_that_takes_no_card_is_refused_before_anything_runs() {
     let project = project();
     let survey = |out: &str| {

@@ -61,6 +61,7 @@ fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
         let text = |key: &str| rung[key].as_str().unwrap_or_default().to_owned();
         let errors: Vec<&Value> = rung["errors"].as_array().into_iter().flatten().collect();
         let number = |row: &Value, key: &str| row[key].as_f64().unwrap_or_default();
+        let ratio = &rung["time"]["ratio"];
         let wrong = ["false_hits", "false_misses", "never_offered", "not_finite"];
         let wrong = errors.iter().flat_map(|row| wrong.map(|key| number(row, key))).sum::<f64>();
         Measured {
@@ -69,7 +70,8 @@ fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
             name: text("name"),
             worst_ulp: errors.iter().map(|row| number(row, "max")).fold(0.0, f64::max),
             wrong: wrong as u64,
-            time_ratio: rung["time"]["ratio"]["median"].as_f64(),
+            time_ratio: ratio["median"].as_f64(),
+            time_quartiles: ratio["low"].as_f64().zip(ratio["high"].as_f64()).map(<[f64; 2]>::from),
         }
     };
     Ok(rungs.iter().map(row).collect())

@@ -148,8 +148,12 @@ pub struct Measured {
     pub worst_ulp: f64,
     /// Hits and misses that are wrong.
     pub wrong: u64,
-    /// Its time by that of the ladder's plain rung; `None` where it cannot be told.
+    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
     pub time_ratio: Option<f64>,
+    /// A quarter of the rounds lie below the first, and a quarter above the second; cards of before 2026-11-28
+    /// have none.
+    #[serde(default)]
+    pub time_quartiles: Option<[f64; 2]>,
 }
 
 impl Card {

@@ -176,11 +176,15 @@ fn measured(card: &Card) -> String {
         return text + why + "\n";
     }
     text.push_str(
-        "| asked of | rung | worst, ULP | wrong hits and misses | time, plain rung 1 |\n",
+        "| asked of | rung | worst, ULP | wrong hits and misses | time, plain rung 1 (and its quartiles) |\n",
     );
     text.push_str("|---|---|--:|--:|--:|\n");
     for row in &card.measured.rungs {
-        let ratio = row.time_ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
+        let ratio = match (row.time_ratio, row.time_quartiles) {
+            (Some(ratio), Some([low, high])) => format!("{ratio:.2} ({low:.2} to {high:.2})"),
+            (Some(ratio), None) => format!("{ratio:.2}"),
+            (None, _) => "–".to_owned(),
+        };
         let _ = writeln!(
             text,
             "| {} | {} {} | {:.1} | {} | {ratio} |",
@@ -221,4 +225,31 @@ pub fn devices(cards: &[Card]) -> String {
         let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::survey::card::Measured;
+
+    /// A card of before there were quartiles shows the middle alone.
+    #[test]
+    fn a_time_has_its_quartiles() {
+        let rung = |time_ratio, time_quartiles| Measured {
+            primitive: "plane".to_owned(),
+            rung: "P0".to_owned(),
+            time_ratio,
+            time_quartiles,
+            ..Measured::default()
+        };
+        for (ratio, quartiles, cell) in [
+            (Some(2.0), Some([1.951, 2.1]), "| 2.00 (1.95 to 2.10) |"),
+            (Some(2.0), None, "| 2.00 |"),
+            (None, None, "| – |"),
+        ] {
+            let rungs = vec![rung(ratio, quartiles)];
+            let card = Card { measured: Table { failed: None, rungs }, ..Card::default() };
+            assert!(measured(&card).ends_with(&format!("{cell}\n")), "{}", measured(&card));
+        }
+    }
 }
