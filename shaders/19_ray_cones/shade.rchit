@@ -40,7 +40,7 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     }
     Axes axes = ellipse(width, direction, face);
     if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        // The picture lies at distance 1 along `forward`, and the ray meets it that much later.
+        // The picture lies at distance 1 along `forward`: the ray meets it at 1 / dot(direction, forward).
         float step = seen.cone.spread * dot(direction, push.camera.forward);
         vec3 right = step * normalize(push.camera.right);
         vec3 down = -step * normalize(push.camera.up);

@@ -1,8 +1,8 @@
 // The lamp, as seen by a ray that meets it by chance.
 
 // ANCHOR: disk
-// The lamp is a disk that faces whoever looks at it (35). What reaches a surface from all of it is its
-// strength: so its radiance is the strength over the area. `t` is how far the ray came.
+// The lamp is a disk that faces whoever looks at it (35). What reaches a surface at distance 1 from all of it
+// is its strength: so its radiance is the strength over the area. `t` is how far the ray came.
 vec3 seen_of_light(DiskLight lamp, vec3 origin, vec3 direction, float t) {
     vec3 axis = towards_light(lamp.light, origin);
     float along = dot(axis, direction);

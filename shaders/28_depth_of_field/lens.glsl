@@ -2,7 +2,8 @@
 #include "common/aperture.glsl"
 
 // ANCHOR: rungs
-// Two other ways to write the direction to the point in focus. Neither knows where the ray really starts.
+// Two other ways to write the direction to the point in focus. One does not know where the ray really starts,
+// and the other rounds the point.
 vec3 coarse_direction(CameraBasis camera, Lens lens, vec3 to_focus, vec3 offset, vec3 origin) {
     if (RUNG == RUNG_EYE) {
         return to_focus - lens.inverse_focus * offset;

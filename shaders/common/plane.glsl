@@ -34,7 +34,7 @@ bool plane_pov(Plane plane, vec3 o, vec3 d, out float t) {
 // ANCHOR_END: pov
 
 // ANCHOR: point
-// By a point of the plane. Near the origin, it makes the subtraction exact: what would cancel has been
+// By a point of the plane. Near the ray's origin, it makes the subtraction exact: what would cancel has been
 // subtracted by the host, in 64 bits.
 bool plane_point(Plane plane, vec3 o, vec3 d, out float t) {
     precise vec3 to_plane = plane.anchor - o;

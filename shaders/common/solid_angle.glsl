@@ -7,7 +7,7 @@
 
 // ANCHOR: angle
 // An angle from 0 to pi by its cosine and sine, of any length. Vulkan lets atan() be off by 4096 ULP; here
-// the angle is halved twice, and five terms of the series are off by 2^-26 of it.
+// the angle is halved three times, and five terms of the series are off by 2^-26 of it.
 float angle_between(float cosine, float sine) {
     float size = length(vec2(cosine, sine));
     // The tangent of half the angle; beyond a right angle, of half of (pi - angle).
