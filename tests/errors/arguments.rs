@@ -85,7 +85,11 @@ fn frames_that_cannot_be_animated() {
             "'--compare <NAME=A|B|…>' cannot be used with '--animate'",
         ),
         ("14_animation", &["--set", "play=off"], "play=off stops it: leave that out"),
-        ("14_animation", &["--pixel", "1,1"], "cannot be used with"),
+        (
+            "14_animation",
+            &["--pixel", "1,1"],
+            "'--pixel <X,Y|click>' cannot be used with: --animate --out <FILE>",
+        ),
     ] {
         let frames = ["--headless", "--animate", "--frames", "4", "--out", "a.png"];
         let (code, line) = run::refused(name, &[arguments, &frames].concat());
@@ -100,6 +104,14 @@ fn frames_that_cannot_be_animated() {
 fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
     let (code, line) = run::refused("01_foundation", &["--compile-for", "navi31"]);
     assert!(code == 2 && line.contains("--compile-for is for 02 and on"), "{line}");
+}
+
+#[test]
+fn a_chapter_of_its_own_scenes_takes_no_file() {
+    for name in ["38_primitive_order", "39_far_from_origin"] {
+        let (code, line) = run::refused(name, &["--headless", "--scene", "a.obj"]);
+        assert!(code == 2 && line.contains("brings its own scene and takes no --scene"), "{line}");
+    }
 }
 
 #[test]
