@@ -106,13 +106,19 @@ impl Sample for Demo {
 }
 
 // ANCHOR: pipeline
-/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
+/// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough. The payload has room
+/// for the neighbouring rays only in a pipeline that reads them.
 fn pipeline(
     gpu: &Gpu,
     textures: &TextureTable,
     constants: Constants,
 ) -> Result<RayTracingPipeline> {
-    RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
+    let builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"));
+    let builder = match constants.footprint {
+        Footprint::Differentials => builder.define("DIFFERENTIALS", 1),
+        Footprint::Point | Footprint::Flat | Footprint::Curved => builder,
+    };
+    builder
         .raygen("camera.rgen")
         .miss("sky.rmiss")
         .miss("shadow.rmiss")

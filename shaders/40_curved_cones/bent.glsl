@@ -78,8 +78,9 @@ Axes principal(Axes axes) {
     float longer = dot(axes.a, axes.a) - dot(axes.b, axes.b);
     float size = sqrt(longer * longer + lean * lean);
     float sum = longer < 0.0 ? longer - size : longer + size;
-    if (sum == 0.0) {
-        return axes;        // those of a circle
+    // Of a circle, or so small that a device may take a square for 0 in one place and not in another.
+    if (abs(sum) < 1e-30) {
+        return axes;
     }
     float into = lean / sum;
     float cosine = inversesqrt(1.0 + into * into);

@@ -24,13 +24,14 @@ bool looks_on() {
 // ANCHOR: mirror
 void mirror(inout Ray ray, inout Seen seen, vec3 normal, float curvature) {
     vec3 from = ray.direction;
-    if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        Axes at = met(seen.beam, seen.hit.t, from, normal);
-        Axes was = seen.beam.direction;
-        seen.beam = Beam(at, Axes(mirrored_step(at.a, was.a, from, normal, curvature),
-                                  mirrored_step(at.b, was.b, from, normal, curvature)));
-    }
+#ifdef DIFFERENTIALS
+    Axes at = met(seen.beam, seen.hit.t, from, normal);
+    Axes was = seen.beam.direction;
+    seen.beam = Beam(at, Axes(mirrored_step(at.a, was.a, from, normal, curvature),
+                              mirrored_step(at.b, was.b, from, normal, curvature)));
+#else
     seen.cone = after_mirror(seen.cone, seen.hit.t, curvature);
+#endif
     ray.direction = mirrored(from, normal, seen.hit.face);
     ray.origin = seen.hit.position + seen.hit.height * seen.hit.face;
 }
@@ -43,13 +44,14 @@ void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, 
     float before = -dot(from, normal);
     float after = -dot(on, normal);
     float ratio = ray.index / to;
-    if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        Axes at = met(seen.beam, seen.hit.t, from, normal);
-        Axes was = seen.beam.direction;
-        seen.beam = Beam(at, Axes(refracted_step(at.a, was.a, from, normal, curvature, after, ratio),
-                                  refracted_step(at.b, was.b, from, normal, curvature, after, ratio)));
-    }
+#ifdef DIFFERENTIALS
+    Axes at = met(seen.beam, seen.hit.t, from, normal);
+    Axes was = seen.beam.direction;
+    seen.beam = Beam(at, Axes(refracted_step(at.a, was.a, from, normal, curvature, after, ratio),
+                              refracted_step(at.b, was.b, from, normal, curvature, after, ratio)));
+#else
     seen.cone = after_glass(seen.cone, seen.hit.t, curvature, before, after, ratio);
+#endif
     // Interpolated normals may send it back to the side it came from: mirrored at the triangle, it goes through.
     ray.direction = normalize(on - 2.0 * max(dot(on, seen.hit.face), 0.0) * seen.hit.face);
     ray.origin = seen.hit.position - seen.hit.height * seen.hit.face;

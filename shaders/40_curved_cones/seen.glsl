@@ -1,10 +1,14 @@
 #include "common/footprint.glsl"
 #include "bent.glsl"
 
-// The payload of a path's rays: cone and beam go in, the hit comes out.
+// The payload of a path's rays: cone or beam goes in, the hit comes out. The pipeline defines DIFFERENTIALS for the
+// footprint that reads the beam: a specialization constant could not leave a field out.
 struct Seen {
     Hit hit;
-    Cone cone;
+#ifdef DIFFERENTIALS
     Beam beam;
+#else
+    Cone cone;
+#endif
     float curvature;   // of a surface that sends rays on
-};
+};                     // 92 bytes; 132 with the beam

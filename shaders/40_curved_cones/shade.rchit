@@ -33,14 +33,15 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     Mapping mapping = mapping_of(e1, e2, b.uv - a.uv, c.uv - a.uv);
 
     vec3 direction = gl_WorldRayDirectionEXT;
+#ifdef DIFFERENTIALS
+    Axes axes = principal(met(seen.beam, gl_HitTEXT, direction, face));
+#else
     // ANCHOR: width
     // Beyond a focus the cone's sides have changed places, and its width is negative.
     float width = abs(width_at(seen.cone, gl_HitTEXT));
     Axes axes = ellipse(width, direction, face);
     // ANCHOR_END: width
-    if (FOOTPRINT == FOOTPRINT_DIFFERENTIALS) {
-        axes = principal(met(seen.beam, gl_HitTEXT, direction, face));
-    }
+#endif
     return row_of(on_texture(mapping, axes.a), on_texture(mapping, axes.b), size);
 }
 // ANCHOR_END: chosen

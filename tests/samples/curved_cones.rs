@@ -6,7 +6,7 @@ mod measured;
 mod rays;
 
 use common::app::Picture;
-use run::{bits, compiled_for, golden, render};
+use run::{bits, command, compiled_for, golden, refusal, render, render_by, shaders_with};
 
 const NAME: &str = "40_curved_cones";
 const SIZE: &str = "240x150";
@@ -31,6 +31,29 @@ fn the_picture_is_the_golden_one_and_repeats() {
     assert_eq!(bits(&first), bits(&second));
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit.
     golden(NAME, &first, 0.002);
+}
+
+/// A field of a type that does not exist stops the pipelines that carry it, and no others.
+#[test]
+fn a_payload_carries_the_cone_or_the_neighbours_and_never_both() {
+    for (field, carried_by) in [("Beam beam;", &FOOTPRINTS[3..]), ("Cone cone;", &FOOTPRINTS[..3])]
+    {
+        let shaders = shaders_with(&format!("{NAME}/seen.glsl"), field, "NoSuchType field;");
+        for footprint in FOOTPRINTS {
+            let mut sample = command(NAME);
+            sample.env("SHADERS", shaders.path());
+            let arguments = ["--set", &format!("footprint={footprint}")];
+            if carried_by.contains(&footprint) {
+                sample.args(["--headless", "--size", "8x8"]).args(arguments);
+                let (code, line) = refusal(sample.output().expect("the sample starts"));
+                assert!(code == 1 && line.contains("seen.glsl"), "{footprint}, {field} {line}");
+            } else {
+                let without = render_by(&mut sample, "32x20", &arguments).picture;
+                let whole = render(NAME, "32x20", &arguments).picture;
+                assert_eq!(bits(&without), bits(&whole), "{footprint}");
+            }
+        }
+    }
 }
 
 /// The bare floor, with mirrors and glass out of sight.
