@@ -80,11 +80,24 @@ pub enum Command {
         #[arg(long, value_name = "NAME", num_args = 0..)]
         pictures: Option<Vec<String>>,
     },
-    /// Run the commands that gave the figures of these pages or measurements, such as `05` or
-    /// `05_shadow_miss/acne`, or of all that are out of date, and fill the figures in
+    /// Run the commands that gave the values of these pages or measurements, such as `05` or
+    /// `05_shadow_miss/acne`, or of all that are missing or were made by another command, and fill the values in
     Measure {
-        /// Chapters, pages, measurements; a time is measured again only if it is named
+        /// Chapters, pages, measurements
         names: Vec<String>,
+    },
+    /// Run the commands of all pictures, mistakes and values again, and compare; exit code 1 if anything differs.
+    /// About an hour on two cores; one that was interrupted goes on where it stopped
+    ///
+    /// A picture must be the same where device and driver are those that made it; elsewhere it may differ as far as
+    /// rounding makes it. Values are compared on the stored device and driver, and otherwise printed. Times are left alone.
+    Verify {
+        /// Chapters, pages, pictures, mistakes, measurements [default: all]
+        names: Vec<String>,
+        /// Only the pictures of chapters whose code or shaders differ from the last commit; in a clean tree from the
+        /// one before, or from the commit in the environment variable CHANGED_SINCE
+        #[arg(long, conflicts_with = "names")]
+        changed: bool,
     },
     /// Run every chapter on this device, hold it to its golden picture, and write a report card; exit code
     /// 1 if a chapter fails. About two minutes on a software driver; a GPU should take no longer

@@ -7,7 +7,8 @@
 //! - `sync`: fills snippets, diffs, tables, gallery and contents; `--pictures` renders what is out of date
 //! - `mistake NAME`: makes a patched copy of a chapter that shows a classic mistake
 //! - `exercise 05.2`: sets up an exercise for a reader, and checks it on each save
-//! - `measure`: runs what gave the pages' figures, and fills those in
+//! - `measure`: runs what gave the pages' values, and fills those in
+//! - `verify`: runs the commands of pictures, mistakes and values again, and compares
 //! - `merge OUT FILE…`: adds the sums that parts of a long render have saved
 //! - `survey`: runs every chapter on this device and writes a report card
 //! - `book`: makes a website of the pages
@@ -19,15 +20,14 @@
 //! The rooms, each of which knows only those below it:
 //!
 //! - [`pages`]: what stands on them, and whether it is so
-//! - [`exercises`], [`figures`], [`mistakes`], [`survey`]: what pages show of each, and its commands
+//! - [`exercises`], [`values`], [`mistakes`], [`survey`]: what pages show of each, and its commands
 //! - [`patches`], [`pictures`]: changed editions of the code; what is rendered
-//! - [`sources`], [`programs`]: what a result is made from, as a hash; what is run
+//! - [`programs`]: what is run
 
 mod arguments;
 mod chapter_list;
 mod comparison;
 mod exercises;
-mod figures;
 mod merge;
 mod mistakes;
 mod new_chapter;
@@ -36,9 +36,10 @@ mod pages;
 mod patches;
 mod pictures;
 mod programs;
-mod sources;
 mod start;
 mod survey;
+mod values;
+mod verify;
 
 use std::path::Path;
 use std::process::{self, ExitCode};
@@ -46,7 +47,7 @@ use std::time::Duration;
 
 use anyhow::{Result, bail};
 use common::gpu::Emulation as _;
-use common::output::print;
+use common::output::{complain, print};
 use common::usage::Usage;
 use manuscript::diff::{self, Parts};
 use manuscript::fault::Fault;
@@ -127,9 +128,17 @@ fn run(arguments: &Arguments) -> Result<()> {
         Command::Nightly { names, list } => nightly::run(&project, names, *list),
         Command::Tour => print(&tour::make(&project)?),
         Command::Words => print(&breath::table(&project)),
+        Command::Verify { names, changed } => {
+            let programs = Programs::beside_this(&project)?;
+            verify::run(&Book::open(&programs)?, names, *changed)
+        }
         Command::Check => {
             let programs = Programs::beside_this(&project)?;
-            report(&Book::open(&programs)?.check()?)
+            let book = Book::open(&programs)?;
+            for warning in book.warnings() {
+                complain(&format!("warning: {warning}"));
+            }
+            report(&book.check()?)
         }
     }
 }
@@ -157,8 +166,8 @@ fn sync(project: &Project, pictures: Option<&[String]>) -> Result<()> {
         print(&format!("{file}: renewed\n"))?;
     }
     if let Some(names) = pictures {
-        let failed = book.render(names, |file, device| {
-            let _ = print(&format!("{file}: rendered on {device}\n"));
+        let failed = book.render(names, |file, became| {
+            let _ = print(&format!("{file}: {became}\n"));
         })?;
         faults.extend(failed);
     }

@@ -48,11 +48,13 @@ pub enum Kind {
     Stamp,
     /// Every chapter's price line: `prices`.
     Prices,
+    /// Measured values, by the page's template of this name: `table NAME`.
+    Table,
 }
 
 impl Kind {
     /// Each with the word in its marker, what a reader would call it, and the marker's form.
-    const ALL: [(Self, &str, &str, &str); 11] = [
+    const ALL: [(Self, &str, &str, &str); 12] = [
         (Self::Snippet, "snippet", "snippet", "FILE#ANCHOR -->"),
         (Self::Diff, "diff", "diff", "OLD NEW FILE#ANCHOR -->, the file being optional"),
         (Self::Controls, "controls", "table of controls", "NN_name -->"),
@@ -64,6 +66,7 @@ impl Kind {
         (Self::Exercises, "exercises", "list of exercises", "NN_name -->"),
         (Self::Stamp, "stamp", "stamp", "-->"),
         (Self::Prices, "prices", "table of prices", "-->"),
+        (Self::Table, "table", "table of values", "NAME -->"),
     ];
 
     fn named(word: &str) -> Option<Self> {

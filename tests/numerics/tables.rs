@@ -106,9 +106,7 @@ fn gain(report: &Value) -> f64 {
 
 /// Whether the page's figures are of this device.
 fn is_of_page(report: &Value) -> bool {
-    let file = run::root().join("docs/figures/24_accuracy/rungs.json");
-    let stored = std::fs::read(file).unwrap_or_default();
-    serde_json::from_slice(&stored).is_ok_and(|stored: Value| stored["device"] == report["device"])
+    figures::stored("24_accuracy/rungs")["device"] == report["device"]
 }
 
 /// The tables of both pages name a rung's hardest family, or none where it has half an ULP everywhere.

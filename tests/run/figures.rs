@@ -1,4 +1,4 @@
-//! Figures that pages print: a test holds them to what `docs/figures` has stored of them.
+//! Values that pages print: a test compares them with what `docs/values` has stored of them.
 //!
 //! `cargo chapters measure` runs the test with the environment variable `FIGURES`: then what it gave goes
 //! to that folder, and the tool stores it. `cargo chapters exercise` sets `EXERCISE`: what a reader changes
@@ -77,18 +77,27 @@ fn settle(name: &str, timed: bool, (device, driver): (Value, Value), values: Val
     assert_eq!(stored["values"], values, "{name} is not what {} has; {renew}", file.display());
 }
 
+/// The file with the values of a measurement's page.
 fn file(name: &str) -> PathBuf {
-    root().join(format!("docs/figures/{name}.json"))
+    let page = name.split('/').next().unwrap_or(name);
+    root().join(format!("docs/values/{page}.json"))
 }
 
 fn renew(name: &str) -> String {
     format!("run: cargo chapters measure {name}")
 }
 
-fn stored(name: &str) -> Value {
+/// A stored measurement: its values, device and driver.
+///
+/// # Panics
+/// If it is not stored.
+pub fn stored(name: &str) -> Value {
     let (file, renew) = (file(name), renew(name));
     let text = std::fs::read_to_string(&file)
         .unwrap_or_else(|error| panic!("no {}: {error}; {renew}", file.display()));
-    serde_json::from_str(&text)
-        .unwrap_or_else(|error| panic!("{} is damaged: {error}; {renew}", file.display()))
+    let mut page: Value = serde_json::from_str(&text)
+        .unwrap_or_else(|error| panic!("{} is damaged: {error}; {renew}", file.display()));
+    let own = name.rsplit('/').next().unwrap_or(name);
+    let record = page.get_mut(own).map(Value::take);
+    record.unwrap_or_else(|| panic!("{} has no {own}; {renew}", file.display()))
 }

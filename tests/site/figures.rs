@@ -409,3 +409,10 @@ fn pictures_in_firefox() {
     let (said, passed) = Firefox::start().again(&test, &[("SHOTS", &folder.join("firefox"))]);
     assert!(passed, "{said}");
 }
+
+/// A measurement of the book, by `PAGE/NAME`.
+pub fn stored(name: &str) -> Value {
+    let (page, own) = name.split_once('/').unwrap();
+    let text = fs::read_to_string(root().join(format!("docs/values/{page}.json"))).unwrap();
+    serde_json::from_str::<Value>(&text).unwrap()[own].take()
+}

@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 
 use crate::browser::Browser;
 use crate::faults;
-use crate::figures::{found, root, shown};
+use crate::figures::{found, root, shown, stored};
 use crate::reading::address;
 
 const PAGE: &str = "this-gpu.html";
@@ -164,9 +164,7 @@ fn two_floats_are_right_and_the_counts_are_those_of_the_raw_bits() {
 
 #[test]
 fn the_textbook_errs_as_much_as_the_chapter_says() {
-    let text =
-        fs::read_to_string(root().join("docs/figures/24_accuracy/sphere_errors.json")).unwrap();
-    let chapter: Value = serde_json::from_str(&text).unwrap();
+    let chapter = stored("24_accuracy/sphere_errors");
     let [exact, _] = exact(swiftshader());
     let case = &swiftshader()["cases"]["sphere textbook"]["with"];
     let answers = case["answers"].as_array().unwrap();
@@ -353,8 +351,7 @@ fn recorded(name: &str, device: &str, browser: &mut Browser, told: &Value) {
         fs::write(file, given.to_string()).unwrap();
         return;
     }
-    let text = fs::read_to_string(root().join(format!("docs/figures/{name}.json"))).unwrap();
-    let stored: Value = serde_json::from_str(&text).unwrap();
+    let stored = stored(name);
     if ["device", "driver"].iter().all(|key| stored[*key] == given[*key]) {
         assert_eq!(stored["values"], given["values"], "run: cargo chapters measure {name}");
     }

@@ -13,6 +13,7 @@ use patience::Limit;
 use super::code;
 use super::exercise::{Exercise, Takes};
 use super::expectation::{Expectation, Other};
+use super::fingerprint::fingerprint;
 use super::mismatch::Mismatch;
 use super::proof::{Run, Step, sized};
 use super::solution::Solution;
@@ -20,7 +21,6 @@ use crate::patches::edition::Edition;
 use crate::pictures::difference::marked;
 use crate::programs::program::Programs;
 use crate::programs::run_result::{RunResult, is_software};
-use crate::sources::hash::hash;
 
 /// How long a program may take.
 pub const LIMIT: Limit = Limit::worked(120);
@@ -104,7 +104,7 @@ fn expected(step: &Step) -> Vec<(&[String], &Expectation)> {
 
 /// The file of a picture that is kept.
 fn name(chapter: &str, arguments: &[String]) -> String {
-    format!("{chapter}-{}.exr", hash([chapter.as_bytes(), arguments.join("\n").as_bytes()]))
+    format!("{chapter}-{}.exr", fingerprint([chapter.as_bytes(), arguments.join("\n").as_bytes()]))
 }
 
 /// What an edition makes of an exercise.

@@ -7,6 +7,7 @@ pub mod code;
 pub mod command;
 pub mod exercise;
 pub mod expectation;
+pub mod fingerprint;
 pub mod formula;
 pub mod interval;
 pub mod mismatch;

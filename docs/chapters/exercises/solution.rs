@@ -10,11 +10,11 @@ use common::app::Picture;
 use super::attempt::LIMIT;
 use super::exercise::Exercise;
 use super::expectation::Expectation;
+use super::fingerprint::fingerprint;
 use super::proof::Run;
 use crate::patches::edition::{Edition, Patched};
 use crate::programs::program::Programs;
 use crate::programs::run_result::RunResult;
-use crate::sources::hash::hash;
 
 /// The solution of an exercise, made when it is asked for.
 pub struct Solution<'a> {
@@ -89,5 +89,5 @@ impl<'a> Solution<'a> {
 
 /// The file of a picture that is kept.
 fn name(arguments: &[String]) -> String {
-    format!("solution-{}.exr", hash([b"solution", arguments.join("\n").as_bytes()]))
+    format!("solution-{}.exr", fingerprint([b"solution", arguments.join("\n").as_bytes()]))
 }

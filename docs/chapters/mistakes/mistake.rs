@@ -16,7 +16,6 @@ use crate::pages::reference::slug;
 use crate::patches::copy::file_on_the_way;
 use crate::patches::patch::{self, Field, Patch};
 use crate::pictures::stamp;
-use crate::sources::hash;
 
 /// Where the mistakes lie.
 pub const FOLDER: &str = "docs/mistakes";
@@ -222,19 +221,15 @@ impl Mistake {
         }
     }
 
-    /// What its picture is made from, as a hash: the patched chapter.
-    pub fn sources(&self, project: &Project) -> String {
-        // A patch that does not fit is a fault of its own.
-        let changed = self.patch.patched_in(project).unwrap_or_default();
-        hash::of_chapter(project, &self.chapter, &changed)
+    /// The fault of its picture's file, if it is missing or another command made it.
+    pub fn fault(&self, project: &Project) -> Option<Fault> {
+        let what = stamp::fault(project, &self.picture(), &self.command())?;
+        Some(Fault::new(self.file(), 1, what, self.remedy()))
     }
 
-    /// What is out of date about its picture, if anything is.
-    pub fn stale(&self, project: &Project) -> Option<Fault> {
-        let hash = self.sources(project);
-        let what = stamp::stale(project, &self.picture(), &self.command(), &hash, "its patch")?;
-        let remedy = format!("run: cargo chapters sync --pictures {}", self.name);
-        Some(Fault::new(self.file(), 1, what, remedy))
+    /// The command that renders its picture again.
+    pub fn remedy(&self) -> String {
+        format!("run: cargo chapters sync --pictures {}", self.name)
     }
 
     /// Its part of a page.

@@ -1,6 +1,6 @@
 //! A mistake held to its word: the chapter is run as it is and patched, and both are compared.
 
-use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -12,7 +12,7 @@ use patience::Limit;
 use super::mistake::{Mistake, Outcome};
 use crate::patches::edition::{Edition, Patched};
 use crate::pictures::difference::mean_difference;
-use crate::pictures::stamp;
+use crate::pictures::stamp::{self, Maker};
 use crate::programs::program::Programs;
 use crate::programs::run_result::{RunResult, is_software};
 
@@ -51,12 +51,25 @@ impl<'a> Reproduction<'a> {
         self.compare(&right, &wrong)
     }
 
-    /// Makes its picture, and returns the device that did.
+    /// Renders its picture into its file, unless that has the same pixels already; returns its maker, and whether
+    /// the file has changed.
     ///
     /// # Errors
-    /// If it does not do what its file says, or the picture cannot be written.
-    pub fn render(&self) -> Result<String> {
-        let project = self.programs.project;
+    /// As [`Reproduction::make`], or if the file cannot be written.
+    pub fn render(&self) -> Result<(Maker, bool)> {
+        let folder = NewFolder::temporary()?;
+        let (made, maker) = self.make(folder.path())?;
+        let (project, mistake) = (self.programs.project, self.mistake);
+        let changed =
+            stamp::store(project, &mistake.picture(), &made, &mistake.command(), &maker)?;
+        Ok((maker, changed))
+    }
+
+    /// Renders its picture into a file of a folder, and returns that file and its maker.
+    ///
+    /// # Errors
+    /// If it does not do what its file says.
+    pub fn make(&self, folder: &Path) -> Result<(PathBuf, Maker)> {
         let right = self.right(SHOWN)?;
         if let Some(why) = self.not_tried(right.device())? {
             bail!("{why}");
@@ -73,7 +86,6 @@ impl<'a> Reproduction<'a> {
                 _ => word.to_owned(),
             };
         let labels = [label("right", &right), label("wrong", &wrong)];
-        let device = right.device().to_owned();
         let panel =
             |seen: &RunResult| match (&seen.picture, self.mistake.outcome == Outcome::Crashes) {
                 (Some(picture), _) => {
@@ -86,15 +98,9 @@ impl<'a> Reproduction<'a> {
         let panels: Vec<(String, Panel)> =
             labels.into_iter().zip([&right, &wrong].map(panel)).collect();
         let sheet = sheet(SHOWN, &[panels])?;
-        let hash = self.mistake.sources(project);
-        let folder = NewFolder::temporary()?;
-        let plain = folder.path().join("sheet.png");
-        sheet.save(&plain)?;
-        let bytes = stamp::stamped(&plain, &self.mistake.command(), &hash, &device)?;
-        let file = project.root.join(self.mistake.picture());
-        fs::create_dir_all(file.parent().context("a picture lies in a folder")?)?;
-        common::files::write_whole(&file, &bytes)?;
-        Ok(device)
+        let file = folder.join("sheet.png");
+        sheet.save(&file)?;
+        Ok((file, Maker::of(&right.report)))
     }
 
     fn right(&self, size: (u32, u32)) -> Result<RunResult> {

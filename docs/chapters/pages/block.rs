@@ -10,11 +10,12 @@ use similar::{DiffOp, group_diff_ops};
 
 use super::{gallery, map, price};
 use crate::exercises::exercise;
-use crate::figures::{record, stamp};
 use crate::mistakes::mistake;
 use crate::programs::program::{BUILD, Programs};
 use crate::survey::card;
 use crate::survey::card_page;
+use crate::values::record::{self, Record};
+use crate::values::{stamp, table};
 
 /// Lines around a change on a page.
 const CONTEXT: usize = 2;
@@ -63,6 +64,11 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
             Ok((gallery::tables(programs.project, &page.path), "Cargo.toml".to_owned()))
         }
         (Kind::Stamp, []) => Ok((stamp::text(programs.project, page), record::FOLDER.to_owned())),
+        (Kind::Table, [name]) => {
+            let (stored, _) = Record::all(programs.project);
+            let text = table::body(programs.project, page, block.line, name, &stored)?;
+            Ok((text, table::file(page)))
+        }
         (Kind::Prices, []) => {
             Ok((price::table(programs.project), "the chapters' pages".to_owned()))
         }

@@ -18,23 +18,26 @@ use super::{
     breath, chapter_files, exercise_list, gallery, price, shared_shader, stray_file, text,
 };
 use crate::exercises::exercise;
-use crate::figures::measurement::{self, Measurement};
-use crate::figures::record::Record;
-use crate::figures::{self, figure};
 use crate::mistakes::mistake::Mistake;
 use crate::mistakes::reproduction::Reproduction;
 use crate::mistakes::stages;
 use crate::nightly;
 use crate::pictures::picture::Picture;
+use crate::pictures::stamp::Maker;
 use crate::pictures::tour;
+use crate::programs::change;
 use crate::programs::program::{BUILD, Programs};
-use crate::sources::hash::Sources;
 use crate::survey::card;
+use crate::values::measurement::{self, Measurement};
+use crate::values::record::Record;
+use crate::values::{self, binding};
 
 /// The book of a project.
 pub struct Book<'a> {
-    programs: &'a Programs<'a>,
-    pages: Vec<Page>,
+    /// The chapters' programs.
+    pub programs: &'a Programs<'a>,
+    /// Its pages.
+    pub pages: Vec<Page>,
 }
 
 impl<'a> Book<'a> {
@@ -76,22 +79,20 @@ impl<'a> Book<'a> {
         }
         let (pictures, wrong) = Picture::all(project, &self.pages);
         faults.extend(wrong);
-        let mut sources = Sources::default();
         for picture in &pictures {
-            let stale = picture.stale(project, &mut sources);
-            faults.extend(stale.map(|what| picture.fault(what)));
+            faults.extend(picture.fault(project));
             linked.insert(picture.file());
         }
         let (mistakes, wrong) = Mistake::all(project);
         faults.extend(wrong);
         for mistake in &mistakes {
             faults.extend(stages::check(project, mistake));
-            faults.extend(mistake.stale(project));
+            faults.extend(mistake.fault(project));
             linked.insert(mistake.picture());
         }
         faults.extend(exercise::check(project));
         faults.extend(text::check_exercises(self.programs, &files));
-        faults.extend(figures::check(project, &self.pages, &mut sources));
+        faults.extend(values::check(project, &self.pages));
         faults.extend(tour::check(project));
         linked.insert(tour::FILE.to_owned());
         faults.extend(self.without_picture(&pictures));
@@ -135,7 +136,7 @@ impl<'a> Book<'a> {
         for page in &self.pages {
             faults.extend(page.faults.iter().cloned());
             let old = page.with_bodies(&[]);
-            let page = &glossary.linked(&figure::filled(page, &stored));
+            let page = &glossary.linked(&binding::filled(page, &stored));
             let bodies: Vec<Option<String>> = page
                 .blocks
                 .iter()
@@ -158,7 +159,8 @@ impl<'a> Book<'a> {
         Ok((changed, told_once(faults)))
     }
 
-    /// Renews the measurements of these pages and names, or with none those that are out of date.
+    /// Runs the measurements of these pages and names again, or with none those that are missing or were made by
+    /// another command.
     ///
     /// # Errors
     /// If a name is unknown.
@@ -166,7 +168,6 @@ impl<'a> Book<'a> {
         let project = self.programs.project;
         let (stored, _) = Record::all(project);
         let (measurements, mut faults) = measurement::all(&self.pages);
-        let mut sources = Sources::default();
         let names: Vec<&str> = names
             .iter()
             .map(|name| project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name))
@@ -179,16 +180,28 @@ impl<'a> Book<'a> {
             let what = format!("nothing measures '{name}'; there is {}", there.join(", "));
             return Err(Usage(what).into());
         }
-        let mut wanted = |measurement: &&Measurement| match names[..] {
-            [] => {
-                let known = stored.get(&measurement.name);
-                measurement.stale(project, known, &mut sources).is_some()
-            }
+        let wanted = |measurement: &&Measurement| match names[..] {
+            [] => measurement.fault(stored.get(&measurement.name)).is_some(),
             _ => names.iter().any(|name| is_of(measurement, name)),
         };
         let wanted: Vec<&Measurement> = measurements.iter().filter(|m| wanted(m)).collect();
         faults.extend(measurement::renew(self.programs, &wanted, &stored, done)?);
         Ok(faults)
+    }
+
+    /// Numbers that are perhaps measured and not bound, on pages that have changed since the last commit.
+    pub fn warnings(&self) -> Vec<Fault> {
+        let changed = change::files(&self.programs.project.root);
+        let pages = self.pages.iter().filter(|page| changed.contains(&page.path));
+        let warning = |page: &Page| {
+            let numbers = binding::unbound(page);
+            let (line, _) = numbers.first()?;
+            let list: Vec<&str> = numbers.iter().map(|(_, number)| &**number).collect();
+            let what = format!("bound to no measurement: {}", list.join(", "));
+            let remedy = "a measured one is written NUMBER<!-- MEASUREMENT.VALUE -->";
+            Some(Fault::new(&*page.path, *line, what, remedy))
+        };
+        pages.filter_map(warning).collect()
     }
 
     fn ask_programs(&self) -> Result<()> {
@@ -285,7 +298,8 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// Renders the pictures of these names, or with none those that are out of date.
+    /// Renders the pictures of these names, or with none those that are missing or were made by another command;
+    /// `done` hears of each file what became of it.
     ///
     /// # Errors
     /// If a name is unknown, or a command fails.
@@ -295,28 +309,32 @@ impl<'a> Book<'a> {
         let (pictures, mut faults) = Picture::all(project, &self.pages);
         let (mistakes, wrong) = Mistake::all(project);
         faults.extend(wrong);
-        let mut rendered = |file: String, made: Result<String>, place: (String, usize), remedy| {
+        type Made = Result<(Maker, bool)>;
+        let mut rendered = |file: String, made: Made, place: (String, usize), remedy| {
             let fault = |error| {
                 let what = format!("{file} cannot be rendered: {error:#}");
                 Fault::new(place.0, place.1, what, remedy)
             };
-            faults.extend(made.map(|device| done(&file, &device)).map_err(fault).err());
+            let told = |(maker, changed): (Maker, bool)| match changed {
+                true => done(&file, &format!("rendered on {}", maker.device)),
+                false => done(&file, "the same"),
+            };
+            faults.extend(made.map(told).map_err(fault).err());
         };
-        let mut sources = Sources::default();
         for picture in &pictures {
             let wanted = match names {
-                [] => picture.stale(project, &mut sources).is_some(),
+                [] => picture.fault(project).is_some(),
                 _ => names.contains(&picture.name),
             };
             if wanted {
-                let made = picture.render(self.programs, &mut sources);
+                let made = picture.render(self.programs);
                 let place = (picture.page.clone(), picture.line);
                 rendered(picture.file(), made, place, "correct the command or the sample");
             }
         }
         for mistake in &mistakes {
             let wanted = match names {
-                [] => mistake.stale(project).is_some(),
+                [] => mistake.fault(project).is_some(),
                 _ => names.contains(&mistake.name),
             };
             if wanted {

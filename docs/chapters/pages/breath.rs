@@ -4,6 +4,8 @@ use manuscript::fault::Fault;
 use manuscript::page::{Kind, Page};
 use manuscript::project::Project;
 
+use crate::values::binding::stripped;
+
 /// The most words of a chapter's page, without exercises and sources; of the first two chapters.
 const MOST: usize = 1600;
 const FIRST: (&[&str], usize) = (&["01", "02"], 1800);
@@ -76,8 +78,9 @@ impl Breath {
     }
 }
 
-/// The words of a line: what links lead to is not read.
+/// The words of a line, without the targets of links and the comments that bind numbers.
 fn words(line: &str) -> usize {
+    let line = stripped(line);
     let parts = line.split("](").enumerate();
     let shown = parts.map(|(index, part)| match (index, part.split_once(')')) {
         (0, _) | (_, None) => part,

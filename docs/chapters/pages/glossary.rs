@@ -14,7 +14,7 @@ use manuscript::project::Project;
 
 use super::markdown::Markdown;
 use super::reference::slug;
-use crate::figures::passage::{self, line};
+use crate::values::passage::{self, line};
 
 /// The page.
 pub const GLOSSARY: &str = "docs/glossary.md";
@@ -144,7 +144,7 @@ fn link_to(page: &Page, term: &Term) -> String {
 /// Where a text is written in sentences, in bytes.
 fn sentences(text: &str) -> Vec<Range<usize>> {
     let passages = passage::all(text);
-    let passages = passages.iter().filter(|passage| !passage.counts_small);
+    let passages = passages.iter().filter(|passage| !passage.is_set_apart);
     passages.flat_map(|passage| passage.text.iter().cloned()).collect()
 }
 

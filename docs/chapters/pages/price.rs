@@ -1,16 +1,17 @@
 //! The price line of a chapter: what is exact there, what that costs, and how much is wrong without it.
 //!
-//! It stands below the heading picture, above the first section, with its figures bound as all others are:
+//! It stands below the heading picture, above the first section:
 //!
 //! ````markdown
 //! > **Exact:** where a shadow ray starts. **Price:** no time: a frame takes 1.00 times as long. **Without it:**
-//! > 26,950 of 59,050 lit pixels go dark.
-//! <!-- figures bound: ratio; acne: dark lit -->
+//! > 26,950<!-- acne.dark --> of 59,050<!-- acne.lit --> lit pixels go dark.
 //! ````
 
 use manuscript::fault::Fault;
 use manuscript::page::Page;
 use manuscript::project::Project;
+
+use crate::values::binding::stripped;
 
 /// The words before each part, in order.
 const LABELS: [&str; 3] = ["**Exact:**", "**Price:**", "**Without it:**"];
@@ -20,7 +21,8 @@ fn parts(page: &Page) -> Option<[String; 3]> {
     let head = page.prose().into_iter().map(|(_, line)| line);
     let head = head.take_while(|line| !line.starts_with("## "));
     let quoted: Vec<&str> = head.filter_map(|line| line.strip_prefix("> ")).collect();
-    let text = quoted.join(" ");
+    // What binds a number names values of this page, and the table of prices stands on another.
+    let text = stripped(&quoted.join(" "));
     let [exact, price, without] = LABELS.map(|label| text.find(label));
     let part = |from: usize, label: &str, to: usize| {
         text.get(from + label.len()..to).map(|part| part.trim().to_owned())
@@ -66,7 +68,7 @@ mod tests {
             "> **Exact:** the start. **Price:** 1.00 times\n> a frame. **Without it:** acne.\n";
         let of = |text: String| parts(&Page::parse("p.md", &text));
         let expected = ["the start.", "1.00 times a frame.", "acne."].map(str::to_owned);
-        assert_eq!(of(format!("# T\n\n{line}<!-- figures a -->\n\n## S\n")), Some(expected));
+        assert_eq!(of(format!("# T\n\n{line}\n## S\n")), Some(expected));
         assert_eq!(of(format!("# T\n\n## S\n{line}")), None);
         for label in LABELS {
             assert_eq!(of(format!("# T\n\n{}", line.replace(label, ""))), None, "{label}");

@@ -8,9 +8,9 @@ use manuscript::shader;
 
 use super::gallery::is_other_page;
 use crate::exercises::exercise;
-use crate::figures::record;
 use crate::mistakes::mistake;
 use crate::survey::card;
+use crate::values::record;
 
 /// The folders in which every file has to be of use.
 const FOLDERS: [&str; 5] = ["docs", "samples", "shaders", "tests/golden", "tests/samples"];

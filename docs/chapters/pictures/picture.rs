@@ -1,6 +1,6 @@
 //! A picture of a page: made by the commands that the page prints.
 
-use std::fs;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use common::files::NewFolder;
@@ -11,10 +11,9 @@ use manuscript::project::Project;
 use panels::{Panel, sheet};
 
 use super::rendering::Rendering;
-use super::stamp;
+use super::stamp::{self, Maker};
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
-use crate::sources::hash::Sources;
 
 /// How wide a row of panels may be, without the gaps, in pixels.
 const ROW: u32 = 960;
@@ -94,43 +93,52 @@ impl Picture {
         format!("docs/images/{}.png", self.name)
     }
 
-    /// What is out of date about it, if anything is.
-    pub fn stale(&self, project: &Project, sources: &mut Sources) -> Option<String> {
-        let chapter = &self.renderings[0].chapter;
-        let (hash, maker) = (sources.of(project, chapter), format!("what {chapter} renders"));
-        stamp::stale(project, &self.file(), &self.command, &hash, &maker)
+    /// The chapter whose program makes it.
+    pub fn chapter(&self) -> &str {
+        &self.renderings[0].chapter
     }
 
-    /// The fault that says that it is out of date.
-    pub fn fault(&self, what: String) -> Fault {
-        let remedy = format!("run: cargo chapters sync --pictures {}", self.name);
-        Fault::new(&*self.page, self.line, what, remedy)
+    /// The fault of its file, if it is missing or another command made it.
+    pub fn fault(&self, project: &Project) -> Option<Fault> {
+        let what = stamp::fault(project, &self.file(), &self.command)?;
+        Some(Fault::new(&*self.page, self.line, what, self.remedy()))
     }
 
-    /// Renders it, and returns the device that did.
+    /// The command that renders it again.
+    pub fn remedy(&self) -> String {
+        format!("run: cargo chapters sync --pictures {}", self.name)
+    }
+
+    /// Renders it into its file, unless that has the same pixels already; returns its maker, and whether the file
+    /// has changed.
+    ///
+    /// # Errors
+    /// As [`Picture::make`], or if the file cannot be written.
+    pub fn render(&self, programs: &Programs) -> Result<(Maker, bool)> {
+        let folder = NewFolder::temporary()?;
+        let (made, maker) = self.make(programs, folder.path())?;
+        let changed = stamp::store(programs.project, &self.file(), &made, &self.command, &maker)?;
+        Ok((maker, changed))
+    }
+
+    /// Renders it into a file of a folder, and returns that file and its maker.
     ///
     /// # Errors
     /// If the program is missing or fails, or panels differ in size or are narrower than their labels.
-    pub fn render(&self, programs: &Programs, sources: &mut Sources) -> Result<String> {
+    pub fn make(&self, programs: &Programs, folder: &Path) -> Result<(PathBuf, Maker)> {
         let failed = || format!("{}:{}: {} is not made", self.page, self.line, self.file());
-        let folder = NewFolder::temporary()?;
         let mut files = Vec::new();
-        let mut device = String::new();
+        let mut maker = Maker::default();
         for (index, rendering) in self.renderings.iter().enumerate() {
-            files.push(folder.path().join(format!("{index}.png")));
-            device = rendering.make(programs, &files[index]).with_context(failed)?;
+            files.push(folder.join(format!("{index}.png")));
+            maker = rendering.make(programs, &files[index]).with_context(failed)?;
         }
         if files.len() > 1 {
             let open = |file| Ok(image::open(file)?.to_rgb8());
             let pictures = files.iter().map(open).collect::<Result<Vec<_>>>()?;
             self.side_by_side(pictures).with_context(failed)?.save(&files[0])?;
         }
-        let hash = sources.of(programs.project, &self.renderings[0].chapter);
-        let stamped = stamp::stamped(&files[0], &self.command, &hash, &device)?;
-        let file = programs.project.root.join(self.file());
-        fs::create_dir_all(programs.project.root.join("docs/images"))?;
-        common::files::write_whole(&file, &stamped)?;
-        Ok(device)
+        Ok((files.swap_remove(0), maker))
     }
 
     /// Its panels under their labels, as many in a row as a page has room for.

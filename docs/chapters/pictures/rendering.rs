@@ -9,6 +9,7 @@ use manuscript::project::Project;
 use patience::Limit;
 
 use super::downscale;
+use super::stamp::Maker;
 use crate::programs::child;
 use crate::programs::command_line::{CommandLine, runs};
 use crate::programs::program::Programs;
@@ -50,11 +51,11 @@ impl Rendering {
         Ok(Self { label, chapter, arguments: run.arguments.clone() })
     }
 
-    /// Renders it into a PNG, and returns the device that did. What is larger than a page shows it is shrunk.
+    /// Renders it into a PNG, and returns its maker. What is larger than a page shows it is shrunk.
     ///
     /// # Errors
     /// If the program is missing or fails.
-    pub fn make(&self, programs: &Programs, picture: &Path) -> Result<String> {
+    pub fn make(&self, programs: &Programs, picture: &Path) -> Result<Maker> {
         let (report, large) = (picture.with_extension("json"), picture.with_extension("exr"));
         let times = downscale::times(&self.arguments);
         let mut arguments = self.arguments.clone();
@@ -69,7 +70,7 @@ impl Rendering {
             downscale::shrunk(&Large::open_exr(&large)?, times).save(picture)?;
         }
         let report: serde_json::Value = serde_json::from_slice(&fs::read(&report)?)?;
-        Ok(report["device"].as_str().unwrap_or("unknown").to_owned())
+        Ok(Maker::of(&report))
     }
 }
 

@@ -1,5 +1,4 @@
-//! What a picture says of itself: a PNG carries its command, a hash of its sources and the device in tEXt chunks,
-//! so that a picture that the code would no longer make is known without rendering it.
+//! A picture's stamp: the command, device and driver that made it, in tEXt chunks of its PNG.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -7,49 +6,114 @@ use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use image::RgbImage;
 use manuscript::project::Project;
 
 const COMMAND: &str = "Command";
-const SOURCES: &str = "Sources";
 const DEVICE: &str = "Device";
+const DRIVER: &str = "Driver";
 
-/// What is out of date about a picture that says which command and which sources made it, if anything is.
-pub fn stale(
-    project: &Project,
-    file: &str,
-    command: &str,
-    hash: &str,
-    maker: &str,
-) -> Option<String> {
+/// The device that rendered a picture, and its driver.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Maker {
+    /// The device's name.
+    pub device: String,
+    /// The driver, in its maker's words.
+    pub driver: String,
+}
+
+impl Maker {
+    /// The maker that a sample's report names.
+    pub fn of(report: &serde_json::Value) -> Self {
+        let text = |key: &str| report[key].as_str().unwrap_or("unknown").to_owned();
+        Self { device: text("device"), driver: text("driver") }
+    }
+}
+
+/// A picture of a page, as its PNG has it.
+pub struct Stored {
+    /// The command that made it; empty if it does not say.
+    pub command: String,
+    /// The device that ran it.
+    pub maker: Maker,
+    /// Its frames: one, unless it moves.
+    pub frames: Vec<RgbImage>,
+}
+
+impl Stored {
+    /// Reads a PNG, with all frames of one that moves.
+    ///
+    /// # Errors
+    /// If the file is missing or no PNG of 8 bits.
+    pub fn open(file: &Path) -> Result<Self> {
+        let mut decoder = png::Decoder::new(BufReader::new(File::open(file)?));
+        decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
+        let mut reader = decoder.read_info()?;
+        let mut texts = texts(&reader);
+        let mut pixels = vec![0; reader.output_buffer_size().context("the picture is too large")?];
+        let channels = reader.output_color_type().0.samples();
+        let control = reader.info().animation_control().copied();
+        let mut frames = Vec::new();
+        for _ in 0..control.map_or(1, |control| control.num_frames) {
+            let frame = reader.next_frame(&mut pixels)?;
+            let colors = pixels[..frame.buffer_size()].chunks(channels);
+            let colors = colors.flat_map(|c| if channels < 3 { [c[0]; 3] } else { [c[0], c[1], c[2]] });
+            let frame = RgbImage::from_raw(frame.width, frame.height, colors.collect());
+            frames.push(frame.context("not 8 bits a channel")?);
+        }
+        let mut text = |key| texts.remove(key).unwrap_or_default();
+        let (command, device, driver) = (text(COMMAND), text(DEVICE), text(DRIVER));
+        Ok(Self { command, maker: Maker { device, driver }, frames })
+    }
+}
+
+/// What is wrong with a picture that this command should have made, if anything is. Whether the command would
+/// still make it, only running it tells.
+pub fn fault(project: &Project, file: &str, command: &str) -> Option<String> {
     if !project.has(file) {
         return Some(format!("the picture {file} is missing"));
     }
-    let Ok(stamp) = stamp(&project.root.join(file)) else {
-        return Some(format!("the picture {file} is no PNG"));
-    };
-    match (stamp.get(COMMAND), stamp.get(SOURCES)) {
-        (Some(made_by), _) if made_by != command => {
-            Some(format!("the picture {file} was made by another command"))
-        }
-        (Some(_), Some(made_from)) if made_from == hash => None,
-        (Some(_), Some(_)) => Some(format!("the picture {file} is older than {maker}")),
-        _ => Some(format!("the picture {file} does not say what made it")),
+    let opened = || anyhow::Ok(texts(&decoder(&project.root.join(file))?));
+    let Ok(texts) = opened() else { return Some(format!("the picture {file} is no PNG")) };
+    match texts.get(COMMAND) {
+        Some(made_by) if made_by == command => None,
+        Some(_) => Some(format!("the picture {file} was made by another command")),
+        None => Some(format!("the picture {file} does not say what made it")),
     }
 }
 
-/// What a PNG says about itself.
-fn stamp(file: &Path) -> Result<BTreeMap<String, String>> {
-    let reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
-    let texts = &reader.info().uncompressed_latin1_text;
-    Ok(texts.iter().map(|text| (text.keyword.clone(), text.text.clone())).collect())
+type Reader = png::Reader<BufReader<File>>;
+
+fn decoder(file: &Path) -> Result<Reader> {
+    Ok(png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?)
 }
 
-/// The bytes of a picture that says which command, sources and device made it, packed as small as they go.
+fn texts(reader: &Reader) -> BTreeMap<String, String> {
+    let texts = &reader.info().uncompressed_latin1_text;
+    texts.iter().map(|text| (text.keyword.clone(), text.text.clone())).collect()
+}
+
+/// Stores a PNG as a page's picture, with its stamp and packed as small as it goes, and says whether that changed the
+/// file: one with the same pixels, command and device is left as it is.
 ///
 /// # Errors
-/// If the file is no PNG.
-pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<Vec<u8>> {
-    let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
+/// If `made` is no PNG, or the picture cannot be written.
+pub fn store(project: &Project, file: &str, made: &Path, command: &str, maker: &Maker) -> Result<bool> {
+    let path = project.root.join(file);
+    let new = Stored::open(made)?;
+    let is_same = Stored::open(&path).is_ok_and(|old| {
+        old.command == command && old.maker == *maker && old.frames == new.frames
+    });
+    if !is_same {
+        std::fs::create_dir_all(path.parent().unwrap_or(&project.root))?;
+        common::files::write_whole(&path, &stamped(made, command, maker)?)?;
+    }
+    Ok(!is_same)
+}
+
+/// The bytes of a picture with its stamp, packed as small as they go.
+fn stamped(file: &Path, command: &str, maker: &Maker) -> Result<Vec<u8>> {
+    let mut reader = decoder(file)?;
     let mut pixels = vec![0; reader.output_buffer_size().context("the picture is too large")?];
     let animation = reader.info().animation_control().copied();
     let (width, height) = reader.info().size();
@@ -64,7 +128,7 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
         encoder.set_animated(control.num_frames, control.num_plays)?;
         encoder.set_blend_op(png::BlendOp::Over)?;
     }
-    tell(&mut encoder, command, hash, device)?;
+    tell(&mut encoder, command, maker)?;
     let mut writer = encoder.write_header()?;
     for _ in 0..animation.map_or(1, |control| control.num_frames) {
         let size = reader.next_frame(&mut pixels)?.buffer_size();
@@ -81,18 +145,15 @@ pub fn stamped(file: &Path, command: &str, hash: &str, device: &str) -> Result<V
     Ok(bytes.into_inner()?)
 }
 
-/// Lets a picture that is being written say which command, sources and device made it.
+/// Writes the stamp into a picture that is being encoded.
 ///
 /// # Errors
-/// If one of them has letters beyond Latin-1.
-pub fn tell<W: Write>(
-    encoder: &mut png::Encoder<'_, W>,
-    command: &str,
-    hash: &str,
-    device: &str,
-) -> Result<()> {
-    for (key, text) in [(COMMAND, command), (SOURCES, hash), (DEVICE, device)] {
-        encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
+/// If a text has letters beyond Latin-1.
+pub fn tell<W: Write>(encoder: &mut png::Encoder<'_, W>, command: &str, maker: &Maker) -> Result<()> {
+    for (key, text) in [(COMMAND, command), (DEVICE, &maker.device), (DRIVER, &maker.driver)] {
+        if !text.is_empty() {
+            encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
+        }
     }
     Ok(())
 }
@@ -107,14 +168,13 @@ mod tests {
     fn a_stamp_survives() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.png");
-        image::RgbImage::from_fn(5, 4, |x, y| image::Rgb([x as u8, y as u8, 7]))
-            .save(&file)
-            .unwrap();
-        assert!(stamp(&file).unwrap().is_empty());
-        let bytes = stamped(&file, "cargo run", "", "Ö").unwrap();
+        let picture = RgbImage::from_fn(5, 4, |x, y| image::Rgb([x as u8, y as u8, 7]));
+        picture.save(&file).unwrap();
+        assert_eq!(Stored::open(&file).unwrap().command, "");
+        let maker = Maker { device: "Ö".to_owned(), driver: "d 1".to_owned() };
+        let bytes = stamped(&file, "cargo run", &maker).unwrap();
         fs::write(&file, bytes).unwrap();
-        let read = stamp(&file).unwrap();
-        assert_eq!((&*read[COMMAND], &*read[DEVICE]), ("cargo run", "Ö"));
-        assert_eq!(image::open(&file).unwrap().to_rgb8().get_pixel(4, 3).0, [4, 3, 7]);
+        let read = Stored::open(&file).unwrap();
+        assert_eq!((&*read.command, read.maker, &read.frames[..]), ("cargo run", maker, &[picture][..]));
     }
 }

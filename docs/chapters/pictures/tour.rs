@@ -9,13 +9,12 @@ use manuscript::fault::Fault;
 use manuscript::project::{Project, README};
 use png::{ColorType, Compression, Encoder};
 
-use super::stamp;
-use crate::sources::hash::of_files;
+use super::stamp::{self, Maker};
 
 /// Where it lies.
 pub const FILE: &str = "docs/images/tour.png";
 /// What makes it.
-const COMMAND: &str = "cargo chapters tour";
+pub const COMMAND: &str = "cargo chapters tour";
 const SIZE: [u32; 2] = [400, 250];
 /// How long each picture stands, in hundredths of a second: with fewer than three changes a second, nobody is
 /// in danger from flashes (WCAG 2.2, criterion 2.3.1).
@@ -34,8 +33,7 @@ fn frames(project: &Project) -> Vec<String> {
 pub fn check(project: &Project) -> Option<Fault> {
     let readme = project.read(README).unwrap_or_default();
     let line = readme.lines().position(|line| line.contains(FILE))? + 1;
-    let hash = of_files(project, &frames(project));
-    let what = stamp::stale(project, FILE, COMMAND, &hash, "the pictures that it shows")?;
+    let what = stamp::fault(project, FILE, COMMAND)?;
     Some(Fault::new(README, line, what, format!("run: {COMMAND}")))
 }
 
@@ -44,11 +42,18 @@ pub fn check(project: &Project) -> Option<Fault> {
 /// # Errors
 /// If a chapter's picture cannot be read, or the moving one not be written.
 pub fn make(project: &Project) -> Result<String> {
-    let files = frames(project);
-    let frames = files.iter().map(|file| frame(project, file)).collect::<Result<Vec<_>>>()?;
-    let bytes = animated(&frames, &of_files(project, &files))?;
+    let bytes = bytes(project)?;
     write_whole(&project.root.join(FILE), &bytes)?;
-    Ok(format!("{FILE}: {} pictures, {} bytes\n", frames.len(), bytes.len()))
+    Ok(format!("{FILE}: {} pictures, {} bytes\n", frames(project).len(), bytes.len()))
+}
+
+/// Its bytes, from the chapters' pictures as they are.
+///
+/// # Errors
+/// If one cannot be read.
+pub fn bytes(project: &Project) -> Result<Vec<u8>> {
+    let files = frames(project);
+    animated(&files.iter().map(|file| frame(project, file)).collect::<Result<Vec<_>>>()?)
 }
 
 fn frame(project: &Project, file: &str) -> Result<RgbaImage> {
@@ -58,7 +63,7 @@ fn frame(project: &Project, file: &str) -> Result<RgbaImage> {
 }
 
 /// The frames in 256 colors, played once; whoever shows no moving pictures shows the last one.
-fn animated(frames: &[RgbaImage], hash: &str) -> Result<Vec<u8>> {
+fn animated(frames: &[RgbaImage]) -> Result<Vec<u8>> {
     /// Every so many pixels are asked which colors there should be.
     const EVERY: i32 = 7;
     let all: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw()).copied().collect();
@@ -71,7 +76,7 @@ fn animated(frames: &[RgbaImage], hash: &str) -> Result<Vec<u8>> {
     encoder.set_animated(frames.len() as u32, 1)?;
     encoder.set_frame_delay(DELAY, 100)?;
     encoder.set_sep_def_img(true)?;
-    stamp::tell(&mut encoder, COMMAND, hash, "none")?;
+    stamp::tell(&mut encoder, COMMAND, &Maker::default())?;
     let mut writer = encoder.write_header()?;
     for frame in frames.last().into_iter().chain(frames) {
         let indices: Vec<u8> =

@@ -2,6 +2,7 @@
 //!
 //! [`child`] starts every process and waits for its end; [`interrupt`] is the signal that asks for ours.
 
+pub mod change;
 pub mod child;
 pub mod command_line;
 pub mod controls;

@@ -86,8 +86,8 @@ fn held(folder: &Path) -> Result<Values> {
 }
 
 fn measured(timed: bool, (device, driver): (String, String), values: Map<String, Value>) -> Record {
-    let [command, date, sources] = [const { String::new() }; 3];
-    Record { command, timed, device, driver, date, sources, values }
+    let [command, date] = [const { String::new() }; 2];
+    Record { command, timed, device, driver, date, values }
 }
 
 /// What a sample's report has: of `--compare`, of `--compile-for`, else its times, its memory and the numbers

@@ -1,8 +1,8 @@
-//! Measurements: commands on pages that give figures, and running them.
+//! Measurements: commands on pages that give values, and running them.
 //!
 //! `<!-- measure NAME -->` stands above a shell block with the command; a name for each command, or several
 //! for one. Where the page need not show it: `<!-- measure NAME: COMMAND -->`. What it gives tells
-//! [`super::values`].
+//! [`super::given`].
 
 use std::collections::BTreeMap;
 use std::time::SystemTime;
@@ -10,22 +10,15 @@ use std::time::SystemTime;
 use anyhow::Result;
 use manuscript::fault::Fault;
 use manuscript::page::Page;
-use manuscript::project::{Chapter, Project};
+use manuscript::project::Project;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag};
 
-use super::record::{self, Record};
-use super::values::{self, Values};
+use super::given::{self, Values};
+use super::record::{self, Record, Records};
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
-use crate::sources::hash::{self, Sources};
 
-/// What makes the worst arithmetic that conforms; commands that use it have `worst` in them.
-const ARITHMETIC: &str = "common/instruments/src/arithmetic";
-
-/// The chapter that its tests ask, on whatever page their figures are.
-const LABORATORY: (&str, &str) = ("24_accuracy", "numerics");
-
-/// A command on a page that gives figures.
+/// A command on a page that gives values.
 pub struct Measurement {
     /// The page's path.
     pub page: String,
@@ -122,86 +115,44 @@ fn lines(text: &str) -> Vec<String> {
 }
 
 impl Measurement {
-    /// Its file, from the project's root.
-    pub fn file(&self) -> String {
-        record::file(&self.name)
-    }
-
     /// The name of its page.
     pub fn page_name(&self) -> &str {
         self.name.split('/').next().unwrap_or_default()
     }
 
-    /// A hash of what its command is made from: a chapter, and the files of a test.
-    fn sources(&self, project: &Project, sources: &mut Sources) -> String {
-        let words = shlex::split(&self.command).unwrap_or_default();
-        let after = |option: &str| {
-            words.iter().position(|word| word == option).and_then(|at| words.get(at + 1..))
-        };
-        let filter = after("--test").and_then(|rest| rest.get(1)).map(String::as_str);
-        let module = filter.and_then(|filter| filter.split("::").next()).unwrap_or_default();
-        let bin = after("--bin").and_then(|rest| rest.first()).map(String::as_str);
-        let is_meant = |name: &str, of: &str| bin == Some(name) || !of.is_empty() && of == module;
-        let chapters = || project.chapters.iter();
-        let target = after("--test").and_then(|rest| rest.first()).map(String::as_str);
-        let chapter = chapters()
-            .find(|chapter| is_meant(&chapter.name, chapter.module()))
-            .or_else(|| chapters().find(|chapter| chapter.name == self.page_name()))
-            .or_else(|| {
-                chapters()
-                    .find(|chapter| LABORATORY == (&*chapter.name, target.unwrap_or_default()))
-            });
-        let target = project.tests.iter().find(|test| Some(&*test.name) == target);
-        let folder = target.and_then(|test| test.path.rsplit_once('/')).map(|(folder, _)| folder);
-        let mut files = folder.map_or(Vec::new(), |folder| {
-            let mut files = project.files(folder);
-            // The test's module is named, or is the chapter's; else it may be any.
-            let modules = [Some(module), chapter.map(Chapter::module)];
-            let own = |module| [format!("{folder}/{module}.rs"), format!("{folder}/{module}/")];
-            let own = modules.into_iter().flatten().map(own).find(|own| files.contains(&own[0]));
-            if let Some(own) = own {
-                files.retain(|file| *file == own[0] || file.starts_with(&own[1]));
-            }
-            files
-        });
-        if words.iter().any(|word| word.contains("worst")) {
-            files.extend(project.files(ARITHMETIC));
-        }
-        let chapter = chapter.map_or(String::new(), |chapter| sources.of(project, &chapter.name));
-        let test = hash::of_files(project, &files);
-        hash::hash([chapter.as_bytes(), test.as_bytes()])
-    }
-
-    /// Why it is to be renewed, if it is.
-    pub fn stale(
-        &self,
-        project: &Project,
-        stored: Option<&Record>,
-        sources: &mut Sources,
-    ) -> Option<Fault> {
-        let file = self.file();
+    /// What is wrong with its stored values, if anything is. Whether they would come out again, only running
+    /// the command tells.
+    pub fn fault(&self, stored: Option<&Record>) -> Option<Fault> {
+        let name = &self.name;
         let what = match stored {
-            None => format!("the measurement {file} is missing"),
+            None => format!("the measurement {name} is missing"),
             Some(stored) if stored.command != self.command => {
-                format!("the measurement {file} was made by another command")
+                format!("the measurement {name} was made by another command")
             }
-            // A time is right for its day; whether the machine is quiet enough, a program cannot tell.
-            Some(stored) if stored.timed => return None,
-            Some(stored) if stored.sources == self.sources(project, sources) => return None,
-            Some(_) => format!("the measurement {file} is older than what it measures"),
+            Some(_) => return None,
         };
-        Some(Fault::new(&*self.page, self.line, what, record::renew(&self.name)))
+        Some(Fault::new(&*self.page, self.line, what, record::renew(name)))
     }
 }
 
-/// Files that no page makes.
-pub fn strays(measurements: &[Measurement], stored: &BTreeMap<String, Record>) -> Vec<Fault> {
+/// Stored values, and pages of them, that no page measures.
+pub fn strays(project: &Project, measurements: &[Measurement], stored: &Records) -> Vec<Fault> {
     let made = |name: &&String| measurements.iter().any(|measurement| measurement.name == **name);
     let stray = |name: &String| {
-        let what = "stray file: no page makes this measurement";
-        Fault::new(record::file(name), 1, what, "delete it, or add <!-- measure NAME --> to a page")
+        let (page, own) = name.split_once('/').unwrap_or((name, ""));
+        let what = format!("no page makes the measurement {name}");
+        let remedy = format!("delete it there, or add <!-- measure {own} --> to the page");
+        Fault::new(record::file(page), 1, what, remedy)
     };
-    stored.keys().filter(|name| !made(name)).map(stray).collect()
+    let pages = project.pages();
+    let stem = |file: &str| {
+        let name = file.rsplit('/').next().unwrap_or_default();
+        name.split('.').next().unwrap_or_default().to_owned()
+    };
+    let is_page = |file: &String| pages.iter().any(|page| stem(page) == stem(file));
+    let lost = project.files(record::FOLDER).into_iter().filter(|file| !is_page(file));
+    let lost = lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it"));
+    stored.keys().filter(|name| !made(name)).map(stray).chain(lost).collect()
 }
 
 /// Runs the commands of measurements, each once, and writes what they gave.
@@ -211,14 +162,14 @@ pub fn strays(measurements: &[Measurement], stored: &BTreeMap<String, Record>) -
 pub fn renew(
     programs: &Programs,
     measurements: &[&Measurement],
-    before: &BTreeMap<String, Record>,
+    before: &Records,
     mut done: impl FnMut(&str),
 ) -> Result<Vec<Fault>> {
-    let (mut faults, mut sources) = (Vec::new(), Sources::default());
+    let mut faults = Vec::new();
     let mut given: BTreeMap<&str, Result<Values, String>> = BTreeMap::new();
     for measurement in measurements {
         let run =
-            || values::run(programs, &measurement.command).map_err(|error| format!("{error:#}"));
+            || given::run(programs, &measurement.command).map_err(|error| format!("{error:#}"));
         let given = given.entry(&measurement.command).or_insert_with(run);
         let values = given.as_ref().map_err(String::clone).and_then(|given| {
             let missing = || format!("its command gives no {}", measurement.name);
@@ -227,7 +178,6 @@ pub fn renew(
         let new = match values {
             Ok(values) => Record {
                 command: measurement.command.clone(),
-                sources: measurement.sources(programs.project, &mut sources),
                 date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10]
                     .to_owned(),
                 ..values.clone()
@@ -243,11 +193,8 @@ pub fn renew(
         let same = before.get(&measurement.name).filter(|old| !new.timed && old.agrees(&new));
         let date = same.map_or(new.date.clone(), |old| old.date.clone());
         Record { date, ..new }.write(programs.project, &measurement.name)?;
-        done(&format!(
-            "{}: {}",
-            measurement.file(),
-            if same.is_some() { "the same" } else { "renewed" }
-        ));
+        let became = if same.is_some() { "the same" } else { "renewed" };
+        done(&format!("{}: {became}", measurement.name));
     }
     Ok(faults)
 }

@@ -1,11 +1,11 @@
-//! The stamp of a page: which devices gave its figures, and when. One line for all of them.
+//! The stamp of a page: which devices gave its values, and when. One line for all of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use manuscript::page::{Kind, Page};
 use manuscript::project::Project;
 
-use super::figure;
+use super::binding;
 use super::record::{self, Record};
 
 /// The device of what a GPU's compiler says without the GPU.
@@ -19,7 +19,7 @@ pub fn is_on(page: &Page) -> bool {
 /// What the stamp of a page says.
 pub fn text(project: &Project, page: &Page) -> String {
     let (stored, _) = Record::all(project);
-    let names = figure::measurements(page, &stored);
+    let names = binding::measurements(project, page);
     let up = "../".repeat(page.path.matches('/').count() - 1);
     match line(names.iter().filter_map(|name| stored.get(name))) {
         said if said.is_empty() => "Nothing on this page was measured.\n".to_owned(),
@@ -74,7 +74,7 @@ mod tests {
     fn record(device: &str, driver: &str, date: &str) -> Record {
         let text = format!(
             r#"{{ "command": "", "timed": false, "device": "{device}", "driver": "{driver}",
-                "date": "{date}", "sources": "", "values": {{}} }}"#
+                "date": "{date}", "values": {{}} }}"#
         );
         serde_json::from_str(&text).unwrap()
     }

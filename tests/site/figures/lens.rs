@@ -7,7 +7,7 @@ use reference::Ray;
 use reference::plane::PointPlane;
 use serde_json::Value;
 
-use super::{found, root, shown};
+use super::{found, root, shown, stored};
 use crate::browser::Browser;
 use crate::reading::address;
 
@@ -76,9 +76,7 @@ fn the_circle_is_as_large_as_rays_from_the_rims_make_it() {
     }
 
     // The chapter's lamps, 40 for its 1: their formula, and what its pictures have.
-    let given =
-        fs::read_to_string(root().join("docs/figures/28_depth_of_field/circles.json")).unwrap();
-    let given: Value = serde_json::from_str(&given).unwrap();
+    let given = stored("28_depth_of_field/circles");
     let mut lamp = |light: &str| {
         let controls = [("aperture", "40"), ("focus", "200"), ("light", light)];
         number(&found(&mut browser, &controls, "found.pixels"))

@@ -1,13 +1,11 @@
 //! 08's sphere by each rung, held to the exact one.
 
-use std::fs;
-
 use reference::Ray;
 use reference::sphere::Sphere;
 use reference::ulp::ulp_error;
 use serde_json::Value;
 
-use super::{found, root, shown};
+use super::{found, shown, stored};
 use crate::browser::Browser;
 use crate::reading::address;
 
@@ -25,9 +23,7 @@ fn the_spheres_agree_with_the_exact_ones() {
                 .map(i => [i, ...found.answers.slice(4 * i, 4 * i + 4)]) }})"
     );
     // What the rungs gave with Vulkan on llvmpipe, over all rays.
-    let given =
-        fs::read_to_string(root().join("docs/figures/08_intersection/errors.json")).unwrap();
-    let given: Value = serde_json::from_str(&given).unwrap();
+    let given = stored("08_intersection/errors");
     let given = |name: String| given["values"][&*name].as_f64().unwrap();
     for (steps, distance) in [(0, 1), (40, 100), (80, 10_000)] {
         let slider = steps.to_string();

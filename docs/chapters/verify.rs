@@ -1,0 +1,329 @@
+//! `chapters verify`: runs the book's commands again, and compares what they give with what is stored.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Duration;
+
+use anyhow::{Result, bail};
+use common::files::NewFolder;
+use common::output::print;
+use common::usage::Usage;
+use common::workers;
+use indicatif::{ProgressBar, ProgressStyle};
+use manuscript::project::Project;
+
+use crate::mistakes::mistake::{Mistake, Outcome};
+use crate::mistakes::reproduction::Reproduction;
+use crate::pages::book::Book;
+use crate::pictures::picture::Picture;
+use crate::pictures::stamp::{Maker, Stored};
+use crate::pictures::tour;
+use crate::programs::program::Programs;
+use crate::programs::{change, interrupt};
+use crate::values::given;
+use crate::values::measurement::{self, Measurement};
+use crate::values::record::{Record, Records, renew};
+
+/// One thing that a command gave.
+enum Item<'a> {
+    Picture(&'a Picture),
+    Mistake(&'a Mistake),
+    /// All measurements of one command.
+    Values(Vec<&'a Measurement>),
+    Tour,
+}
+
+/// The outcome of comparing one item.
+#[derive(Default)]
+struct Verdict {
+    /// The differences, each a line with its remedy.
+    differences: Vec<String>,
+    /// What could not be compared here.
+    notes: Vec<String>,
+}
+
+/// Compares the items of these names, or all; with `changed`, the pictures of edited chapters alone.
+///
+/// # Errors
+/// If a name is unknown, or anything differs.
+pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
+    interrupt::listen();
+    let project = book.programs.project;
+    let (pictures, wrong) = Picture::all(project, &book.pages);
+    if let Some(fault) = wrong.first() {
+        bail!("{fault}");
+    }
+    let mistakes = Mistake::whole(project)?;
+    let measurements = measurement::all(&book.pages).0;
+    let (stored, _) = Record::all(project);
+    let mut items = all(&pictures, &mistakes, &measurements, &stored);
+    if changed {
+        let edited = change::chapters(project);
+        items.retain(|item| matches!(item, Item::Picture(one) if edited.contains(one.chapter())));
+    }
+    let named = |name: &String| {
+        let name = project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name);
+        name.to_owned()
+    };
+    let names: Vec<String> = names.iter().map(named).collect();
+    if let Some(name) = names.iter().find(|name| !items.iter().any(|item| item.is(name))) {
+        return Err(Usage(format!("nothing of the book is called '{name}'")).into());
+    }
+    items.retain(|item| names.is_empty() || names.iter().any(|name| item.is(name)));
+
+    let log = Log::open(book.programs);
+    let before = items.len();
+    items.retain(|item| !log.passed.contains(&item.name()));
+    if items.len() < before {
+        print(&format!("{} of {before} were verified before\n", before - items.len()))?;
+    }
+    let bar = ProgressBar::new(items.len() as u64);
+    let form = "{bar:30} {pos}/{len} {msg}, {elapsed} so far, about {eta} more";
+    bar.set_style(ProgressStyle::with_template(form)?);
+    bar.enable_steady_tick(Duration::from_secs(1));
+    let compare = |item: &Item| -> Result<Verdict> {
+        interrupt::asked()?;
+        bar.set_message(item.name());
+        let verdict = item.compare(book.programs, &stored)?;
+        bar.suspend(|| {
+            let lines = verdict.differences.iter().chain(&verdict.notes);
+            lines.into_iter().try_for_each(|line| print(&format!("{line}\n")))
+        })?;
+        if verdict.differences.is_empty() {
+            log.add(&item.name())?;
+        }
+        bar.inc(1);
+        Ok(verdict)
+    };
+    let verdicts: Vec<Result<Verdict>> = workers::each(&items, compare);
+    bar.finish_and_clear();
+    let verdicts = verdicts.into_iter().collect::<Result<Vec<_>>>()?;
+    let differ = verdicts.iter().filter(|verdict| !verdict.differences.is_empty()).count();
+    match differ {
+        0 => {
+            log.remove();
+            print(&format!("{before} verified, no difference\n"))
+        }
+        _ => bail!("{differ} of {before} differ"),
+    }
+}
+
+/// Every item; pictures first, for they take longest.
+fn all<'a>(
+    pictures: &'a [Picture],
+    mistakes: &'a [Mistake],
+    measurements: &'a [Measurement],
+    stored: &Records,
+) -> Vec<Item<'a>> {
+    let mut commands = BTreeMap::<&str, Vec<&Measurement>>::new();
+    for measurement in measurements {
+        commands.entry(&measurement.command).or_default().push(measurement);
+    }
+    let is_timed = |one: &&Measurement| stored.get(&one.name).is_some_and(|record| record.timed);
+    let values = commands.into_values().filter(|group| !group.iter().all(is_timed));
+    let pictures = pictures.iter().map(Item::Picture);
+    let mistakes = mistakes.iter().map(Item::Mistake);
+    pictures.chain(mistakes).chain(values.map(Item::Values)).chain([Item::Tour]).collect()
+}
+
+impl Item<'_> {
+    /// Its name, unlike all others.
+    fn name(&self) -> String {
+        match self {
+            Self::Picture(picture) => picture.file(),
+            Self::Mistake(mistake) => mistake.file(),
+            Self::Values(group) => group[0].name.clone(),
+            Self::Tour => tour::FILE.to_owned(),
+        }
+    }
+
+    /// True if it has this name, or belongs to the chapter or page of this name.
+    fn is(&self, name: &str) -> bool {
+        match self {
+            Self::Picture(one) => one.name == name || one.chapter() == name,
+            Self::Mistake(one) => one.name == name || one.chapter == name,
+            Self::Values(group) => group.iter().any(|m| m.name == name || m.page_name() == name),
+            Self::Tour => name == "tour",
+        }
+    }
+
+    /// Runs its command, and compares.
+    ///
+    /// # Errors
+    /// If a signal asks for the end.
+    fn compare(&self, programs: &Programs, stored: &Records) -> Result<Verdict> {
+        let project = programs.project;
+        let mut verdict = Verdict::default();
+        match self {
+            Self::Picture(picture) => {
+                let folder = NewFolder::temporary()?;
+                let made = picture.make(programs, folder.path());
+                verdict.picture(project, &picture.file(), picture.chapter(), made, &picture.remedy());
+            }
+            Self::Mistake(mistake) => {
+                let (folder, trial) = (NewFolder::temporary()?, Reproduction::new(programs, mistake));
+                let made = trial.make(folder.path());
+                // The labels tell how long it took.
+                match (&made, &mistake.outcome) {
+                    (Ok(_), Outcome::Slower(_)) => {}
+                    _ => verdict.picture(
+                        project,
+                        &mistake.picture(),
+                        &mistake.chapter,
+                        made,
+                        &mistake.remedy(),
+                    ),
+                }
+            }
+            Self::Values(group) => verdict.values(programs, group, stored),
+            Self::Tour => {
+                let made = tour::bytes(project)?;
+                if fs::read(project.root.join(tour::FILE))? != made {
+                    verdict.differences.push(format!("{}: differs; run: {}", tour::FILE, tour::COMMAND));
+                }
+            }
+        }
+        interrupt::asked()?;
+        Ok(verdict)
+    }
+}
+
+impl Verdict {
+    fn picture(
+        &mut self,
+        project: &Project,
+        file: &str,
+        chapter: &str,
+        made: Result<(PathBuf, Maker)>,
+        remedy: &str,
+    ) {
+        let opened = made.and_then(|(made, maker)| {
+            Ok((Stored::open(&made)?.frames, maker, Stored::open(&project.root.join(file))?))
+        });
+        let (made, maker, stored) = match opened {
+            Ok(opened) => opened,
+            Err(error) => return self.differences.push(format!("{file}: {error:#}; {remedy}")),
+        };
+        let sizes = |frames: &[image::RgbImage]| -> Vec<(u32, u32)> {
+            frames.iter().map(image::RgbImage::dimensions).collect()
+        };
+        if sizes(&made) != sizes(&stored.frames) {
+            let what = format!("{file}: another size or number of frames; {remedy}");
+            return self.differences.push(what);
+        }
+        let is_same_maker = maker == stored.maker;
+        if is_same_maker && made != stored.frames {
+            let pairs = made.iter().zip(&stored.frames);
+            let apart = |(a, b): (&image::RgbImage, &image::RgbImage)| {
+                a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count()
+            };
+            let pixels: usize = pairs.map(apart).sum();
+            self.differences.push(format!("{file}: {pixels} pixels differ; {remedy}"));
+        } else if !is_same_maker {
+            self.elsewhere(file, chapter, &made, &stored, remedy);
+        }
+    }
+
+    /// Compares with a picture of another device or driver: it may differ as far as rounding makes it.
+    fn elsewhere(
+        &mut self,
+        file: &str,
+        chapter: &str,
+        made: &[image::RgbImage],
+        stored: &Stored,
+        remedy: &str,
+    ) {
+        let device = &stored.maker.device;
+        let size = made[0].dimensions();
+        let Some(bound) = flip::near::golden(chapter, size, flip::TOLERANCE) else {
+            let note = format!("{file}: shows the errors of its device, {device}: not compared");
+            return self.notes.push(note);
+        };
+        let far = |(a, b): (&image::RgbImage, &image::RgbImage)| flip::mean(size, b.as_raw(), a.as_raw());
+        let most = made.iter().zip(&stored.frames).map(far).fold(0.0, f32::max);
+        if most > bound {
+            let what = format!(
+                "{file}: FLIP {most:.4} from that of {device}, where rounding explains {bound:.4}; {remedy}"
+            );
+            self.differences.push(what);
+        }
+    }
+
+    fn values(&mut self, programs: &Programs, group: &[&Measurement], stored: &Records) {
+        let command = &group[0].command;
+        let given = match given::run(programs, command) {
+            Ok(given) => given,
+            Err(error) => {
+                let what = format!("{}: {error:#}; {}", group[0].name, renew(&group[0].name));
+                return self.differences.push(what);
+            }
+        };
+        for Measurement { name, .. } in group {
+            let (Some(old), Some(new)) = (stored.get(name), given.get(name).or(given.get(""))) else {
+                self.differences.push(format!("{name}: nothing is stored, or given; {}", renew(name)));
+                continue;
+            };
+            if old.timed {
+                continue;
+            }
+            if !old.is_of_device_of(new) {
+                let values = serde_json::Value::from(new.values.clone());
+                let (device, driver) = (&old.device, &old.driver);
+                self.notes.push(format!("{name}: stored of {device}, {driver}; here {values}"));
+            } else if old.values != new.values {
+                let differ = |(key, value): (&String, &serde_json::Value)| {
+                    let new = new.values.get(key);
+                    let is = new.map_or("missing".to_owned(), ToString::to_string);
+                    (new != Some(value)).then(|| format!("{key} was {value}, is {is}"))
+                };
+                let all: Vec<String> = old.values.iter().filter_map(differ).collect();
+                let first = all.first().map_or("more values are given", String::as_str);
+                let more = match all.len() {
+                    0 | 1 => String::new(),
+                    count => format!(" (and {} more)", count - 1),
+                };
+                self.differences.push(format!("{name}: {first}{more}; {}", renew(name)));
+            }
+        }
+    }
+}
+
+/// The items that have passed since the code last changed, in `target/verify`: a run that was interrupted goes on.
+struct Log {
+    file: PathBuf,
+    passed: BTreeSet<String>,
+    lines: Mutex<String>,
+}
+
+impl Log {
+    fn open(programs: &Programs) -> Self {
+        let file = programs.target().join("verify");
+        let head = state(&programs.project.root);
+        let text = fs::read_to_string(&file).unwrap_or_default();
+        let (old, passed) = text.split_once('\n').unwrap_or_default();
+        let passed = if old == head { passed } else { "" };
+        let lines = Mutex::new(format!("{head}\n{passed}"));
+        Self { file, passed: passed.lines().map(str::to_owned).collect(), lines }
+    }
+
+    fn add(&self, name: &str) -> Result<()> {
+        let mut lines = self.lines.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        *lines += &format!("{name}\n");
+        common::files::write_whole(&self.file, lines.as_bytes())
+    }
+
+    fn remove(&self) {
+        let _ = fs::remove_file(&self.file);
+    }
+}
+
+/// A hash of the commit and of all that differs from it.
+fn state(root: &Path) -> String {
+    let mut hasher = DefaultHasher::new();
+    change::text(root, &["rev-parse", "HEAD"]).hash(&mut hasher);
+    change::text(root, &["diff", "HEAD"]).hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}
