@@ -1,10 +1,12 @@
 //! Who builds the trees.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu};
 use common::scene::Mesh;
+use common::scene::text::quoted;
 
 use crate::binned::binned_into;
+use crate::check::check_links;
 use crate::reinsert::reinserted_into;
 use crate::subtree::FOLDED;
 use crate::{Bounds, Corners, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles};
@@ -46,7 +48,7 @@ impl Builder {
     /// A tree over the triangles of each mesh, whose corners are `triangles`.
     ///
     /// # Errors
-    /// If the device has no room for them.
+    /// If the device has no room for them, or what it built is not a tree.
     pub fn trees(
         self,
         gpu: &Gpu,
@@ -76,6 +78,11 @@ fn on_device(gpu: &Gpu, builder: &DeviceBuilder, mesh: &Mesh) -> Result<Tree> {
     let list = Triangles { vertices: vertices.address, triangles: triangles.address, count };
     let (tree, scratch) = (DeviceTree::new(gpu, count)?, Scratch::new(gpu, count)?);
     gpu.submit(|cmd| builder.record(cmd, list, &tree, &scratch))?;
-    Ok(Tree { nodes: tree.nodes.read()?, order: tree.original.read()? })
+    let mut read = Tree { nodes: tree.nodes.read()?, order: tree.original.read()? };
+    // Vulkan has no empty buffers.
+    read.order.truncate(count as usize);
+    check_links(&read, count as usize)
+        .with_context(|| format!("the device's tree of the mesh {}", quoted(&mesh.name)))?;
+    Ok(read)
 }
 // ANCHOR_END: device

@@ -4,6 +4,7 @@ use anyhow::{Context, Result, ensure};
 use common::glam::Vec3;
 
 use crate::hull::has_place;
+use crate::quality::depth;
 use crate::tree::{Bounds, Child, Tree};
 
 /// The most nodes that a walk passes on its way down: a stack of as many entries never overflows.
@@ -44,6 +45,27 @@ pub fn check(tree: &Tree, bounds: &[Bounds]) -> Result<()> {
     Ok(())
 }
 // ANCHOR_END: check
+
+/// Whether all numbers of a tree over so many primitives lead somewhere, and each way down ends. Bytes that a device
+/// wrote may hold any numbers: this comes before they are followed. [`check`] also looks at the boxes.
+///
+/// # Errors
+/// The first number that is wrong, and where.
+pub(crate) fn check_links(tree: &Tree, primitives: usize) -> Result<()> {
+    let Tree { nodes, order } = tree;
+    for (at, child) in
+        nodes.iter().enumerate().flat_map(|(at, n)| n.children.iter().map(move |c| (at, c)))
+    {
+        let (named, count) = match child.node() {
+            Some(node) => (node as usize + 1, nodes.len()),
+            None => (child.positions().end, order.len()),
+        };
+        ensure!(named <= count, "a child of node {at} leads beyond the tree: {child:?}");
+    }
+    let wrong = order.iter().find(|&&primitive| primitive as usize >= primitives);
+    ensure!(wrong.is_none(), "primitive {} of {primitives} has a position", wrong.unwrap_or(&0));
+    depth(tree).map(drop)
+}
 
 /// What a check has met so far.
 struct Found<'a> {
@@ -94,7 +116,7 @@ fn holds(child: &Child, (low, high): &Bounds) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Node, binned};
+    use crate::{Node, binned, cost, quantised};
 
     /// A row of cubes, and a tree over them.
     fn row() -> (Tree, Vec<Bounds>) {
@@ -130,6 +152,46 @@ mod tests {
             said(|tree| tree.nodes[1].children[0] = tree.nodes[0].children[0])
                 .contains("reached twice")
         );
+    }
+
+    /// A tree of such bytes; ends in an error, or is a tree.
+    fn read_back(nodes: usize, order: usize, mut word: impl FnMut() -> u32) -> Result<()> {
+        let mut tree =
+            Tree { nodes: vec![Node { children: [Child::NONE; 2] }; nodes], order: vec![0; order] };
+        let words: &mut [u32] = common::bytemuck::cast_slice_mut(&mut tree.nodes);
+        words.fill_with(&mut word);
+        tree.order.fill_with(&mut word);
+        let checked = check_links(&tree, order);
+        // What is computed of any bytes ends, whatever it says.
+        assert!(
+            depth(&tree).is_err()
+                || checked.is_ok()
+                || depth(&tree).is_ok_and(|d| d as usize <= nodes)
+        );
+        let _ = (quantised(&tree.nodes), cost(&tree));
+        checked
+    }
+
+    #[test]
+    fn what_a_device_wrote_is_followed_to_an_end_whatever_it_is() {
+        for count in [1, 2, 1000] {
+            let zeros = read_back(count, count + 1, || 0).expect_err("a node is its own child");
+            assert!(zeros.to_string().contains("node 0 is reached twice"), "{zeros}");
+            assert!(read_back(count, count + 1, || u32::MAX).is_err());
+            let mut random = 1u32;
+            for bits in [1, 2, 10, 32] {
+                for _ in 0..200 {
+                    let word = || {
+                        random = random.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+                        random.swap_bytes() >> (32 - bits)
+                    };
+                    let _ = read_back(count, count + 1, word);
+                }
+            }
+        }
+        let (tree, cubes) = row();
+        check_links(&tree, cubes.len()).unwrap();
+        assert!(check_links(&tree, cubes.len() - 1).is_err());
     }
 
     #[test]

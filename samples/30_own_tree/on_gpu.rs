@@ -70,7 +70,7 @@ impl TreesOnGpu {
     /// left out: no ray meets what has no extent.
     ///
     /// # Errors
-    /// If memory is short, or a position takes more than 28 bits.
+    /// If memory is short, a position takes more than 28 bits, or what the device built is not a tree.
     pub fn new(gpu: &Gpu, scene: &Scene, builder: Builder) -> Result<Self> {
         let meshes = &scene.model.meshes;
         let triangles: Vec<Vec<_>> = meshes.iter().map(corners_of).collect();
@@ -141,12 +141,13 @@ impl TreesOnGpu {
             reach,
         };
         let head = Buffer::with_data(gpu, "where the trees are", &[head], Buffer::ADDRESSED)?;
-        let deepest = trees.iter().map(depth).max().unwrap_or(0);
+        let deepest =
+            trees.iter().map(depth).try_fold(0, |most, depth| depth.map(|d| d.max(most)))?;
         Ok(Self {
             address: head.address.into(),
             orders: trees.into_iter().map(|tree| tree.order).collect(),
             // And the other instances of a leaf of the top tree, and the far child that is written before it counts.
-            stack: depth(&top) + 2 + deepest,
+            stack: depth(&top)? + 2 + deepest,
             bytes,
             _buffers: [buffer, head],
         })

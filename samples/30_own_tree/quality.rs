@@ -1,5 +1,9 @@
 //! What a tree is worth: the surface area heuristic, depth, memory.
 
+use std::mem;
+
+use anyhow::{Result, ensure};
+
 use crate::hull::Hull;
 use crate::tree::{Child, Tree};
 
@@ -34,17 +38,22 @@ pub fn cost(tree: &Tree) -> f64 {
 /// How many nodes the longest way from the root passes, the root among them: as many entries as the stack
 /// of a walk needs, at most.
 ///
-/// # Panics
-/// If a child names a node that is not there. A tree that holds itself has no end.
-pub fn depth(tree: &Tree) -> u32 {
+/// # Errors
+/// If a child names a missing node, or a node is reached twice: then this is not a tree, and a way down may not end.
+pub fn depth(tree: &Tree) -> Result<u32> {
+    let count = tree.nodes.len();
+    let mut is_reached = vec![false; count];
     let mut deepest = 0;
     let mut stack = vec![(0, 1)];
     while let Some((at, level)) = stack.pop() {
+        let node = at as usize;
+        ensure!(node < count, "node {at} is named, and there are {count}");
+        ensure!(!mem::replace(&mut is_reached[node], true), "node {at} is reached twice");
         deepest = level.max(deepest);
-        let below = tree.nodes[at as usize].children.iter().filter_map(Child::node);
+        let below = tree.nodes[node].children.iter().filter_map(Child::node);
         stack.extend(below.map(|node| (node, level + 1)));
     }
-    deepest
+    Ok(deepest)
 }
 
 /// Bytes of a primitive's part of nodes and order. 0 for a tree over nothing.

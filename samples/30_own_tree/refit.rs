@@ -11,7 +11,7 @@ use crate::tree::{Bounds, Child, Node, Tree};
 /// the tree was built gets none.
 ///
 /// # Panics
-/// If a primitive of the tree is not in `bounds`.
+/// If a primitive of the tree is not in `bounds`, or a node is reached twice.
 pub fn refit(tree: &mut Tree, bounds: &[Bounds]) {
     let Tree { nodes, order } = tree;
     for at in upward(nodes) {
@@ -34,6 +34,7 @@ fn upward(nodes: &[Node]) -> Vec<u32> {
     found.push(0);
     let mut next = 0;
     while let Some(&at) = found.get(next) {
+        assert!(found.len() <= nodes.len(), "a node is reached twice");
         found.extend(nodes[at as usize].children.iter().filter_map(Child::node));
         next += 1;
     }

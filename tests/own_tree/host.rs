@@ -12,7 +12,7 @@ fn every_triangle_of_the_chess_set_lies_in_its_tree() {
         check(&tree, &bounds).unwrap();
         check(&reinserted(tree.clone(), &bounds, 2), &bounds).unwrap();
         assert_eq!(quantised(&tree.nodes).unwrap().len(), tree.nodes.len());
-        let (cost, depth, bytes) = (cost(&tree), depth(&tree), bytes_per_primitive(&tree));
+        let (cost, depth, bytes) = (cost(&tree), depth(&tree).unwrap(), bytes_per_primitive(&tree));
         println!(
             "{:14} {:7} triangles: cost {cost:.1}, depth {depth}, {bytes:.0} bytes each",
             triangles.name,

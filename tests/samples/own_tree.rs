@@ -4,7 +4,7 @@ use common::app::Picture;
 use common::scene::Scene;
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{figures, golden, refused, render};
+use run::{command, figures, golden, refusal, refused, render, shaders_with};
 use serde_json::json;
 
 const NAME: &str = "30_own_tree";
@@ -51,6 +51,30 @@ fn it_is_the_picture_of_16() {
     println!("{count} pixels differ by more than a step of 8 bits");
     figures::hold("30_own_tree/query", json!({ "pixels": own.pixels.len(), "differ": count }));
     assert!(count < own.pixels.len() / 1000, "{count}");
+}
+
+/// A device that builds nothing, and one that names nodes and triangles at random.
+#[test]
+fn what_a_device_built_that_is_not_a_tree_is_refused_in_a_line() {
+    let nothing = "Child none = Child(vec3(0.0), 0, vec3(0.0), 0);";
+    let anything = "Child none = Child(vec3(0.0), i * 2654435761u, vec3(1.0), i & 1u);";
+    for (children, words) in
+        [(nothing, "node 0 is reached twice"), (anything, "leads beyond the tree")]
+    {
+        let whole = "int i = int(invocation());";
+        let broken = format!(
+            "{{ uint i = invocation(); if (i < push.nodes_count) {{ {children} \
+             push.nodes.at[i].children = Child[2](none, none); push.ends.at[i] = NO_NODE; }} \
+             return; }} {whole}"
+        );
+        let shaders = shaders_with("30_own_tree/hierarchy.comp", whole, &broken);
+        let mut sample = command(NAME);
+        sample.env("SHADERS", shaders.path());
+        sample.args(["--headless", "--size", "8x8", "--set", "tree=device"]);
+        let (code, line) = refusal(sample.output().expect("the sample starts"));
+        let mesh = "the device's tree of the mesh \"";
+        assert!(code == 1 && line.contains(mesh) && line.contains(words), "{line}");
+    }
 }
 
 /// A tree decides which boxes are looked at, never what is met.

@@ -22,6 +22,9 @@ pub const MANY: u32 = 7;
 /// `gl_RayFlagsSkipClosestHitShaderEXT`.
 const SKIPS_CLOSEST_HIT: u32 = 8;
 
+/// The deepest indentation. No device lets more rays nest than 31, but words may be anything.
+const DEEPEST: usize = 31;
+
 /// A ray that is under way.
 struct Open {
     /// Whether a closest hit or miss shader was called.
@@ -90,7 +93,7 @@ impl<'a> Log<'a> {
     }
 
     fn line(&mut self, line: std::fmt::Arguments) {
-        let depth = self.open.len();
+        let depth = self.open.len().min(DEEPEST);
         let _ = writeln!(self.text, "{:1$}{line}", "", 2 * depth);
     }
 
@@ -160,6 +163,27 @@ impl<'a> Log<'a> {
     fn end(&mut self, ended: bool) {
         if let Some(open) = self.open.last_mut() {
             open.ended |= ended;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_words_become_a_text_of_bounded_length() {
+        let mut random = 1u32;
+        let mut next = || {
+            random = random.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            random.swap_bytes()
+        };
+        let any: Vec<u32> = (0..WORDS).map(|_| next()).collect();
+        let kinds = any.iter().map(|word| word % 8).collect();
+        // Zeros, the same word over and over, and rays that begin and never come back.
+        for words in [vec![0; WORDS as usize], vec![RAY; WORDS as usize], any, kinds] {
+            let (text, _) = Log::text(&words, &[], &[]);
+            assert!(text.len() < 100 * words.len(), "{} bytes", text.len());
         }
     }
 }
