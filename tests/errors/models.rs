@@ -10,15 +10,21 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 /// Writes files into a new folder and renders `model.obj` with the folder as the current one.
 fn command(files: &[(&str, &[u8])]) -> (tempfile::TempDir, std::process::Command) {
+    let folder = folder(files);
+    let mut command = sample();
+    command.current_dir(&folder).args(["--scene", "model.obj"]);
+    (folder, command)
+}
+
+/// A new folder with files in it.
+fn folder(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
         let path = folder.path().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, bytes).unwrap();
     }
-    let mut command = sample();
-    command.current_dir(&folder).args(["--scene", "model.obj"]);
-    (folder, command)
+    folder
 }
 
 #[track_caller]
@@ -122,6 +128,12 @@ fn textures_outside_the_folder_are_not_read() {
 #[track_caller]
 fn files_warned(files: &[(&str, &[u8])], lines: &[&str]) {
     let (_folder, mut command) = command(files);
+    warned(&mut command, lines);
+}
+
+/// As [`files_warned`], by any sample.
+#[track_caller]
+fn warned(command: &mut std::process::Command, lines: &[&str]) {
     let output = command.arg("--validate").output().expect("the sample starts");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{errors}");
@@ -147,6 +159,17 @@ fn models_that_can_do_without() {
         files_warned(&[("model.obj", format!("{vertices}{face}\n").as_bytes())], &[unseen]);
     }
     files_warned(&[("model.obj", format!("{vertices}f 1 2 2\nf 1 2 3\n").as_bytes())], &[]);
+    // 25 reads models by itself: an OBJ file as it stands, and one that a scene file names.
+    let flat = format!("{vertices}f 1 2 2\n");
+    let scene = "version = 1\nmodel = \"model.obj\"\n[camera]\neye = [0, 1, 5]\ntarget = [0, 0, 0]\n\
+                 field_of_view = 40\n[[piece]]\nmesh = \"a\"\nat = [0, 0, 0]\n";
+    for file in ["model.obj", "s.toml"] {
+        let model = format!("o a\n{flat}");
+        let folder = folder(&[("model.obj", model.as_bytes()), ("s.toml", scene.as_bytes())]);
+        let mut command = run::command("25_scene_effects");
+        command.current_dir(&folder).args(["--headless", "--size", "8x8", "--scene", file]);
+        warned(&mut command, &[unseen]);
+    }
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}usemtl a\nf 1 2 3\n");
     let twice = "model.obj:2: the material \"a\" is not defined; the mtllib files hold";
     for (mtl, line) in [

@@ -4,23 +4,12 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use glam::DVec3;
 
 use super::Args;
 use crate::output;
 use crate::scene::text::shown;
-use crate::scene::{Mesh, Scene, SceneOptions};
+use crate::scene::{Scene, SceneOptions};
 use crate::usage::Usage;
-
-/// Whether any triangle has an area.
-fn has_area(meshes: &[Mesh]) -> bool {
-    meshes.iter().any(|mesh| {
-        mesh.triangles.iter().any(|corners| {
-            let [a, b, c] = corners.map(|i| mesh.vertices[i as usize].position.as_dvec3());
-            (b - a).cross(c - a) != DVec3::ZERO
-        })
-    })
-}
 
 /// What a sample is made with.
 pub struct Setup {
@@ -57,11 +46,7 @@ impl Setup {
                 "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";
             return Err(Usage(format!("{}: {what}", shown(path))).into());
         }
-        let mut scene = Scene::open(path)?;
-        if !has_area(&scene.model.meshes) {
-            let what = "none of its triangles has an area, and so nothing of it is seen";
-            scene.model.warnings.push(format!("{}: {what}", shown(path)));
-        }
+        let scene = Scene::open(path)?;
         output::warn(&scene.model.warnings);
         Ok(scene)
     }

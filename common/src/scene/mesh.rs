@@ -1,6 +1,6 @@
 //! A mesh: vertices, triangles that index them, one material.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 common::shader_struct! {
     /// One vertex, 32 bytes, read by shaders under the same name.
@@ -62,6 +62,17 @@ impl Mesh {
         low.abs().max(high.abs()).max_element()
     }
 
+    /// Whether any triangle has an area. Otherwise no ray meets the mesh.
+    ///
+    /// # Panics
+    /// If a triangle indexes beyond `vertices`.
+    pub fn has_area(&self) -> bool {
+        self.triangles.iter().any(|corners| {
+            let [a, b, c] = corners.map(|i| self.vertices[i as usize].position.as_dvec3());
+            (b - a).cross(c - a) != DVec3::ZERO
+        })
+    }
+
     /// The box around each triangle, low and high corner, in the order of `triangles`.
     ///
     /// # Panics
@@ -106,6 +117,16 @@ mod tests {
         let bounds = (Vec3::new(-4.0, -2.0, 0.0), Vec3::new(1.0, 5.0, 3.0));
         assert_eq!(mesh(&points, &[]).bounds(), bounds);
         assert_eq!(mesh(&[], &[]).bounds(), (Vec3::INFINITY, Vec3::NEG_INFINITY));
+    }
+
+    #[test]
+    fn one_triangle_with_an_area_is_enough() {
+        let points = [Vec3::ZERO, Vec3::X, Vec3::Y, 3.0 * Vec3::X];
+        assert!(!mesh(&points, &[]).has_area());
+        assert!(!mesh(&points, &[[0, 1, 1], [0, 1, 3]]).has_area());
+        assert!(mesh(&points, &[[0, 1, 1], [0, 1, 2]]).has_area());
+        // Products of such edges vanish in 32 bits.
+        assert!(mesh(&points.map(|point| point * 1e-30), &[[0, 1, 2]]).has_area());
     }
 
     #[test]

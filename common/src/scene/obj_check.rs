@@ -85,7 +85,12 @@ pub(super) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     if meshes.iter().any(|mesh| mesh.material == default) {
         materials.push(Material::default());
     }
-    Ok(Model { meshes, materials, textures, warnings: warnings.lines() })
+    let mut warnings = warnings.lines();
+    if !meshes.iter().any(Mesh::has_area) {
+        let what = "none of its triangles has an area, and so nothing of it is seen";
+        warnings.push(format!("{}: {what}", text.shown));
+    }
+    Ok(Model { meshes, materials, textures, warnings })
 }
 
 /// The uses of a material that was not defined when it was met.
