@@ -1,5 +1,5 @@
 //! `chapters nightly`: the tests that plain `cargo test` leaves out, one test program after the other, each with its
-//! time.
+//! time, and then `chapters verify`.
 //!
 //! Why a test is left out says how it is run, by its first words:
 //!
@@ -17,9 +17,14 @@ use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
 
-use crate::programs::child;
-use crate::programs::interrupt;
+use crate::pages::book::Book;
+use crate::programs::program::Programs;
 use crate::programs::test::{self, Test};
+use crate::programs::{child, interrupt};
+use crate::verify;
+
+/// The name of the run that compares all pictures and values.
+const VERIFY: &str = "verify";
 
 /// The tests of a program that are run here.
 struct Group {
@@ -33,8 +38,10 @@ struct Group {
 /// If there is no such group, or a test fails.
 pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
     let mut groups = groups(project);
-    if let Some(name) = names.iter().find(|name| groups.iter().all(|g| g.program != **name)) {
-        let known: Vec<_> = groups.into_iter().map(|group| group.program).collect();
+    let is_known = |name: &&String| *name == VERIFY || groups.iter().any(|g| g.program == **name);
+    if let Some(name) = names.iter().find(|name| !is_known(name)) {
+        let mut known: Vec<_> = groups.into_iter().map(|group| group.program).collect();
+        known.push(VERIFY.to_owned());
         return Err(Usage(format!("no group '{name}'; there is {}", known.join(", "))).into());
     }
     groups.retain(|group| names.is_empty() || names.contains(&group.program));
@@ -48,10 +55,14 @@ pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
             failed.push(group.program.as_str());
         }
     }
-    match failed.is_empty() {
-        true => Ok(()),
-        false => bail!("tests of {} failed", failed.join(", ")),
+    if names.is_empty() || names.iter().any(|name| name == VERIFY) {
+        let programs = Programs::beside_this(project)?;
+        if let Err(error) = verify::run(&Book::open(&programs)?, &[], false) {
+            print(&format!("verify: {error:#}\n"))?;
+            failed.push(VERIFY);
+        }
     }
+    if failed.is_empty() { Ok(()) } else { bail!("{} failed", failed.join(", ")) }
 }
 
 fn groups(project: &Project) -> Vec<Group> {

@@ -23,9 +23,9 @@ use crate::pictures::stamp::{Maker, Stored};
 use crate::pictures::tour;
 use crate::programs::program::Programs;
 use crate::programs::{change, interrupt};
-use crate::values::given;
 use crate::values::measurement::{self, Measurement};
 use crate::values::record::{Record, Records, renew};
+use crate::values::{budget, given};
 
 /// One thing that a command gave.
 enum Item<'a> {
@@ -60,6 +60,7 @@ pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
     let measurements = measurement::all(&book.pages).0;
     let (stored, _) = Record::all(project);
     let mut items = all(&pictures, &mistakes, &measurements, &stored);
+    items.extend(tour::is_shown(project).then_some(Item::Tour));
     if changed {
         let edited = change::chapters(project);
         items.retain(|item| matches!(item, Item::Picture(one) if edited.contains(one.chapter())));
@@ -126,7 +127,7 @@ fn all<'a>(
     let values = commands.into_values().filter(|group| !group.iter().all(is_timed));
     let pictures = pictures.iter().map(Item::Picture);
     let mistakes = mistakes.iter().map(Item::Mistake);
-    pictures.chain(mistakes).chain(values.map(Item::Values)).chain([Item::Tour]).collect()
+    pictures.chain(mistakes).chain(values.map(Item::Values)).collect()
 }
 
 impl Item<'_> {
@@ -161,10 +162,17 @@ impl Item<'_> {
             Self::Picture(picture) => {
                 let folder = NewFolder::temporary()?;
                 let made = picture.make(programs, folder.path());
-                verdict.picture(project, &picture.file(), picture.chapter(), made, &picture.remedy());
+                verdict.picture(
+                    project,
+                    &picture.file(),
+                    picture.chapter(),
+                    made,
+                    &picture.remedy(),
+                );
             }
             Self::Mistake(mistake) => {
-                let (folder, trial) = (NewFolder::temporary()?, Reproduction::new(programs, mistake));
+                let (folder, trial) =
+                    (NewFolder::temporary()?, Reproduction::new(programs, mistake));
                 let made = trial.make(folder.path());
                 // The labels tell how long it took.
                 match (&made, &mistake.outcome) {
@@ -182,7 +190,11 @@ impl Item<'_> {
             Self::Tour => {
                 let made = tour::bytes(project)?;
                 if fs::read(project.root.join(tour::FILE))? != made {
-                    verdict.differences.push(format!("{}: differs; run: {}", tour::FILE, tour::COMMAND));
+                    verdict.differences.push(format!(
+                        "{}: differs; run: {}",
+                        tour::FILE,
+                        tour::COMMAND
+                    ));
                 }
             }
         }
@@ -242,7 +254,8 @@ impl Verdict {
             let note = format!("{file}: shows the errors of its device, {device}: not compared");
             return self.notes.push(note);
         };
-        let far = |(a, b): (&image::RgbImage, &image::RgbImage)| flip::mean(size, b.as_raw(), a.as_raw());
+        let far =
+            |(a, b): (&image::RgbImage, &image::RgbImage)| flip::mean(size, b.as_raw(), a.as_raw());
         let most = made.iter().zip(&stored.frames).map(far).fold(0.0, f32::max);
         if most > bound {
             let what = format!(
@@ -254,6 +267,17 @@ impl Verdict {
 
     fn values(&mut self, programs: &Programs, group: &[&Measurement], stored: &Records) {
         let command = &group[0].command;
+        let recorded = |one: &&Measurement| {
+            let old = stored.get(&one.name)?;
+            Some((
+                one.name.clone(),
+                Record { values: budget::values(programs.project, old)?, ..old.clone() },
+            ))
+        };
+        let recorded: Option<BTreeMap<String, Record>> = group.iter().map(recorded).collect();
+        if let Some(recorded) = recorded {
+            return self.compare(group, &recorded, stored);
+        }
         let given = match given::run(programs, command) {
             Ok(given) => given,
             Err(error) => {
@@ -261,9 +285,20 @@ impl Verdict {
                 return self.differences.push(what);
             }
         };
+        self.compare(group, &given, stored);
+    }
+
+    fn compare(
+        &mut self,
+        group: &[&Measurement],
+        given: &BTreeMap<String, Record>,
+        stored: &Records,
+    ) {
         for Measurement { name, .. } in group {
-            let (Some(old), Some(new)) = (stored.get(name), given.get(name).or(given.get(""))) else {
-                self.differences.push(format!("{name}: nothing is stored, or given; {}", renew(name)));
+            let (Some(old), Some(new)) = (stored.get(name), given.get(name).or(given.get("")))
+            else {
+                self.differences
+                    .push(format!("{name}: nothing is stored, or given; {}", renew(name)));
                 continue;
             };
             if old.timed {

@@ -2,8 +2,6 @@
 
 mod author;
 mod exercises;
-#[cfg(unix)]
-mod figures;
 mod fixture;
 mod merge;
 mod mistakes;
@@ -13,6 +11,8 @@ mod nightly;
 mod stale;
 mod start;
 mod survey;
+#[cfg(unix)]
+mod values;
 mod variants;
 
 use std::fs;
@@ -25,6 +25,14 @@ use fixture::{Fixture, run};
 #[test]
 fn the_book_is_current() {
     let outcome = run(Command::new(env!("CARGO_BIN_EXE_chapters")).arg("check"));
+    assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
+}
+
+/// The pictures of chapters whose code or shaders differ from the last commit are what their commands give; all
+/// others are compared at night, by `cargo chapters verify`.
+#[test]
+fn pictures_of_edited_chapters_are_what_their_commands_give() {
+    let outcome = run(Command::new(env!("CARGO_BIN_EXE_chapters")).args(["verify", "--changed"]));
     assert_eq!(outcome.code, 0, "\n{}{}", outcome.out, outcome.err);
 }
 

@@ -54,7 +54,7 @@ fn what_runs_at_night_is_listed_by_program() {
     let list = "samples basic::second\n    nightly only: minutes\n";
     assert_eq!((outcome.code, &*outcome.out), (0, list), "{}", outcome.err);
     let outcome = fixture.run(&["nightly", "docs"]);
-    let line = "error: no group 'docs'; there is samples\n";
+    let line = "error: no group 'docs'; there is samples, verify\n";
     assert_eq!((outcome.code, &*outcome.err), (2, line));
     assert_eq!(project("by hand: draws").run(&["nightly", "--list"]).out, "");
 }
@@ -74,7 +74,7 @@ fn a_night_runs_each_program_s_tests_and_fails_if_one_does() {
         let asked = "test --test samples -- --ignored --exact basic::second\n";
         assert_eq!(
             (outcome.code, &*outcome.out),
-            (code, &*format!("{asked}{end}")),
+            (code, &*format!("{asked}{end}2 verified, no difference\n")),
             "{}",
             outcome.err
         );

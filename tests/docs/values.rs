@@ -1,4 +1,4 @@
-//! Figures on pages: held to the measurements that gave them, which are renewed when their sources change.
+//! Measured values on pages: compared with what is stored, which `measure` renews and `verify` compares again.
 //!
 //! A script takes the place of `cargo`: what a test would give, it writes.
 
@@ -8,41 +8,58 @@ use std::os::unix::fs::PermissionsExt;
 use crate::fixture::{Fixture, Outcome, run};
 
 const PAGE: &str = "docs/02_basic.md";
-const FILE: &str = "docs/figures/02_basic/rows.json";
+const FILE: &str = "docs/values/02_basic.json";
+const TABLES: &str = "docs/values/02_basic.md";
 
-/// What follows.
+/// The first line behind the text.
 const BELOW: &str = "<!-- diff 01_one";
 
-/// What stands on the page: a paragraph, and a table.
+/// A paragraph, a table and a stamp.
 const TEXT: &str = "<!-- measure rows -->
 ```sh
 cargo test --test samples basic::first
 ```
 
-Of 1,234 rays 3 are 5.5 % off, as 32 bits make them (llvmpipe, Mesa 25.0.7, 2026-11-22).
-<!-- explains 32 -->
-<!-- figures rows: all off part -->
+Of 1,234<!-- rows.all --> rays 3<!-- rows.off --> are 5.5<!-- rows.part --> % off, as 32 bits make them.
 
-| rows | all | off |
-|---|---|---|
-| 40 | 1,234 | 3 |
-<!-- figures rows: all off -->
+<!-- table rows -->
+<!-- /table -->
+
+<!-- stamp -->
+<!-- /stamp -->
 ";
 
-/// A project with figures, measured.
+/// The table's template.
+const TABLE: &str = "## rows
+| rows | all | off |
+|---|---|---|
+| 40 | {rows.all:0} | {rows.off:0} |
+| {tent; two floats; box} | {rows.*.ms:0.0} | {rows.*.ratio} |
+";
+
+const VALUES: &str = r#""all": 1234, "off": 3, "part": 0.0551, "tent.ms": 2.34, "tent.ratio": 0.25,
+    "two-floats.ms": 12.3"#;
+
+/// A project with measured values.
 fn project() -> Fixture {
     let fixture = Fixture::new();
     fixture.replace(PAGE, BELOW, &format!("{TEXT}\n{BELOW}"));
-    let outcome = measure(&fixture, &["02"], r#""all": 1234, "off": 3, "part": 0.0551"#);
+    fixture.write(TABLES, &TABLE.replace("; box", ""));
+    let outcome = with_cargo(&fixture, &["measure", "02"], VALUES);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
-    let date = fixture.read(FILE).split("\"date\": \"").nth(1).unwrap()[..10].to_owned();
-    assert!(fixture.read(PAGE).contains(&format!("Mesa 25.0.7, {date})")), "the note has its day");
+    let table = "| 40 | 1,234 | 3 |\n| tent | 2.3 | 0.25 |\n| two floats | 12.3 | |\n";
+    let page = fixture.read(PAGE);
+    assert!(page.contains(table), "{page}");
+    assert!(
+        page.contains("> Measured on llvmpipe (LLVM 15.0.6, 256 bits), Mesa 25.0.7, 20"),
+        "{page}"
+    );
     assert_eq!(fixture.check(), "");
     fixture
 }
 
-/// Runs `measure` where the test would give these values.
-fn measure(fixture: &Fixture, names: &[&str], values: &str) -> Outcome {
+/// Runs the tool where the test would give these values.
+fn with_cargo(fixture: &Fixture, arguments: &[&str], values: &str) -> Outcome {
     let given = format!(
         r#"{{ "timed": false, "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "driver": "Mesa 25.0.7-2", "values": {{ {values} }} }}"#
     );
@@ -53,59 +70,45 @@ fn measure(fixture: &Fixture, names: &[&str], values: &str) -> Outcome {
     let cargo = folder.path().join("cargo");
     fs::write(&cargo, script).expect("a script");
     fs::set_permissions(&cargo, fs::Permissions::from_mode(0o755)).expect("a script may be run");
-    run(fixture.command(&[&["measure"], names].concat()).env("CARGO", &cargo))
+    run(fixture.command(arguments).env("CARGO", &cargo))
 }
 
 /// One fault: how it is made, and the lines that `check` must give, each by its start and end.
 type Case = (&'static str, fn(&Fixture), &'static [(&'static str, &'static str)]);
 
 #[test]
-fn what_is_no_longer_what_was_measured_is_named() {
+fn a_number_that_is_not_the_stored_one_is_named_and_filled_in() {
     const SYNC: &str = "; run: cargo chapters sync";
-    let cases: [Case; 6] = [
+    let cases: [Case; 5] = [
         (
-            "a figure changed by hand",
-            |f| f.replace(PAGE, "Of 1,234", "Of 1,243"),
-            &[(
-                "docs/02_basic.md:13: the figure 1,243 is 1,234 in docs/figures/02_basic/rows.json (all)",
-                SYNC,
-            )],
-        ),
-        (
-            "a small one, in a table",
-            |f| f.replace(PAGE, "| 1,234 | 3 |", "| 1,234 | 4 |"),
-            &[("docs/02_basic.md:19: the figure 4 is 3 in", SYNC)],
+            "a bound number edited by hand",
+            |f| f.replace(PAGE, "Of 1,234<", "Of 1,243<"),
+            &[("docs/02_basic.md:13: 1,243 is 1,234 in 02_basic/rows (all)", SYNC)],
         ),
         (
             "a part in hundredths",
-            |f| f.replace(PAGE, "5.5 %", "5.6 %"),
-            &[("docs/02_basic.md:13: the figure 5.6 is 5.5 in", SYNC)],
+            |f| f.replace(PAGE, "5.5<", "5.6<"),
+            &[("docs/02_basic.md:13: 5.6 is 5.5 in 02_basic/rows (part)", SYNC)],
         ),
         (
-            "a day changed by hand",
-            |f| {
-                let today = f.read(FILE).split("\"date\": \"").nth(1).unwrap()[..10].to_owned();
-                f.replace(PAGE, &format!("25.0.7, {today}"), "25.0.7, 2025-01-02");
-            },
+            "a cell of a table edited by hand",
+            |f| f.replace(PAGE, "| 1,234 | 3 |", "| 1,234 | 4 |"),
             &[(
-                "docs/02_basic.md:13: this note says 2025-01-02, docs/figures/02_basic/rows.json is of ",
+                "docs/02_basic.md:18: this table of values is not what docs/values/02_basic.md says",
                 SYNC,
             )],
         ),
         (
-            "a value that came out otherwise",
-            |f| f.replace(FILE, "1234", "1235"),
-            &[
-                ("docs/02_basic.md:13: the figure 1,234 is 1,235 in", SYNC),
-                ("docs/02_basic.md:19: the figure 1,234 is 1,235 in", SYNC),
-            ],
+            "another heading in the template",
+            |f| f.replace(TABLES, "| off |", "| missed |"),
+            &[("docs/02_basic.md:16: this table of values is not what", SYNC)],
         ),
         (
-            "numbers that wander",
-            |f| f.replace(FILE, "1234", "999.6"),
+            "a stored value edited by hand",
+            |f| f.replace(FILE, "1234", "1235"),
             &[
-                ("docs/02_basic.md:13: the figure 1,234 is 1,000 in", SYNC),
-                ("docs/02_basic.md:19: the figure 1,234 is 1,000 in", SYNC),
+                ("docs/02_basic.md:13: 1,234 is 1,235 in 02_basic/rows (all)", SYNC),
+                ("docs/02_basic.md:18: this table of values is not what", SYNC),
             ],
         ),
     ];
@@ -114,153 +117,98 @@ fn what_is_no_longer_what_was_measured_is_named() {
         break_it(&fixture);
         expect(name, &fixture, lines);
         assert_eq!(fixture.run(&["sync"]).code, 0, "{name}: sync");
-        assert_eq!(fixture.check(), "", "{name}: not mended");
-    }
-}
-
-/// A table with figures of two measurements on two devices, one of them a compiler without times.
-const ROWS: &str = "
-| rung | time | registers |
-|---|---|---|
-| S0 textbook | 1.00 | 32 |
-| T0 device |  | 36 |
-<!-- figures times: *.ratio; compiled: *.registers -->
-
-> Measured: llvmpipe, Mesa 25.0.7, 2026-11-22. Estimated: RADV, Mesa 25.0.7, 2026-11-21.
-
-";
-
-/// A project with that table, and what it is of.
-fn with_rows() -> Fixture {
-    let fixture = project();
-    fixture.replace(PAGE, BELOW, &format!("{ROWS}{BELOW}"));
-    let marker = "<!-- measure times compiled: cargo test --test samples basic::first -->";
-    fixture.replace(PAGE, "<!-- measure rows -->", &format!("{marker}\n\n<!-- measure rows -->"));
-    let [head, tail] = [0, 1].map(|part| {
-        let rows = fixture.read(FILE);
-        rows.split("\"timed\"").nth(part).expect("a stored measurement").to_owned()
-    });
-    let sources = tail.split("\"sources\": ").nth(1).expect("sources").split(',').next().unwrap();
-    let of = |device: &str, day: &str, values: &str| {
-        format!(
-            r#"{head}"timed": false, "device": "{device}", "driver": "Mesa 25.0.7-2", "date": "{day}", "sources": {sources}, "values": {{ {values} }} }}"#
-        )
-    };
-    let file = |name: &str| FILE.replace("rows", name);
-    let times = of("llvmpipe", "2026-11-22", r#""S0-textbook.ratio": 1.0"#);
-    fixture.write(&file("times"), &times);
-    let registers = r#""S0-textbook.registers": 32, "T0-device.registers": 36"#;
-    fixture.write(&file("compiled"), &of("RADV", "2026-11-21", registers));
-    fixture
-}
-
-#[test]
-fn a_table_s_figures_are_named_once_for_all_rows() {
-    let cases: [(&str, &str, &str, &str); 5] = [
-        ("a figure changed by hand", "| 36 |", "| 63 |", "the figure 63 is 36 in"),
-        ("a cell that should be empty", "|  | 36 |", "| 1.00 | 36 |", "3 names for 4 numbers"),
-        ("a row by another name", "| T0 device |", "| T1 device |", "2 names for 3 numbers"),
-        ("another compiler", "RADV, Mesa 25.0.7", "RADV, Mesa 26.0.1", "this note says 26.0.1"),
-        ("no compiler", "RADV, Mesa 25.0.7", "its compiler, Mesa 25.0.7", "no note says which"),
-    ];
-    let whole = with_rows().check();
-    assert_eq!(whole, "");
-    for (name, from, to, what) in cases {
-        let fixture = with_rows();
-        fixture.replace(PAGE, from, to);
-        let found = fixture.check();
-        assert!(found.contains(what), "{name}: {found}");
+        assert_eq!(fixture.check(), "", "{name}: not filled in");
     }
 }
 
 #[test]
-fn what_only_an_author_can_mend_is_named() {
-    let cases: [Case; 11] = [
+fn what_only_an_author_can_correct_is_named() {
+    let cases: [Case; 10] = [
         (
-            "a figure without a measurement",
-            |f| f.replace(PAGE, BELOW, &format!("It has 77 rows and 2 ms.\n\n{BELOW}")),
-            &[("docs/02_basic.md:22: 77, 2 are bound to no measurement; add <!-- figures", "gave")],
-        ),
-        (
-            "one that only explains",
-            |f| {
-                f.replace(PAGE, BELOW, &format!("It has 77 rows.\n<!-- explains 77 -->\n\n{BELOW}"))
-            },
-            &[],
-        ),
-        (
-            "an explained number that has gone",
-            |f| f.replace(PAGE, "as 32 bits", "as 16 bits"),
-            &[("docs/02_basic.md:14: no number 32 stands above", "; take it out of the comment")],
-        ),
-        (
-            "a value that is not there",
-            |f| f.replace(PAGE, "rows: all off part", "rows: all off half"),
+            "an unknown value",
+            |f| f.replace(PAGE, "rows.off -->", "rows.half -->"),
             &[(
-                "docs/02_basic.md:13: docs/figures/02_basic/rows.json has no value 'half'",
-                "; name one of all, off, part",
+                "docs/02_basic.md:13: 02_basic/rows has no value 'half'",
+                "; name one of all, off, part, tent.ms, tent.ratio, two-floats.ms",
             )],
         ),
         (
-            "a measurement that is not there",
-            |f| f.replace(PAGE, "figures rows: all off -->", "figures lines: all off -->"),
+            "an unknown measurement",
+            |f| f.replace(PAGE, "rows.off -->", "lines.off -->"),
             &[(
-                "docs/02_basic.md:19: there is no docs/figures/02_basic/lines.json",
+                "docs/02_basic.md:13: there is no measurement 02_basic/lines",
                 "; run: cargo chapters measure 02_basic/lines",
             )],
         ),
         (
-            "another device",
-            |f| f.replace(PAGE, "(llvmpipe, Mesa 25.0.7", "(llvmpipe, Mesa 26.0.1"),
-            &[(
-                "docs/02_basic.md:13: this note says 26.0.1, docs/figures/02_basic/rows.json is of ll",
-                "; correct it",
-            )],
+            "a binding without a number",
+            |f| f.replace(PAGE, "3<!-- rows.off", "three<!-- rows.off"),
+            &[("docs/02_basic.md:13: no number stands directly before <!-- rows.off -->", "blank")],
         ),
         (
-            "times of two days",
-            |f| {
-                f.replace(PAGE, "measure rows", "measure rows more");
-                f.replace(PAGE, "rows: all off part", "rows: all off; more: part");
-                f.replace(FILE, "\"timed\": false", "\"timed\": true");
-                let text = f.read(FILE);
-                let (head, rest) = text.split_once("\"date\": \"").unwrap();
-                let other = format!("{head}\"date\": \"2025-01-02{}", &rest[10..]);
-                f.write("docs/figures/02_basic/more.json", &other);
-            },
-            &[(
-                "docs/02_basic.md:13: this note is of times of several days: docs/figures/02_basic/more.json of 2025-01-02, ",
-                "; give each day a note of its own",
-            )],
+            "an unknown value in a table",
+            |f| f.replace(TABLES, "{rows.off:0}", "{rows.half:0}"),
+            &[("docs/values/02_basic.md:1: 02_basic/rows has no value 'half'", "two-floats.ms")],
+        ),
+        (
+            "a table without a template",
+            |f| f.replace(PAGE, "<!-- table rows -->", "<!-- table lines -->"),
+            &[
+                (
+                    "docs/02_basic.md:15: docs/values/02_basic.md has no table 'lines'",
+                    "; write it there, below ## lines",
+                ),
+                ("docs/values/02_basic.md:1: 02_basic shows no table 'rows'", "or delete it"),
+            ],
         ),
         (
             "no device",
-            |f| f.replace(PAGE, "(llvmpipe, Mesa 25.0.7, ", "(on "),
+            |f| {
+                let page = f.read(PAGE);
+                let (head, rest) = page.split_once("<!-- stamp -->").unwrap();
+                let (_, rest) = rest.split_once("<!-- /stamp -->").unwrap();
+                f.write(PAGE, &format!("{head}{rest}"));
+            },
             &[(
-                "docs/02_basic.md:13: no note says which device gave docs/figures/02_basic/rows.json",
-                "below, or `<!-- stamp -->` and `<!-- /stamp -->` for the page",
+                "docs/02_basic.md:13: this page does not say which device gave its values",
+                "; add <!-- stamp --> and <!-- /stamp --> at its end",
             )],
         ),
         (
             "a damaged file",
-            |f| f.write(FILE, "{ \"command\": \"cargo\",\n"),
-            &[(
-                "docs/figures/02_basic/rows.json:2: this is no measurement: EOF while parsing",
-                "; run: cargo chapters measure 02_basic/rows",
-            )],
+            |f| f.write(FILE, "{ \"rows\": {\n"),
+            &[
+                ("docs/02_basic.md:24: this stamp is not what docs/values says", ""),
+                ("docs/values/02_basic.md:1: there is no measurement 02_basic/rows", ""),
+                (
+                    "docs/values/02_basic.json:2: these are no stored values: EOF while parsing",
+                    "; run: cargo chapters measure 02_basic",
+                ),
+            ],
         ),
         (
-            "a file that no page makes",
-            |f| f.write("docs/figures/02_basic/old.json", &f.read(FILE)),
-            &[(
-                "docs/figures/02_basic/old.json:1: stray file: no page makes this measurement",
-                "to a page",
-            )],
+            "values that no page measures",
+            |f| f.replace(PAGE, "<!-- measure rows -->\n", "<!-- measure lines -->\n"),
+            &[
+                (
+                    "docs/02_basic.md:8: the measurement 02_basic/lines is missing",
+                    "; run: cargo chapters measure 02_basic/lines",
+                ),
+                (
+                    "docs/values/02_basic.json:1: no page makes the measurement 02_basic/rows",
+                    "; delete it there, or add <!-- measure rows --> to the page",
+                ),
+            ],
+        ),
+        (
+            "values of no page",
+            |f| f.write("docs/values/03_gone.json", "{}\n"),
+            &[("docs/values/03_gone.json:1: stray file: no page has its name", "; delete it")],
         ),
         (
             "a marker without a command",
-            |f| f.replace(PAGE, "| rows |", "<!-- measure lines -->\n\n| rows |"),
-            &[("docs/02_basic.md:17: no command follows this measurement", "```sh block")],
+            |f| f.replace(PAGE, "Of 1,234", "<!-- measure lines -->\n\nOf 1,234"),
+            &[("docs/02_basic.md:13: no command follows this measurement", "```sh block")],
         ),
     ];
     for (name, break_it, lines) in cases {
@@ -271,54 +219,99 @@ fn what_only_an_author_can_mend_is_named() {
 }
 
 #[test]
-fn a_change_of_what_was_measured_asks_for_a_new_measurement_and_names_the_page() {
-    let stale = "docs/02_basic.md:8: the measurement docs/figures/02_basic/rows.json is older than what \
-                 it measures; run: cargo chapters measure 02_basic/rows";
-    let changes: [(&str, &str, &str); 2] = [
-        ("shaders/common/false_color.glsl", "/ 255.0", "/ 254.0"),
-        ("tests/samples/basic.rs", "fn first() {}", "fn first() { assert!(true) }"),
-    ];
-    for (file, from, to) in changes {
-        let fixture = project();
-        fixture.replace(file, from, to);
-        let found = fixture.check();
-        assert!(found.lines().any(|line| line == stale), "{file}: {found}");
-        let before = fixture.read(FILE);
-        let outcome = measure(&fixture, &[], r#""all": 1234, "off": 4, "part": 0.0551"#);
-        assert_eq!(outcome.out, format!("{FILE}: renewed\n{PAGE}: renewed\n"), "{}", outcome.err);
-        assert_ne!(fixture.read(FILE), before);
-        assert!(
-            fixture.read(PAGE).contains("Of 1,234 rays 4 are 5.5 % off"),
-            "{}",
-            fixture.read(PAGE)
-        );
-        // The pictures are older, too; nothing else is.
-        let found = fixture.check();
-        assert!(found.lines().all(|line| line.contains("the picture")), "{found}");
-    }
-    // A comment more or less measures nothing else.
+fn an_unbound_number_is_prose_and_only_warned_of() {
     let fixture = project();
-    fixture.replace("shaders/common/false_color.glsl", "\n", "\n// A comment.\n\n");
+    for arguments in [&["init", "-q"][..], &["add", "."], &["commit", "-qm", "All"]] {
+        let mut git = std::process::Command::new("git");
+        git.args(["-c", "user.name=a", "-c", "user.email=b@c"]).args(arguments);
+        assert!(git.current_dir(fixture.path("")).status().expect("git").success());
+    }
+    let numbers = "Of 98,765 rays, 1234 at 480×300 in 2026 and 1,024 threads, 10,000 hit `4321`.";
+    fixture.replace(PAGE, BELOW, &format!("{numbers}\n\n{BELOW}"));
+    let outcome = fixture.run(&["check"]);
+    assert_eq!((outcome.code, &*outcome.out), (0, ""), "{}", outcome.err);
+    let line = "warning: docs/02_basic.md:27: bound to no measurement: 98,765, 1234; a measured one is \
+                written NUMBER<!-- MEASUREMENT.VALUE -->\n";
+    assert_eq!(outcome.err, line);
+}
+
+#[test]
+fn verify_runs_the_commands_again_and_names_what_differs() {
+    let fixture = project();
+    let verify = |values: &str| with_cargo(&fixture, &["verify"], values);
+    let outcome = verify(VALUES);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    assert!(outcome.out.ends_with("verified, no difference\n"), "{}", outcome.out);
+    // Another value, and another picture.
+    fixture.replace(
+        "shaders/02_basic/camera.rgen",
+        "ivec2(id), payload)",
+        "ivec2(id), 0.5 * payload)",
+    );
+    let outcome = verify(&VALUES.replace("\"off\": 3", "\"off\": 4"));
+    assert_eq!(outcome.code, 1, "{}", outcome.out);
+    let differ = |start: &str, end: &str| {
+        outcome.out.lines().any(|line| line.starts_with(start) && line.ends_with(end))
+    };
+    let picture = "; run: cargo chapters sync --pictures 02_basic";
+    assert!(differ("docs/images/02_basic.png: ", picture), "{}", outcome.out);
+    let value = "02_basic/rows: off was 3, is 4; run: cargo chapters measure 02_basic/rows";
+    assert!(differ(value, ""), "{}", outcome.out);
+    assert!(outcome.err.ends_with(" differ\n"), "{}", outcome.err);
+    // Text alone makes no other picture, and what has not changed is not written again.
+    fixture.replace(
+        "shaders/02_basic/camera.rgen",
+        "ivec2(id), 0.5 * payload)",
+        "ivec2(id), /* as it is */ payload)",
+    );
+    let before =
+        fs::metadata(fixture.path("docs/images/02_basic.png")).unwrap().modified().unwrap();
+    let outcome = fixture.run(&["sync", "--pictures", "02_basic"]);
+    assert!(outcome.out.ends_with("docs/images/02_basic.png: the same\n"), "{}", outcome.out);
+    let after = fs::metadata(fixture.path("docs/images/02_basic.png")).unwrap().modified().unwrap();
+    assert_eq!(before, after);
+    let outcome = with_cargo(&fixture, &["verify", "02"], VALUES);
+    assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
+    let outcome = fixture.run(&["verify", "09"]);
+    let line = "error: nothing of the book is called '09'\n";
+    assert_eq!((outcome.code, &*outcome.err), (2, line));
+}
+
+#[test]
+fn a_new_measurement_fills_the_page() {
+    let fixture = project();
+    let values = VALUES.replace("\"off\": 3", "\"off\": 4");
+    let outcome = with_cargo(&fixture, &["measure", "02_basic/rows"], &values);
+    assert_eq!(
+        outcome.out,
+        format!("02_basic/rows: renewed\n{PAGE}: renewed\n"),
+        "{}",
+        outcome.err
+    );
+    let page = fixture.read(PAGE);
+    assert!(page.contains(" rays 4<!-- rows.off --> are 5.5<!-- rows.part --> % off"), "{page}");
     assert_eq!(fixture.check(), "");
+    let outcome = with_cargo(&fixture, &["measure", "02_basic/rows"], &values);
+    assert_eq!(outcome.out, "02_basic/rows: the same\n", "{}", outcome.err);
 }
 
 #[test]
 fn what_cannot_be_measured_is_named() {
     let fixture = project();
     fixture.replace(PAGE, "basic::first", "basic::fi");
-    let asked = "the measurement docs/figures/02_basic/rows.json was made by another command";
+    let asked = "the measurement 02_basic/rows was made by another command";
     assert!(fixture.check().contains(asked), "{}", fixture.check());
     fixture.replace(PAGE, "measure rows", "measure lines");
-    let outcome = measure(&fixture, &["02_basic/lines"], "");
+    let outcome = with_cargo(&fixture, &["measure", "02_basic/lines"], "");
     let line = "docs/02_basic.md:8: 02_basic/lines cannot be measured: its command gives no 02_basic/lines; \
                 correct the command or the test";
     assert!(outcome.out.lines().any(|told| told == line), "{}", outcome.out);
-    let outcome = measure(&fixture, &["rows"], "");
+    let outcome = with_cargo(&fixture, &["measure", "rows"], "");
     assert_eq!(outcome.code, 2);
     assert_eq!(outcome.err, "error: nothing measures 'rows'; there is 02_basic/lines\n");
 }
 
-/// Holds that `check` gives these lines and no other.
+/// Asserts that `check` gives these lines and no other.
 fn expect(name: &str, fixture: &Fixture, lines: &[(&str, &str)]) {
     let found = fixture.check();
     for (start, end) in lines {

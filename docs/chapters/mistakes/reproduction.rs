@@ -60,8 +60,7 @@ impl<'a> Reproduction<'a> {
         let folder = NewFolder::temporary()?;
         let (made, maker) = self.make(folder.path())?;
         let (project, mistake) = (self.programs.project, self.mistake);
-        let changed =
-            stamp::store(project, &mistake.picture(), &made, &mistake.command(), &maker)?;
+        let changed = stamp::store(project, &mistake.picture(), &made, &mistake.command(), &maker)?;
         Ok((maker, changed))
     }
 

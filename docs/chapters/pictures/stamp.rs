@@ -57,7 +57,8 @@ impl Stored {
         for _ in 0..control.map_or(1, |control| control.num_frames) {
             let frame = reader.next_frame(&mut pixels)?;
             let colors = pixels[..frame.buffer_size()].chunks(channels);
-            let colors = colors.flat_map(|c| if channels < 3 { [c[0]; 3] } else { [c[0], c[1], c[2]] });
+            let colors =
+                colors.flat_map(|c| if channels < 3 { [c[0]; 3] } else { [c[0], c[1], c[2]] });
             let frame = RgbImage::from_raw(frame.width, frame.height, colors.collect());
             frames.push(frame.context("not 8 bits a channel")?);
         }
@@ -98,12 +99,17 @@ fn texts(reader: &Reader) -> BTreeMap<String, String> {
 ///
 /// # Errors
 /// If `made` is no PNG, or the picture cannot be written.
-pub fn store(project: &Project, file: &str, made: &Path, command: &str, maker: &Maker) -> Result<bool> {
+pub fn store(
+    project: &Project,
+    file: &str,
+    made: &Path,
+    command: &str,
+    maker: &Maker,
+) -> Result<bool> {
     let path = project.root.join(file);
     let new = Stored::open(made)?;
-    let is_same = Stored::open(&path).is_ok_and(|old| {
-        old.command == command && old.maker == *maker && old.frames == new.frames
-    });
+    let is_same = Stored::open(&path)
+        .is_ok_and(|old| old.command == command && old.maker == *maker && old.frames == new.frames);
     if !is_same {
         std::fs::create_dir_all(path.parent().unwrap_or(&project.root))?;
         common::files::write_whole(&path, &stamped(made, command, maker)?)?;
@@ -149,7 +155,11 @@ fn stamped(file: &Path, command: &str, maker: &Maker) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// If a text has letters beyond Latin-1.
-pub fn tell<W: Write>(encoder: &mut png::Encoder<'_, W>, command: &str, maker: &Maker) -> Result<()> {
+pub fn tell<W: Write>(
+    encoder: &mut png::Encoder<'_, W>,
+    command: &str,
+    maker: &Maker,
+) -> Result<()> {
     for (key, text) in [(COMMAND, command), (DEVICE, &maker.device), (DRIVER, &maker.driver)] {
         if !text.is_empty() {
             encoder.add_text_chunk(key.to_owned(), text.to_owned())?;
@@ -175,6 +185,9 @@ mod tests {
         let bytes = stamped(&file, "cargo run", &maker).unwrap();
         fs::write(&file, bytes).unwrap();
         let read = Stored::open(&file).unwrap();
-        assert_eq!((&*read.command, read.maker, &read.frames[..]), ("cargo run", maker, &[picture][..]));
+        assert_eq!(
+            (&*read.command, read.maker, &read.frames[..]),
+            ("cargo run", maker, &[picture][..])
+        );
     }
 }

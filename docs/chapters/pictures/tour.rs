@@ -29,6 +29,11 @@ fn frames(project: &Project) -> Vec<String> {
     files
 }
 
+/// True if the README shows it.
+pub fn is_shown(project: &Project) -> bool {
+    project.read(README).is_ok_and(|readme| readme.contains(FILE))
+}
+
 /// What is wrong with it, if the README shows it and anything is.
 pub fn check(project: &Project) -> Option<Fault> {
     let readme = project.read(README).unwrap_or_default();

@@ -112,9 +112,9 @@ pub fn check(page: &Page, stored: &Records) -> Vec<Fault> {
 pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
     let text = page.written();
     let named = COMMENT.captures_iter(&text);
-    let named = named.filter(|comment| !is_code(&text, comment.get(0).map_or(0, |all| all.start())));
-    let mut names: BTreeSet<String> =
-        named.map(|comment| whole_name(page, &comment[1])).collect();
+    let named =
+        named.filter(|comment| !is_code(&text, comment.get(0).map_or(0, |all| all.start())));
+    let mut names: BTreeSet<String> = named.map(|comment| whole_name(page, &comment[1])).collect();
     names.extend(table::measurements(project, page));
     names
 }

@@ -151,7 +151,8 @@ pub fn strays(project: &Project, measurements: &[Measurement], stored: &Records)
     };
     let is_page = |file: &String| pages.iter().any(|page| stem(page) == stem(file));
     let lost = project.files(record::FOLDER).into_iter().filter(|file| !is_page(file));
-    let lost = lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it"));
+    let lost =
+        lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it"));
     stored.keys().filter(|name| !made(name)).map(stray).chain(lost).collect()
 }
 

@@ -18,6 +18,7 @@
 //! `docs/chapters/values/README.md` tells authors how.
 
 pub mod binding;
+pub mod budget;
 pub mod given;
 pub mod measurement;
 pub mod number;

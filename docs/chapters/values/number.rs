@@ -74,13 +74,7 @@ pub fn found(text: &str, part: Range<usize>) -> Vec<Number> {
             "million" | "MB" => Scale::Million,
             _ => Scale::One,
         };
-        Number {
-            about: before.ends_with("about "),
-            negative,
-            span,
-            written,
-            scale,
-        }
+        Number { about: before.ends_with("about "), negative, span, written, scale }
     };
     groups.map(number).collect()
 }

@@ -90,7 +90,7 @@ mod tests {
             (passage.is_set_apart, words.collect::<Vec<_>>().join(" "))
         };
         let expected = [
-            (false, "A 1.5 5.5 ."),
+            (false, "A 1.5    5.5 ."),
             (true, "9.5"),
             (true, "Q 3. R 4."),
             (false, "one 10.5"),

@@ -96,9 +96,7 @@ impl Record {
 
     /// True if two runs of one command gave the same on the same device.
     pub fn agrees(&self, other: &Self) -> bool {
-        self.values == other.values
-            && self.command == other.command
-            && self.is_of_device_of(other)
+        self.values == other.values && self.command == other.command && self.is_of_device_of(other)
     }
 
     /// Stores it in its page's file, beside the others; a file that stays the same is not touched.

@@ -69,7 +69,12 @@ pub fn body(
     let templates = templates(project, page);
     let Some((at, _, template)) = templates.iter().find(|(_, known, _)| known == name) else {
         let what = format!("{} has no table '{name}'", file(page));
-        return Err(Fault::new(&*page.path, line, what, format!("write it there, below ## {name}")));
+        return Err(Fault::new(
+            &*page.path,
+            line,
+            what,
+            format!("write it there, below ## {name}"),
+        ));
     };
     let fault = |(what, remedy): (String, String)| Fault::new(file(page), *at, what, remedy);
     let mut text = String::new();
@@ -90,10 +95,10 @@ pub fn body(
             return Err(fault((format!("no stored value fits {row}"), "correct it".to_owned())));
         }
         for (name, shown) in names.iter().zip(shown) {
-            let row = VALUE.replace_all(row, |value: &regex_lite::Captures| {
-                value[0].replace('*', name)
-            });
-            let row = HEADS.replace(&row, regex_lite::NoExpand(&format!("| {shown} |"))).into_owned();
+            let row =
+                VALUE.replace_all(row, |value: &regex_lite::Captures| value[0].replace('*', name));
+            let row =
+                HEADS.replace(&row, regex_lite::NoExpand(&format!("| {shown} |"))).into_owned();
             text += &(written(page, &row, stored, true).map_err(fault)? + "\n");
         }
     }
@@ -171,11 +176,13 @@ pub fn measurements(project: &Project, page: &Page) -> BTreeSet<String> {
 pub fn strays(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let stray = |page: &Page| {
         let own = pages.iter().filter(|other| other.stem() == page.stem());
-        let blocks: Vec<&Block> = own.flat_map(|page| &page.blocks).filter(|b| is_table(b)).collect();
+        let blocks: Vec<&Block> =
+            own.flat_map(|page| &page.blocks).filter(|b| is_table(b)).collect();
         let shown = |name: &String| blocks.iter().any(|block| block.words.contains(name));
         let strays = templates(project, page).into_iter().filter(|(_, name, _)| !shown(name));
         let fault = |(line, name, _): (usize, String, String)| {
-            let remedy = format!("add <!-- table {name} --> and <!-- /table --> to it, or delete it");
+            let remedy =
+                format!("add <!-- table {name} --> and <!-- /table --> to it, or delete it");
             let what = format!("{} shows no table '{name}'", page.stem());
             Fault::new(file(page), line, what, remedy)
         };
