@@ -29,13 +29,12 @@ impl InfinitePlane {
         Self { exists: true, half_space, inside: Inside::Surface, board }
     }
 
-    // ANCHOR: controls
     /// Declares what may be set.
     pub fn controls(&mut self, c: &mut Controls) {
         let Self { exists, half_space, inside, board } = self;
         c.checkbox("plane", exists);
         c.choice("plane form", &mut half_space.form);
-        c.vector("plane normal", &mut half_space.normal, -1e3..=1e3);
+        c.direction("plane normal", &mut half_space.normal, -1e3..=1e3);
         c.slider("plane distance", &mut half_space.distance, -1e6..=1e6);
         c.vector("plane point", &mut half_space.point, -1e6..=1e6);
         c.checkbox("inverse", &mut half_space.inverse);
@@ -51,7 +50,6 @@ impl InfinitePlane {
         c.slider("plane specular", &mut board.specular, 0.0..=1.0);
         c.slider("plane roughness", &mut board.roughness, 0.05..=1.0);
     }
-    // ANCHOR_END: controls
 
     /// Whether there is a plane: a normal of length 0 has none.
     pub fn is_there(&self) -> bool {

@@ -51,7 +51,6 @@ impl Default for Modifiers {
 }
 
 impl Modifiers {
-    // ANCHOR: controls
     /// The controls.
     pub fn controls(&mut self, c: &mut Controls) {
         c.one_of("solid", &mut self.shape, &SHAPES);
@@ -60,13 +59,11 @@ impl Modifiers {
         c.checkbox("inverse solids", &mut self.inverse);
         c.checkbox("hollow", &mut self.hollow);
         c.choice("cut", &mut self.cut);
-        c.vector("cut normal", &mut self.cut_normal, -1e3..=1e3);
+        c.direction("cut normal", &mut self.cut_normal, -1e3..=1e3);
         c.slider("cut distance", &mut self.cut_distance, -1e3..=1e3);
         c.checkbox("shared planes", &mut self.shared);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: cut
     /// A solid as asked for, and what its surface is clipped by.
     pub fn of(&self, solid: &Solid, clip: Option<Bound>) -> (Solid, Vec<Bound>) {
         let solid = if self.inverse { solid.clone().inverse() } else { solid.clone() };
@@ -84,5 +81,4 @@ impl Modifiers {
             _ => (solid, clip.into_iter().collect()),
         }
     }
-    // ANCHOR_END: cut
 }

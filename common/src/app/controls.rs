@@ -113,6 +113,11 @@ impl<'a> Controls<'a> {
         self.visitor.visit(name, Value::Vector(value, range))
     }
 
+    /// A direction: three numbers, each in a range, of any length except 0.
+    pub fn direction(&mut self, name: &str, value: &mut Vec3, range: RangeInclusive<f32>) -> bool {
+        self.visitor.visit(name, Value::Direction(value, range))
+    }
+
     /// A line that tells something: shown in the panel, no control.
     pub fn note(&mut self, name: &str, text: &str) {
         self.visitor.note(name, text);

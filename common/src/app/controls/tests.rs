@@ -11,7 +11,16 @@ struct Sample {
     on: bool,
     show: u32,
     tint: Vec3,
+    normal: Direction,
     camera: Camera,
+}
+
+struct Direction(Vec3);
+
+impl Default for Direction {
+    fn default() -> Self {
+        Self(Vec3::Y)
+    }
 }
 
 impl Sample {
@@ -21,6 +30,7 @@ impl Sample {
         c.checkbox("shadows", &mut self.on);
         c.one_of("show", &mut self.show, &["picture", "ray direction"]);
         c.color("tint", &mut self.tint);
+        c.direction("normal", &mut self.normal.0, -10.0..=10.0);
         c.camera(&mut self.camera);
     }
 }
@@ -140,6 +150,11 @@ fn wrong_names_and_values_say_what_there_is() {
         ("show", "pictures", "picture, ray direction"),
         ("tint", "1,1", "r,g,b"),
         ("tint", "1,1,2", "0 to 1"),
+        ("normal", "0,0,0", "x,y,z, each -10 to 10, not all 0 in 32 bits"),
+        ("normal", "-0,0,-0", "not all 0 in 32 bits"),
+        ("normal", "1e-60,0,0", "not all 0 in 32 bits"),
+        ("normal", "0,11,0", "each -10 to 10"),
+        ("normal", "NaN,1,0", "each -10 to 10"),
         ("camera eye", "1,2,inf", "x,y,z"),
         ("camera eye", "1,2,-1.1e18", "x,y,z, each -1e18 to 1e18"),
     ];
@@ -147,7 +162,8 @@ fn wrong_names_and_values_say_what_there_is() {
         let error = set_on(&mut sample, name, text).unwrap_err();
         assert!(error.contains(&format!("'{name}'")) && error.contains(possible), "{error}");
     }
-    assert_eq!(sample.height, 0.0);
+    assert_eq!((sample.height, sample.normal.0), (0.0, Vec3::Y));
+    set_on(&mut sample, "normal", "0,-1e-40,0").unwrap();
 }
 
 /// What a comparison sets before each frame costs nothing once it is set, as a scene would that is opened

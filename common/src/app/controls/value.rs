@@ -21,6 +21,8 @@ pub enum Value<'a> {
     Choice(&'a mut u32, &'a [&'a str]),
     /// Three numbers, each between two others.
     Vector(&'a mut Vec3, RangeInclusive<f32>),
+    /// Three numbers, each between two others, not all 0.
+    Direction(&'a mut Vec3, RangeInclusive<f32>),
     /// A point in f64, each coordinate within ±1e18.
     Point(&'a mut DVec3),
 }
@@ -35,6 +37,7 @@ impl Value<'_> {
             Self::Color(_) => "colour",
             Self::Choice(..) => "choice",
             Self::Vector(..) => "vector",
+            Self::Direction(..) => "direction",
             Self::Point(_) => "point",
         }
     }
@@ -48,6 +51,10 @@ impl Value<'_> {
             Self::Color(_) => "r,g,b, each 0 to 1".to_owned(),
             Self::Choice(_, options) => options.join(", "),
             Self::Vector(_, range) => format!("x,y,z, each {} to {}", range.start(), range.end()),
+            Self::Direction(_, range) => {
+                let (low, high) = (range.start(), range.end());
+                format!("x,y,z, each {low} to {high}, not all 0 in 32 bits")
+            }
             Self::Point(_) => format!("x,y,z, each -{FAR:e} to {FAR:e}"),
         }
     }
@@ -58,7 +65,9 @@ impl Value<'_> {
             Self::Slider(value, _) => value.to_string(),
             Self::Integer(value, _) => value.to_string(),
             Self::Checkbox(value) => if **value { "on" } else { "off" }.to_owned(),
-            Self::Color(v) | Self::Vector(v, _) => format!("{},{},{}", v.x, v.y, v.z),
+            Self::Color(v) | Self::Vector(v, _) | Self::Direction(v, _) => {
+                format!("{},{},{}", v.x, v.y, v.z)
+            }
             Self::Choice(value, options) => {
                 options.get(**value as usize).copied().unwrap_or_default().to_owned()
             }
@@ -87,6 +96,9 @@ impl Value<'_> {
                 **value = options.iter().position(|option| *option == text)? as u32;
             }
             Self::Vector(value, range) => **value = vector(text, range)?,
+            Self::Direction(value, range) => {
+                **value = vector(text, range).filter(|vector| *vector != Vec3::ZERO)?;
+            }
             Self::Point(value) => {
                 let point = DVec3::from_array(three(text)?);
                 **value = (point.abs().max_element() <= FAR).then_some(point)?;

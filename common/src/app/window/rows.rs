@@ -2,6 +2,7 @@
 
 use egui::emath::Numeric;
 use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
+use glam::Vec3;
 
 use super::navigation::Navigation;
 use super::{dots, style};
@@ -164,6 +165,15 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
             let before = *vector;
             let speed = (range.end() - range.start()) * 0.005;
             three(ui, name, vector.as_mut(), |drag| drag.range(range.clone()).speed(speed));
+            *vector != before
+        }
+        Value::Direction(vector, range) => {
+            let before = *vector;
+            widget(ui, name, Value::Vector(vector, range));
+            // Dragged through 0, it stays where it had a direction.
+            if *vector == Vec3::ZERO {
+                *vector = before;
+            }
             *vector != before
         }
         Value::Point(point) => {

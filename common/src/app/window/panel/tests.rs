@@ -16,6 +16,7 @@ struct Demo {
     shadows: bool,
     show: u32,
     tint: Vec3,
+    normal: Vec3,
     camera: Camera,
     changes: usize,
     asked: Vec<Ask>,
@@ -28,6 +29,7 @@ impl Demo {
         c.integer("depth", &mut self.depth, 0..=8);
         c.checkbox("shadows", &mut self.shadows);
         c.vector("tint", &mut self.tint, 0.0..=1.0);
+        c.direction("plane", &mut self.normal, 0.0..=1.0);
         c.camera(&mut self.camera);
     }
 }
@@ -44,6 +46,7 @@ fn harness_with(facts: Facts) -> Harness<'static, Demo> {
         shadows: false,
         show: 0,
         tint: Vec3::ZERO,
+        normal: Vec3::new(0.0, 0.02, 0.0),
         camera: Camera::default(),
         changes: 0,
         asked: Vec::new(),
@@ -96,6 +99,20 @@ fn each_kind_of_control_changes_its_value() {
     assert_eq!(harness.state().show, 1);
     assert_eq!(harness.state().changes, 3, "each once");
     assert_eq!(harness.state().camera, Camera::default());
+}
+
+#[test]
+fn a_direction_keeps_a_length() {
+    let mut harness = harness();
+    harness.run();
+    harness.get_by_label("plane y").focus();
+    for _ in 0..20 {
+        harness.key_press(Key::ArrowDown);
+        harness.run();
+    }
+    let normal = harness.state().normal;
+    assert!(harness.state().changes > 0 && normal.y < 0.02, "it was not changed: {normal}");
+    assert!(normal.y > 0.0, "{normal} is no direction");
 }
 
 #[test]
