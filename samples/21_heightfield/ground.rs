@@ -52,7 +52,6 @@ impl Landscape {
         k * (a * wave(fx * x) * wave(fz * z + 0.25) + b * wave(gx * x + gz * z))
     }
 
-    // ANCHOR: bounds
     /// Corners of the box around it, with a margin below and above.
     ///
     /// The box ends where the hills do. There is room of 1 above them: a march that ends 0.0015·t above
@@ -64,7 +63,6 @@ impl Landscape {
         let half = Vec3::new(across, height, across);
         (MIDDLE - half, MIDDLE + half)
     }
-    // ANCHOR_END: bounds
 
     /// By how much the height of a ray above the ground may be wrong that is computed in f32, for rays
     /// from `origin` (its absolute coordinates), wherever they are in the box.

@@ -24,7 +24,6 @@ pub struct Land {
 }
 
 impl Land {
-    // ANCHOR: build
     /// The ground is one box, whatever its height function is. Its hit group is the second.
     pub fn new(
         gpu: &Gpu,
@@ -51,7 +50,6 @@ impl Land {
                 boxes.push(source.instance_bounds(&piece));
             }
         }
-        // ANCHOR_END: build
         let order = order::for_build(gpu, &boxes, scene.options.ordering).into_iter();
         let tlas = build_top(gpu, &order.map(|i| instances[i as usize]).collect::<Vec<_>>())?;
         Ok(Self { tlas, landscape, bounds, reach, _blas: blas })
@@ -72,7 +70,6 @@ impl Land {
     }
 }
 
-// ANCHOR: stand
 /// A piece at the ground's height, by the function that the shaders march: upright, and sunk until no
 /// part of its foot hangs in the air. `None` where it is too steep to stand.
 pub fn stand(landscape: Landscape, piece: &Instance, mesh: &Mesh) -> Option<Instance> {
@@ -87,4 +84,3 @@ pub fn stand(landscape: Landscape, piece: &Instance, mesh: &Mesh) -> Option<Inst
     piece.transform.translation.y += low as f32;
     (high - low < STEEP).then_some(piece)
 }
-// ANCHOR_END: stand

@@ -75,7 +75,9 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(scenes::chess)?;
+        let own = setup.scene_or(scenes::chess)?;
+        // The chess set stands on the hill already.
+        let mut source = if setup.scene().is_some() { scenes::framed(own) } else { own };
         source.model.materials.push(scenes::earth());
         let Preset { landscape, camera, sun } = Preset::new(PresetName::Hills);
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
@@ -97,7 +99,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         // A preset brings its landscape, its view and its sun.
         if c.choice("preset", &mut self.preset) {
@@ -111,9 +112,7 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let eye = self.camera.eye.as_vec3();
         if self.land.is_outdated(self.landscape, eye) {
@@ -121,7 +120,6 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // The last material is the ground's.
@@ -147,7 +145,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// A hit group for each kind of surface: triangles, and the ground.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -171,4 +168,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use common::scene::{Camera, Instance, Material, Scene, Sun};
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DAffine3, DQuat, DVec3, Vec3, Vec3A};
 
 use super::ground::{Landscape, MIDDLE};
 
@@ -35,13 +35,33 @@ pub fn chess() -> Result<Scene> {
     Ok(scene)
 }
 
+/// The longest side of a model from a file: a few pieces wide, in sight of each preset.
+const MODEL: f64 = 2.0;
+
+/// A model from a file, on the middle hill, whatever its unit of length and wherever it stands in its file.
+pub fn framed(mut scene: Scene) -> Scene {
+    let (low, high) = scene.bounds();
+    let (low, high) = (low.as_dvec3(), high.as_dvec3());
+    let longest = (high - low).max_element();
+    let size = if longest > 0.0 { MODEL / longest } else { 1.0 };
+    let foot = DVec3::new(0.5 * (low.x + high.x), low.y, 0.5 * (low.z + high.z));
+    let place = DAffine3::from_scale_rotation_translation(
+        DVec3::splat(size),
+        DQuat::IDENTITY,
+        MIDDLE.as_dvec3() - size * foot,
+    );
+    for instance in &mut scene.instances {
+        instance.transform = place.as_affine3a();
+    }
+    scene
+}
+
 /// What the ground is made of. Its colour differs from place to place: `terrain.rchit` knows it.
 pub fn earth() -> Material {
     Material { name: "earth".to_owned(), shininess: 1.0, ..Material::default() }
 }
 
 impl Preset {
-    // ANCHOR: presets
     /// The preset of a name.
     pub fn new(name: PresetName) -> Self {
         let (k, rings, eye, target, field) = match name {
@@ -61,5 +81,4 @@ impl Preset {
             sun: Sun { azimuth: 270.0, elevation: 17.0, radiance: Vec3::new(5.6, 3.9, 2.3) },
         }
     }
-    // ANCHOR_END: presets
 }

@@ -28,7 +28,6 @@ common::shader_struct! {
 }
 
 impl HeightfieldShape {
-    // ANCHOR: shape
     /// From `k`, and for the hills and the ridges: their height, and how many a unit of x and of z.
     ///
     /// No slope is steeper than the hills' and the ridges' together. |∇(S(u)·S(v))| is 8 at most, as the page of
@@ -40,9 +39,7 @@ impl HeightfieldShape {
         let lipschitz = (steepest as f32).next_up();
         Self { k, a, fx, fz, b, gx, gz, lipschitz }
     }
-    // ANCHOR_END: shape
 
-    // ANCHOR: error
     /// By how much the height of a ray above the ground may be wrong that is computed in f32, for rays
     /// from `origin` (its absolute coordinates), wherever they are within `reach`.
     pub fn error(&self, origin: DVec3, reach: DVec3) -> f64 {
@@ -61,5 +58,4 @@ impl HeightfieldShape {
         // What is rounded twice is of the order of U².
         (place + k * height) * (1.0 + 1e-6)
     }
-    // ANCHOR_END: error
 }

@@ -13,12 +13,10 @@ pub fn bottom(
     bounds: impl IntoIterator<Item = Bounds>,
     reach: f32,
 ) -> Result<AccelerationStructure> {
-    // ANCHOR: boxes
     let boxes: Vec<[Vec3; 2]> = bounds.into_iter().map(|bounds| padded(bounds, reach)).collect();
     let input = boxes_on_gpu(gpu, name, &boxes)?;
     let count = boxes.len() as u32;
     let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
-    // ANCHOR_END: boxes
     let options = BuildOptions { compact: true, ..BuildOptions::default() };
     AccelerationStructure::bottom(gpu, name, &[geometry], options)
 }

@@ -37,7 +37,6 @@ impl Fog {
         Self { distance: (f64::from(self.distance) * size) as f32, ..*self }
     }
 
-    // ANCHOR: extent
     /// Where it is; hollow solids let it in. A camera that a closed solid encloses sees none: no path
     /// ever comes out.
     pub fn extent(&self, hollow: bool, enclosed: bool) -> Extent {
@@ -47,5 +46,4 @@ impl Fog {
             (true, false, false) => Extent::Outside,
         }
     }
-    // ANCHOR_END: extent
 }

@@ -80,7 +80,7 @@ impl Sample for Demo {
     }
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
-        let mut source = setup.scene_or(scenes::chess)?;
+        let mut source = scenes::chess()?;
         scenes::extend(&mut source.model);
         let build = Build::default();
         let Preset { scene, solids, sun, fog } =
@@ -104,7 +104,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         // A preset brings its view, its sun and its fog.
         if c.choice("preset", &mut self.build.preset) {
@@ -122,9 +121,7 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.solids.build != self.build {
             let preset = Preset::new(self.build.preset, &self.source, &self.build.modifiers);
@@ -136,15 +133,12 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: fog
         let placement = self.build.placement();
         let camera = placement.camera(&self.camera).basis(frame.aspect());
         let enclosed = self.solids.enclose(camera.origin.as_dvec3());
         self.constants.fog = self.fog.extent(self.build.modifiers.hollow, enclosed);
-        // ANCHOR_END: fog
         // ANCHOR: trace
         let push = Push {
             camera,
@@ -167,7 +161,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// A hit group for each kind of surface: triangles, and solids.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -193,4 +186,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -10,7 +10,6 @@ pub fn lens(material: &'static str) -> Solid {
     side(1.3).intersection(side(-1.3))
 }
 
-// ANCHOR: die
 /// A cube that a ball has rounded, and 21 dents.
 pub fn die() -> Solid {
     let mut body = block(Vec3::NEG_ONE, Vec3::ONE);
@@ -37,7 +36,6 @@ pub fn die() -> Solid {
     }
     solid
 }
-// ANCHOR_END: die
 
 /// A column of eight sides, from one height to another.
 fn column(radius: f32, low: f32, high: f32, stretch: f32) -> Vec<Bound> {
@@ -49,7 +47,6 @@ fn column(radius: f32, low: f32, high: f32, stretch: f32) -> Vec<Bound> {
     walls.chain(ends).collect()
 }
 
-// ANCHOR: tower
 /// A rook of planes alone. What is cut from its head ends just where the head ends: the tops coincide,
 /// and each says so with a normal of its own length.
 pub fn tower(material: &'static str) -> Solid {
@@ -65,7 +62,6 @@ pub fn tower(material: &'static str) -> Solid {
     let notches = notch(Vec3::new(0.17, 0.0, 1.0)).union(notch(Vec3::new(1.0, 0.0, 0.17)));
     low.union(head.difference(notches))
 }
-// ANCHOR_END: tower
 
 /// A pyramid of eight sides without its top: from a radius at one height to another at another.
 fn taper(from: [f32; 2], to: [f32; 2]) -> Vec<Bound> {
@@ -103,7 +99,6 @@ pub fn bishop(material: &'static str) -> Solid {
     stem(material, 0.35).union(head.difference(Solid::Convex(slot, "gold"))).union(bead)
 }
 
-// ANCHOR: king
 /// His cross is a plate from which four balls have been taken.
 pub fn king(material: &'static str) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
@@ -117,4 +112,3 @@ pub fn king(material: &'static str) -> Solid {
     }
     stem(material, 0.4).union(crown).union(cross)
 }
-// ANCHOR_END: king

@@ -104,7 +104,6 @@ impl Programs {
         self.steps.push(step);
     }
 
-    // ANCHOR: shared
     /// The face of a half-space. A plane that the solid has already is stored once, whichever side of it
     /// is meant and however long the normal is: rays cannot meet the two at different t.
     ///
@@ -127,7 +126,6 @@ impl Programs {
         }
         Face { kind: FaceKind::Plane.into(), index: index as u32, side }
     }
-    // ANCHOR_END: shared
 
     fn ball(&mut self, ball: Ball) -> Face {
         let known = self.balls.iter().position(|known| *known == ball).filter(|_| self.shared);

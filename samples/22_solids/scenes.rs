@@ -134,7 +134,6 @@ fn golden() -> Vec3 {
     Vec3::new(0.0, 1.0, 0.5 + 1.25f32.sqrt())
 }
 
-// ANCHOR: board
 /// Solids in front of the kings and queens of the chess set.
 fn board(scene: &Scene) -> Preset {
     let mut shell = at("shell", [2.55, 0.5, 1.2], 0.5, 0.0);
@@ -152,7 +151,6 @@ fn board(scene: &Scene) -> Preset {
     ];
     Preset::on_board(scene, &["king", "queen"], solids, scene.camera)
 }
-// ANCHOR_END: board
 
 /// The five regular solids, and one that is not.
 fn convex_solids(scene: &Scene) -> Preset {
@@ -182,7 +180,6 @@ fn csg(scene: &Scene) -> Preset {
     Preset::on_board(scene, &[], solids, camera)
 }
 
-// ANCHOR: clipped
 /// Behind, solids are clipped by a plane; before them, the same solids meet the same half-space.
 fn clipped(scene: &Scene) -> Preset {
     let mut solids = Vec::new();
@@ -199,9 +196,7 @@ fn clipped(scene: &Scene) -> Preset {
     let camera = Camera::new(DVec3::new(-1.2, 4.4, 6.8), DVec3::new(0.0, 0.3, 0.1), 33.0);
     Preset::on_board(scene, &[], solids, camera)
 }
-// ANCHOR_END: clipped
 
-// ANCHOR: inside
 /// From within a dodecahedron that is clipped open, at the chess set in the fog.
 fn inside(scene: &Scene) -> Preset {
     let mut room = at("room", [0.0, 1.6, 8.6], 3.6, 0.0);
@@ -215,7 +210,6 @@ fn inside(scene: &Scene) -> Preset {
         ..Preset::on_board(scene, &all, solids, camera)
     }
 }
-// ANCHOR_END: inside
 
 /// Faces that coincide, solids that touch, and cutters that end with what they cut or only graze it.
 fn ties(scene: &Scene) -> Preset {

@@ -79,7 +79,6 @@ pub fn number(name: &str) -> u32 {
     SHAPES.iter().position(|shape| *shape == name).expect("a solid of this chapter") as u32
 }
 
-// ANCHOR: polyhedra
 /// Four half-spaces, towards every second corner of a cube.
 fn tetrahedron(distance: f32) -> Vec<Bound> {
     let normals = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
@@ -120,7 +119,6 @@ fn crystal(planes: u32) -> Vec<Bound> {
     });
     normals.map(|(normal, distance)| plane(normal, distance)).collect()
 }
-// ANCHOR_END: polyhedra
 
 /// Three directions at right angles, each of length 3 and along no axis of the world.
 const TILTED: [Vec3; 3] =

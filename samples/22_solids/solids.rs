@@ -131,14 +131,12 @@ impl SolidsOnGpu {
             let (solid, mut clips) = modifiers.of(&solid_instance.solid, solid_instance.clip);
             let [first_part, part_count, first_step, step_count] =
                 programs.add(&solid, &|name| scenes::material(&scene.model, name));
-            // ANCHOR: clip
             // What has no end is clipped by the largest box, as if the user had said so.
             let (low, high) = solid.bounds()[1];
             if low.min_element() <= -f64::from(REACH) || high.max_element() >= f64::from(REACH) {
                 clips.extend(block(Vec3::splat(-REACH), Vec3::splat(REACH)));
             }
             let clip = if clips.is_empty() { NO_CLIP } else { programs.add_part(&clips, 0) };
-            // ANCHOR_END: clip
             let corners = box_around(low, high);
             // The margin is in the corners already.
             let level = boxes::bottom(gpu, "solid", [corners], 0.0)?;
@@ -185,7 +183,6 @@ impl SolidsOnGpu {
         })
     }
 
-    // ANCHOR: inside
     /// Whether a point of the world lies in a solid that is closed all around. Out of an open one, light
     /// comes without meeting a surface: that is left to the shaders.
     pub fn enclose(&self, point: DVec3) -> bool {
@@ -193,10 +190,8 @@ impl SolidsOnGpu {
             clips.is_empty() && solid.contains(to_object.transform_point3(point))
         })
     }
-    // ANCHOR_END: inside
 }
 
-// ANCHOR: box
 /// The box for a solid whose surface has these corners.
 ///
 /// A hundredth larger than the solid: room for what the device's box test rounds, 10u of the way (chapter
@@ -209,7 +204,6 @@ fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
         false => (Vec3::ZERO, Vec3::splat(1e-3)),
     }
 }
-// ANCHOR_END: box
 
 /// A buffer cannot be empty.
 fn filled(data: &[u8]) -> &[u8] {

@@ -108,7 +108,8 @@ fn what_makes_its_pipeline_by_itself_is_not_compiled_for_another_gpu() {
 
 #[test]
 fn a_chapter_of_its_own_scenes_takes_no_file() {
-    for name in ["38_primitive_order", "39_far_from_origin"] {
+    // 22 knows the pieces of the chess set by name.
+    for name in ["22_solids", "38_primitive_order", "39_far_from_origin"] {
         let (code, line) = run::refused(name, &["--headless", "--scene", "a.obj"]);
         assert!(code == 2 && line.contains("brings its own scene and takes no --scene"), "{line}");
     }
@@ -146,6 +147,15 @@ fn controls() {
         ("", &["a setting is a name and a value"]),
     ] {
         refused(&["--set", setting], 2, words);
+    }
+    for (name, control) in [("12_infinite_plane", "plane normal"), ("22_solids", "cut normal")] {
+        for text in ["0,0,0", "1e-60,-1e-60,0"] {
+            let (code, line) =
+                run::refused(name, &["--headless", "--set", &format!("{control}={text}")]);
+            let words = "it takes x,y,z, each -1000 to 1000, not all 0 in 32 bits";
+            let control = format!("control '{control}' cannot be '{text}': {words}");
+            assert!(code == 2 && line.contains(&control), "{line}");
+        }
     }
     // Each setting is held against the rules, not only the last of a name.
     refused(&["--set", "show=bogus", "--set", "show=normal"], 2, &["'bogus'"]);

@@ -17,14 +17,17 @@ use run::primary_hits::rays;
 
 pub const RUNGS: [&str; 4] = ["relaxed", "lipschitz", "over-relaxed", "bisected"];
 
-/// A triangle that no ray here meets, so that the ground is alone. It loads faster than the pieces.
+/// Two triangles, much smaller than they are far apart: no ray here meets them, so that the ground is alone. They load
+/// faster than the pieces.
 pub struct Alone(tempfile::TempDir);
 
 impl Alone {
     pub fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.obj");
-        std::fs::write(file, "v 0 0 1e9\nv 1 0 1e9\nv 0 1 1e9\nf 1 2 3\n").unwrap();
+        let far = "v 1 0 0\nv 1 0 1e-12\nv 1 1e-12 0\n";
+        let text = format!("v 0 0 0\nv 1e-12 0 0\nv 0 0 1e-12\n{far}f 1 2 3\nf 4 5 6\n");
+        std::fs::write(file, text).unwrap();
         Self(folder)
     }
 

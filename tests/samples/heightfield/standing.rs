@@ -12,6 +12,28 @@ use super::world::World;
 use super::{GROUND, HILLS, STEEP, land, scenes, shown};
 use run::primary_hits::rays;
 
+/// A cube of a millimetre far away, one of a kilometre, and one of the chess set's size.
+#[test]
+fn a_model_from_a_file_stands_on_the_hill_whatever_its_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("cube.obj");
+    let seen = |size: f64, at: f64| {
+        let corner = |i: usize| [1, 2, 4].map(|bit| at + if i & bit == 0 { 0.0 } else { size });
+        let corners = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let faces = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+        std::fs::write(&file, corners.collect::<String>() + faces).unwrap();
+        let scene = ["--scene", file.to_str().expect("a path of text")];
+        let hits = shown("120x75", &["show=hit"], &scene);
+        hits.pixels.iter().filter(|pixel| pixel[0] == 0.0).count()
+    };
+    let counts = [seen(1e-3, 1.0), seen(1e3, -1e5), seen(2.0, 0.0)];
+    println!("{counts:?} pixels");
+    assert!(
+        counts.iter().all(|&count| count > 200 && count.abs_diff(counts[2]) < 10),
+        "{counts:?}"
+    );
+}
+
 #[test]
 fn the_chess_set_stands_on_the_ground() {
     let scene = scenes::chess().unwrap();

@@ -14,7 +14,7 @@ use run::bits;
 
 #[test]
 fn a_clip_cuts_open_and_an_intersection_caps() {
-    let stub = Stub::new();
+    let stub = Stub;
     let rays = stub.rays(OUTSIDE);
     let cut = solid::plane(Vec3::new(1.0, 1.0, 2.0), 0.1);
     for name in ["cube", "die", "bishop", "shell"] {
@@ -48,7 +48,7 @@ fn a_clip_cuts_open_and_an_intersection_caps() {
 
 #[test]
 fn inverse_exchanges_the_sides_and_twice_changes_nothing() {
-    let stub = Stub::new();
+    let stub = Stub;
     for view in [OUTSIDE, INSIDE] {
         let show = |name: &str, sets: &[&str]| stub.seen(view, name, sets);
         let twice = show("all but a cube", &["inverse solids=on"]);
@@ -68,7 +68,7 @@ fn inverse_exchanges_the_sides_and_twice_changes_nothing() {
 
 #[test]
 fn inside_and_outside_are_those_of_the_exact_solid() {
-    let stub = Stub::new();
+    let stub = Stub;
     let rays = stub.rays(OUTSIDE);
     let cut = solid::plane(Vec3::new(1.0, 1.0, 2.0), 0.1);
     let (mut inside, mut outside, mut near) = (0, 0, 0);

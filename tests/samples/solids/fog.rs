@@ -16,7 +16,7 @@ fn covered(intervals: &[[f64; 2]], end: f64) -> f64 {
 
 #[test]
 fn fog_is_counted_on_the_way_outside_only() {
-    let stub = Stub::new();
+    let stub = Stub;
     let cut = solid::plane(Vec3::NEG_Z, 0.3);
     let sets = ["fog distance=2", "cut=clipped by", "cut normal=0,0,-1", "cut distance=0.3"];
     let (mut both, mut none, mut all) = (0, 0, 0);
@@ -67,7 +67,7 @@ fn fog_is_counted_on_the_way_outside_only() {
 
 #[test]
 fn fog_stays_out_of_a_closed_solid_unless_it_is_hollow() {
-    let stub = Stub::new();
+    let stub = Stub;
     for (name, view) in [("cube", INSIDE), ("king", INSIDE), ("all but a cube", OUTSIDE)] {
         let show = |sets: &[&str]| bits(&stub.seen(view, name, sets));
         let clear = show(&["fog distance=0"]);

@@ -47,7 +47,7 @@ fn all_shapes(stub: &Stub, sets: &[&str]) -> Tally {
 
 #[test]
 fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
-    let all = all_shapes(&Stub::new(), &[]);
+    let all = all_shapes(&Stub, &[]);
     println!("all: {all}");
     assert!(all.wrong.is_empty(), "{} wrong: {}", all.wrong.len(), all.wrong[0]);
     assert!(all.hits > 12_000 && all.near * 2000 < all.hits, "{all}");
@@ -63,7 +63,7 @@ fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
 
 #[test]
 fn each_rung_of_the_planes_is_as_good_as_it_promises() {
-    let stub = Stub::new();
+    let stub = Stub;
     // Eleven times as far away; the field of view is as small as it may be.
     let far = (OUTSIDE.0 * 11.0, DVec3::new(0.1, 0.2, 0.0));
     let field = "field of view=2.5";
@@ -110,7 +110,7 @@ struct Standing {
 
 #[test]
 fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
-    let stub = Stub::new();
+    let stub = Stub;
     let far = DVec3::new(6000.0, 4800.0, 6400.0);
     for Standing { sets, size, moved } in [
         Standing { sets: ["turn=33", "size=1", "moved=0"], size: 1.0, moved: DVec3::ZERO },
@@ -161,7 +161,7 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
 
 #[test]
 fn normals_point_out_of_the_solid_and_to_the_eye() {
-    let stub = Stub::new();
+    let stub = Stub;
     for view in [OUTSIDE, INSIDE] {
         let rays = stub.rays(view);
         for name in ["dodecahedron", "die", "all but a cube"] {

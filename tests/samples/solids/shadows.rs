@@ -10,7 +10,7 @@ use super::{OUTSIDE, shape};
 
 #[test]
 fn no_face_shades_itself_and_shadows_are_the_exact_ones() {
-    let stub = Stub::new();
+    let stub = Stub;
     let sun = Sun { azimuth: 305.0, elevation: 34.0, ..Sun::default() };
     let light = sun.light().direction.to_array();
     // Convex solids have no shadow but that of their own far side.

@@ -9,23 +9,13 @@ use super::{FIELD_OF_VIEW, NAME, SIZE, View};
 use run::primary_hits::rays;
 use run::render;
 
-/// A model that loads faster than the pieces; solids alone do not need them.
-pub struct Stub(tempfile::TempDir);
+/// Solids without the pieces.
+pub struct Stub;
 
 impl Stub {
-    pub fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let mtl = "newmtl a\nKd 1 1 1\n";
-        std::fs::write(folder.path().join("a.mtl"), mtl).unwrap();
-        let obj = "mtllib a.mtl\no a\nusemtl a\nv 0 0 1e9\nv 1 0 1e9\nv 0 1 1e9\nf 1 2 3\n";
-        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
-        Self(folder)
-    }
-
     pub fn picture(&self, size: &str, sets: &[&str]) -> Picture {
-        let scene = self.0.path().join("a.obj").display().to_string();
-        let sets = sets.iter().flat_map(|&set| ["--set", set]);
-        render(NAME, size, &sets.chain(["--scene", &scene]).collect::<Vec<_>>()).picture
+        let sets: Vec<_> = sets.iter().flat_map(|&set| ["--set", set]).collect();
+        render(NAME, size, &sets).picture
     }
 
     /// One solid.

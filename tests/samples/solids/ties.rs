@@ -31,7 +31,7 @@ struct Alone {
 
 #[test]
 fn touching_flush_and_grazing_cutters_leave_no_crack() {
-    let stub = Stub::new();
+    let stub = Stub;
     let one = ["preset=one solid"];
     let views = [
         ["camera eye=2.6,1.9,3.4", "camera target=0,-0.1,0"],
@@ -82,7 +82,7 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
 
 #[test]
 fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
-    let stub = Stub::new();
+    let stub = Stub;
     // The middle column looks at the line, to the last digits.
     let view = ["camera eye=-0.35,-0.12,0.61", "camera target=0,0.05,0"];
     let [thirds, cube] = ["thirds", "cube"].map(|name| {
@@ -105,7 +105,7 @@ fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
 
 #[test]
 fn rays_within_a_face_are_decided_by_the_same_rule() {
-    let stub = Stub::new();
+    let stub = Stub;
     // At the height of a top, and at a wall: the middle row, or the middle column, lies in it.
     for (name, eye, target) in [
         ("tower", DVec3::new(4.0, f64::from(1.4f32), 0.3), DVec3::new(0.0, f64::from(1.4f32), 0.1)),
