@@ -15,8 +15,8 @@ float angle_between(float cosine, float sine) {
     z = z / (1.0 + sqrt(1.0 + z * z));
     z = z / (1.0 + sqrt(1.0 + z * z));
     float zz = z * z;
-    float quarter = z * (1.0 - zz * (1.0 / 3.0 - zz * (1.0 / 5.0 - zz * (1.0 / 7.0 - zz / 9.0))));
-    return cosine < 0.0 ? 3.14159265 - 8.0 * quarter : 8.0 * quarter;
+    float eighth = z * (1.0 - zz * (1.0 / 3.0 - zz * (1.0 / 5.0 - zz * (1.0 / 7.0 - zz / 9.0))));
+    return cosine < 0.0 ? 3.14159265 - 8.0 * eighth : 8.0 * eighth;
 }
 
 // van Oosterom and Strackee, IEEE Transactions on Biomedical Engineering 30:2, 1983.
