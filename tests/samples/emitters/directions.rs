@@ -156,6 +156,12 @@ impl Triangle {
         2.0 * a.dot(self.edges[0].cross(self.edges[1])).abs().atan2(sum)
     }
 
+    /// Whether its edges are shorter than 1/64 of its distance.
+    fn is_far(&self) -> bool {
+        let longer = self.edges.map(DVec3::length).into_iter().fold(0.0, f64::max);
+        longer < self.corners[0].length() / 64.0
+    }
+
     /// How much an error of a coordinate, relative to the distance, is enlarged: more, the flatter the triangle
     /// is seen, and the nearer a corner is.
     fn condition(&self) -> f64 {
@@ -229,8 +235,8 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
     for (i, pixel) in shown.pixels.iter().enumerate() {
         let triangle = Triangle::of(i, 96);
         let condition = triangle.condition();
-        // As the shader: smaller ones are aimed at by area.
-        if condition.is_nan() || condition >= 1e2 || triangle.angle() < 1.0 / 4096.0 {
+        // As the shader: others are sampled by area.
+        if condition.is_nan() || condition >= 1e2 || triangle.is_far() {
             continue;
         }
         tried += 1;
@@ -254,6 +260,48 @@ fn directions_to_a_triangle_are_uniform_in_its_solid_angle() {
     println!("{tried} directions: numbers come back but for {worst:.1?} u over the solid angle");
     assert!(tried > 3000, "{tried}");
     assert!(worst[0] < 16.0 && worst[1] < 16.0, "{worst:?}");
+}
+
+/// A triangle of size 1 whose edge is 2^-k away, seen so flat that its solid angle is below 2^-12; and one of size 2^-7
+/// at distance 1, at a slant.
+#[test]
+fn no_sample_of_a_triangle_stands_for_more_than_another() {
+    let body = "
+        vec2 u = vec2(PICK(11) + 1.03125, PICK(12) + 1.03125) / 2.0625;
+        float away = ldexp(1.0, -int(at.y % 8u)), height = away / 16384.0;
+        vec3 corner = vec3(away, -0.5, -height), across = vec3(0.0, 1.0, 0.0), along = vec3(1.0, 0.25, 0.0);
+        if (at.x % 2u == 0u) {
+            corner = vec3(0.75, 0.0, -0.75), across /= 128.0, along /= 128.0;
+        }
+        Emitter emitter = Emitter(corner, 0.0, across, 0.0, along, 0u, 0.0, 0.0);
+        Aim aim = aim_at(emitter, vec3(0.0), u);
+        answer = vec4(aim.angle, angle_of(emitter, vec3(0.0), aim.direction, length(aim.to)), aim.to.xy);
+    ";
+    let (picks, _) = TRIANGLE.split_once("float size").expect("the macro");
+    let shown = evaluate(&format!("{picks}{body}"), "64x64");
+    let mut most = [0f64; 2];
+    for (i, pixel) in shown.pixels.iter().enumerate() {
+        let (x, y) = (i % 64, i / 64);
+        let away = 0.5f64.powi((y % 8) as i32);
+        let (mut corner, mut edges) =
+            (DVec3::new(away, -0.5, -away / 16_384.0), [DVec3::Y, DVec3::new(1.0, 0.25, 0.0)]);
+        if x % 2 == 0 {
+            (corner, edges) = (DVec3::new(0.75, 0.0, -0.75), edges.map(|edge| edge / 128.0));
+        }
+        let exact =
+            Triangle { corners: [corner, corner + edges[0], corner + edges[1]], edges }.angle();
+        assert!(exact < 1.0 / 4096.0, "{exact}");
+        let angle = f64::from(pixel[0]);
+        most[x % 2] = most[x % 2].max((angle / exact - 1.0).abs());
+        // The other way to find it, by chance, has the same density.
+        assert!((f64::from(pixel[1]) / angle - 1.0).abs() < 1e-4, "{x} {y}: {pixel:?}");
+        if x % 2 == 1 {
+            let (to, beyond) = (f64::from(pixel[2]) - away, 1.0 / 256.0);
+            assert!(to > -beyond && to < 1.0 + beyond, "{x} {y}: {pixel:?} is beside the triangle");
+        }
+    }
+    println!("weights differ from the mean by up to {most:?} of it, far away and edge on");
+    assert!(most[0] < 0.1 && most[1] < 1e-3, "{most:?}");
 }
 
 #[test]
