@@ -26,22 +26,22 @@ vec3 point_by_area(Emitter emitter, vec3 to_corner, vec2 u) {
 }
 // ANCHOR_END: area
 
-// Whether points are uniform on the triangle, or directions in its solid angle. A chapter that compares the two ways
-// defines `ALL_BY_AREA`: whether points are uniform on every triangle.
-bool is_by_area(Emitter emitter, vec3 to_corner) {
+// The solid angle if directions are chosen by it, else 0. A chapter that compares the two ways defines
+// `ALL_BY_AREA`: whether points are uniform on every triangle.
+float whole_angle(Emitter emitter, vec3 to_corner) {
 #ifdef ALL_BY_AREA
     if (ALL_BY_AREA) {
-        return true;
+        return 0.0;
     }
 #endif
     float longer = max(dot(emitter.across, emitter.across), dot(emitter.along, emitter.along));
-    return longer < LARGEST_BY_AREA * LARGEST_BY_AREA * dot(to_corner, to_corner);
+    bool is_far = longer < LARGEST_BY_AREA * LARGEST_BY_AREA * dot(to_corner, to_corner);
+    return is_far ? 0.0 : solid_angle(to_corner, emitter.across, emitter.along);
 }
 
 float angle_of_triangle(Emitter emitter, vec3 from, vec3 to) {
-    vec3 to_corner = emitter.corner - from;
-    return is_by_area(emitter, to_corner)
-        ? angle_by_area(emitter, to) : solid_angle(to_corner, emitter.across, emitter.along);
+    float whole = whole_angle(emitter, emitter.corner - from);
+    return whole > 0.0 ? whole : angle_by_area(emitter, to);
 }
 
 // ANCHOR: triangle
@@ -51,20 +51,15 @@ Aim aim_at_triangle(Emitter emitter, vec3 from, vec2 u) {
     // The side that the point is on.
     normal *= (dot(normal, to_corner) > 0.0 ? -1.0 : 1.0) * inversesqrt(max(dot(normal, normal), 1e-37));
     Aim aim;
-    if (is_by_area(emitter, to_corner)) {
+    aim.angle = whole_angle(emitter, to_corner);
+    if (aim.angle > 0.0) {
+        aim.direction = direction_to(to_corner, emitter.across, emitter.along, aim.angle, u);
+        // A cosine below 2^-24 is all rounding, and would put the point anywhere along the direction.
+        aim.to = dot(to_corner, normal) / min(dot(aim.direction, normal), -6e-8) * aim.direction;
+    } else {
         aim.to = point_by_area(emitter, to_corner, u);
         aim.direction = normalize(aim.to);
         aim.angle = angle_by_area(emitter, aim.to);
-    } else {
-        aim.angle = solid_angle(to_corner, emitter.across, emitter.along);
-        if (aim.angle == 0.0) {
-            return Aim(-normal, 0.0, to_corner);      // its plane holds the point: no direction leads to it
-        }
-        aim.direction = direction_to(to_corner, emitter.across, emitter.along, aim.angle, u);
-        // Nearly in the plane a rounded direction meets it anywhere, but no farther away than the triangle goes.
-        float reach = length(to_corner) + max(length(emitter.across), length(emitter.along));
-        float t = dot(to_corner, normal) / min(dot(aim.direction, normal), -1e-30);
-        aim.to = min(t, reach) * aim.direction;
     }
     aim.to += (emitter.height + emitter.slack * length(aim.to)) * normal;
     return aim;
