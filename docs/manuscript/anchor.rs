@@ -1,6 +1,8 @@
-//! Named parts of a source file, from a comment line `// ANCHOR: name` to `// ANCHOR_END: name`.
+//! Named parts of a source file: its items, and what stands from a comment line `// ANCHOR: name` to
+//! `// ANCHOR_END: name`.
 //!
-//! The form is mdBook's, so that its users know it; unlike there, a missing anchor is an error.
+//! A function, structure or `impl` is found by its name, so an anchor is needed only for a part of one. The form is
+//! mdBook's; unlike there, a missing anchor is an error.
 
 use std::ops::Range;
 
@@ -71,6 +73,88 @@ pub fn anchors(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
     Ok(found)
 }
 
+/// Every part of a file: its anchors, and the items that no anchor is named like, the first of each name.
+///
+/// # Errors
+/// As [`anchors`].
+pub fn parts(file: &str, text: &str) -> Result<Vec<Anchor>, Fault> {
+    let mut found = anchors(file, text)?;
+    let lines: Vec<&str> = text.lines().collect();
+    for (index, line) in lines.iter().enumerate() {
+        let name = if file.ends_with(".rs") { rust_item(line) } else { glsl_item(line) };
+        let Some(name) = name.filter(|name| found.iter().all(|part| part.name != *name)) else {
+            continue;
+        };
+        let indent = line.len() - line.trim_start().len();
+        let is_beside = |line: &&&str| line.len() - line.trim_start().len() == indent;
+        let above = lines[..index].iter().rev().take_while(|line| {
+            let text = line.trim_start();
+            is_beside(line) && (text.starts_with("//") || text.starts_with("#[")) && !is_mark(line)
+        });
+        let closes = |line: &&str| {
+            let text = line.trim_start();
+            is_beside(&line)
+                && (text.starts_with('}') || text.starts_with([')', ']']) && text.ends_with(';'))
+        };
+        let whole = line.ends_with([';', '}']);
+        let below = lines[index + 1..].iter().position(closes).filter(|_| !whole);
+        let end = below.map_or(index + 1, |below| index + below + 2);
+        found.push(Anchor { name: name.to_owned(), lines: index - above.count()..end });
+    }
+    Ok(found)
+}
+
+/// The name of the item that a line of Rust begins: that of a trait for its `impl`, else that of the type.
+fn rust_item(line: &str) -> Option<&str> {
+    let mut rest = line.trim_start();
+    if let Some(visible) = rest.strip_prefix("pub") {
+        rest =
+            visible.strip_prefix('(').and_then(|r| Some(r.split_once(')')?.1)).unwrap_or(visible);
+        rest = rest.trim_start();
+    }
+    for word in ["const fn ", "unsafe fn ", "async fn "] {
+        rest = rest.strip_prefix(word).map_or(rest, |_| &rest[word.len() - 3..]);
+    }
+    let kinds = [
+        "fn ",
+        "struct ",
+        "enum ",
+        "trait ",
+        "mod ",
+        "type ",
+        "const ",
+        "static ",
+        "macro_rules! ",
+    ];
+    if let Some(rest) = kinds.iter().find_map(|kind| rest.strip_prefix(kind)) {
+        return word(rest);
+    }
+    let rest = rest.strip_prefix("impl")?;
+    let rest = match rest.strip_prefix('<') {
+        Some(generics) => generics.split_once("> ")?.1,
+        None => rest.strip_prefix(' ')?,
+    };
+    word(rest)
+}
+
+/// The name of the function or structure that a line of GLSL begins.
+fn glsl_item(line: &str) -> Option<&str> {
+    if let Some(rest) = line.strip_prefix("struct ") {
+        return word(rest);
+    }
+    let (head, _) = line.split_once('(')?;
+    let (kind, name) = head.rsplit_once(' ')?;
+    let is_type = kind.split(' ').all(|word| word.chars().all(|c| c.is_alphanumeric() || c == '_'));
+    let is_call = kind.is_empty() || line.ends_with(';') || kind == "return";
+    (is_type && !is_call && line.starts_with(char::is_alphabetic)).then(|| word(name)).flatten()
+}
+
+/// The identifier at the beginning of a text.
+fn word(text: &str) -> Option<&str> {
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    Some(&text[..end]).filter(|word| !word.is_empty())
+}
+
 /// The text of a part, or of the whole file: without marks, moved to the left as far as it goes.
 pub fn part(text: &str, lines: Option<Range<usize>>) -> String {
     let all: Vec<&str> = text.lines().collect();
@@ -108,6 +192,35 @@ c
         assert_eq!(part(TEXT, Some(found[1].lines.clone())), "ä ← wide\n");
         assert_eq!(part("\n\nx\n\n", None), "x\n");
         assert_eq!(part("", None), "");
+    }
+
+    #[test]
+    fn items_are_found_by_their_names() {
+        let of = |file: &str, text: &str, name: &str| {
+            let found = parts(file, text).unwrap();
+            let found = found.iter().find(|part| part.name == name);
+            found.map(|found| part(text, Some(found.lines.clone())))
+        };
+        let rust = "/// A.\n#[x]\npub struct A {\n    a: u32,\n}\n\nimpl B for A {\n    // C.\n    \
+                    pub const fn c(\n        self,\n    ) {\n        d();\n    }\n}\n\nconst E: u32 = 1;\n";
+        assert_eq!(
+            of("a.rs", rust, "A").unwrap(),
+            "/// A.\n#[x]\npub struct A {\n    a: u32,\n}\n"
+        );
+        assert_eq!(
+            of("a.rs", rust, "c").unwrap(),
+            "// C.\npub const fn c(\n    self,\n) {\n    d();\n}\n"
+        );
+        assert_eq!(of("a.rs", rust, "B").unwrap().lines().count(), 8);
+        assert_eq!(of("a.rs", rust, "E").unwrap(), "const E: u32 = 1;\n");
+        assert_eq!(of("a.rs", rust, "d"), None);
+        let glsl = "// F.\nvec2 f(float a,\n       float b) {\n    return g(a);\n}\nstruct G {\n    float x;\n};\n";
+        assert_eq!(of("a.glsl", glsl, "f").unwrap().lines().count(), 5);
+        assert_eq!(of("a.glsl", glsl, "G").unwrap(), "struct G {\n    float x;\n};\n");
+        assert_eq!(of("a.glsl", glsl, "g"), None);
+        // An anchor of the name goes before.
+        let both = format!("// ANCHOR: f\n1\n// ANCHOR_END: f\n{glsl}");
+        assert_eq!(of("a.glsl", &both, "f").unwrap(), "1\n");
     }
 
     #[test]

@@ -256,7 +256,7 @@ fn named(file: &str, text: &str) -> Result<BTreeMap<usize, Vec<String>>> {
     if shader::language(file) == "diff" {
         return Ok(found);
     }
-    for part in anchor::anchors(file, text).map_err(|fault| fault.error())? {
+    for part in anchor::parts(file, text).map_err(|fault| fault.error())? {
         let first = kept(text).map(|(number, _)| number).find(|number| *number > part.lines.start);
         found.entry(first.unwrap_or(part.lines.start)).or_default().push(part.name);
     }

@@ -168,7 +168,6 @@ fn with_instance<R>(
 
 // ---- 2. The device: just the extensions and features that are used
 
-// ANCHOR: extensions
 /// Ray tracing pipelines, the acceleration structures that they trace and what those depend on; and
 /// push descriptors, which need no pool.
 const EXTENSIONS: [&CStr; 4] = [
@@ -177,9 +176,7 @@ const EXTENSIONS: [&CStr; 4] = [
     khr::deferred_host_operations::NAME,
     khr::push_descriptor::NAME,
 ];
-// ANCHOR_END: extensions
 
-// ANCHOR: features
 /// The features that this program uses, as a chain that `f` gets: on, to make a device with, or off,
 /// for a physical device to say which it has.
 fn with_features<R>(
@@ -206,7 +203,6 @@ fn with_features<R>(
     ];
     (result, now)
 }
-// ANCHOR_END: features
 
 fn with_device<R>(
     instance: &Instance,
@@ -496,7 +492,6 @@ fn render(
 
     // ---- 9. The frame, recorded once: trace, then copy
 
-    // ANCHOR: descriptors
     let levels = [top.handle];
     let mut level =
         vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&levels);
@@ -513,7 +508,6 @@ fn render(
             .descriptor_type(vk::DescriptorType::STORAGE_IMAGE)
             .image_info(&images),
     ];
-    // ANCHOR_END: descriptors
     let layers = vk::ImageSubresourceLayers::default().aspect_mask(color).layer_count(1);
     let pixel_copy =
         [vk::BufferImageCopy::default().image_subresource(layers).image_extent(extent)];
@@ -728,7 +722,6 @@ impl<'a> Gpu<'a> {
         Ok(memory)
     }
 
-    // ANCHOR: buffer
     /// A buffer whose address, if it has one, is a multiple of `alignment`.
     fn buffer(
         &mut self,
@@ -755,7 +748,6 @@ impl<'a> Gpu<'a> {
             Ok(Buffer { handle, memory, address, offset: address - start, size })
         }
     }
-    // ANCHOR_END: buffer
 
     /// An addressed buffer that holds `data`.
     fn upload<T: Copy>(
@@ -793,7 +785,6 @@ impl<'a> Gpu<'a> {
         Ok(pixels)
     }
 
-    // ANCHOR: build
     /// Records the build of a structure with one geometry of one primitive.
     fn build(
         &mut self,
@@ -847,7 +838,6 @@ impl<'a> Gpu<'a> {
             Ok(Structure { handle, address, size, scratch })
         }
     }
-    // ANCHOR_END: build
 
     /// Records that what `from` wrote is finished and visible before `to` reads it.
     fn barrier(&self, commands: vk::CommandBuffer, from: (Stage, Access), to: (Stage, Access)) {

@@ -66,14 +66,12 @@ impl Sample for Demo {
     }
     // ANCHOR_END: new
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.slider("sun azimuth", &mut self.sun.azimuth, 0.0..=360.0);
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -95,7 +93,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The pipeline for what is shown: a specialization constant of the shaders.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -110,4 +107,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

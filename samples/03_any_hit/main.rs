@@ -72,14 +72,12 @@ impl Sample for Demo {
 
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut source = setup.scene_or(Scene::chess)?;
-        // ANCHOR: pieces
         // Less than opaque, so that the build leaves the pieces to the any-hit shader.
         for material in &mut source.model.materials {
             if ["white", "black"].contains(&material.name.as_str()) {
                 material.opacity = 0.5;
             }
         }
-        // ANCHOR_END: pieces
         let camera = source.camera;
         let scene = SceneOnGpu::new(gpu, &source, setup.options)?;
         Ok(Self {
@@ -98,7 +96,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.choice("mode", &mut self.constants.mode);
@@ -110,16 +107,13 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.options != self.scene.options {
             self.scene.rebuild(gpu, &self.source, self.options)?;
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: hits
@@ -156,7 +150,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The pipeline for the shaders' constants.
 fn pipeline(
     gpu: &Gpu,
@@ -176,4 +169,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

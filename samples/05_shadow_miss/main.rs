@@ -57,13 +57,11 @@ impl Sample for Demo {
         Ok(Self { scene, pipelines: Variants::default(), camera, sun, show: Show::Picture })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -85,7 +83,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -101,4 +98,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

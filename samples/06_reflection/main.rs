@@ -87,7 +87,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.sun(&mut self.sun);
@@ -99,7 +98,6 @@ impl Sample for Demo {
         c.integer("bounce", &mut self.bounce, 0..=MAX_DEPTH);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: variant
@@ -130,7 +128,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: however long a path is, its rays do not nest.
 fn pipeline(
     gpu: &Gpu,
@@ -150,4 +147,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

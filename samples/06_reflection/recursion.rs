@@ -37,7 +37,6 @@ impl Recursion {
     }
 }
 
-// ANCHOR: pipeline
 /// The method decides which shaders there are, and how deep their rays nest.
 pub fn pipeline(
     gpu: &Gpu,
@@ -61,4 +60,3 @@ pub fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

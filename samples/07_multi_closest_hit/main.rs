@@ -108,7 +108,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.integer("instance", &mut self.instance, 0..=self.looks.len() as u32 - 1);
@@ -119,7 +118,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: write
@@ -155,7 +153,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The hit groups are numbered in this order.
 fn pipeline(gpu: &Gpu, textures: &TextureTable) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -174,7 +171,6 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable) -> Result<RayTracingPipeline> {
         .hit_data::<Look>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline
 
 // ANCHOR: choose
 /// The group that an instance takes, and the look that it starts with.

@@ -113,7 +113,6 @@ impl ShapesOnGpu {
         build != self.build || reach != self.reach
     }
 
-    // ANCHOR: host_c
     /// c of the quadratic for rays from the eye: products and sums of f32 numbers, in f64.
     pub fn compute_host_c(&mut self, frame: &Frame, eye: Vec3) -> Result<()> {
         if self.host_c.as_ref().is_some_and(|(known, _)| *known == eye) {
@@ -136,7 +135,6 @@ impl ShapesOnGpu {
         self.host_c = Some((eye, buffer));
         Ok(())
     }
-    // ANCHOR_END: host_c
 
     /// Where c lies; nowhere before it was computed.
     pub fn host_c_address(&self) -> Address {
@@ -161,10 +159,8 @@ impl Level {
         ordering: bool,
         reach: f32,
     ) -> Result<Self> {
-        // ANCHOR: order
         let order = order::for_build(gpu, bounds, ordering);
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
-        // ANCHOR_END: order
         let ordered = order.iter().map(|&i| bounds[i as usize]);
         let blas =
             (!bounds.is_empty()).then(|| boxes::bottom(gpu, name, ordered, reach)).transpose()?;

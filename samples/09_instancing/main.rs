@@ -96,7 +96,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.build.scene) {
             self.camera = formation::camera(self.build.scene);
@@ -116,7 +115,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         self.pieces.rebuild(gpu, &mut self.scene, self.build)
@@ -151,7 +149,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(
     gpu: &Gpu,
@@ -173,4 +170,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

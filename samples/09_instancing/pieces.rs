@@ -48,7 +48,6 @@ impl Pieces {
         Ok(self.top_level.insert(top_level))
     }
 
-    // ANCHOR: memory
     /// Bytes of everything that grows with the pieces.
     pub fn memory(&self, scene: &SceneOnGpu) -> serde_json::Value {
         let meshes = &self.meshes.model.meshes;
@@ -66,5 +65,4 @@ impl Pieces {
             "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
         })
     }
-    // ANCHOR_END: memory
 }

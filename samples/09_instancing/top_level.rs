@@ -9,7 +9,6 @@ use glam::{DMat3, Mat3};
 
 use crate::formation::{BLACK, BOARD, Formation, Piece, WHITE};
 
-// ANCHOR: masks
 /// Which bits a ray asks for: it sees an instance if they share one.
 pub const SEEN: [(&str, u8); 4] = [
     ("everything", 0xff),
@@ -17,7 +16,6 @@ pub const SEEN: [(&str, u8); 4] = [
     ("all but black", BOARD | WHITE),
     ("the board", BOARD),
 ];
-// ANCHOR_END: masks
 
 const NO_FLAGS: Flags = Flags::empty();
 /// What an instance may say of its triangles.
@@ -28,7 +26,6 @@ pub const FLAGS: [(&str, Flags); 4] = [
     ("force no-opaque", Flags::FORCE_NO_OPAQUE),
 ];
 
-// ANCHOR: record
 common::shader_struct! {
     /// What a piece has of its own, at its custom index.
     pub struct PieceRecord {
@@ -38,7 +35,6 @@ common::shader_struct! {
         tone: f32,
     }
 }
-// ANCHOR_END: record
 
 /// Every piece as an instance of the top level.
 pub struct TopLevel {
@@ -86,7 +82,6 @@ impl TopLevel {
     }
 }
 
-// ANCHOR: inverse
 /// The inverse in f64, once a piece, and not in f32, once a ray or by the device.
 fn record(piece: &Piece) -> PieceRecord {
     let columns = piece.linear.to_cols_array().map(f64::from);
@@ -97,4 +92,3 @@ fn record(piece: &Piece) -> PieceRecord {
         tone: piece.tone,
     }
 }
-// ANCHOR_END: inverse

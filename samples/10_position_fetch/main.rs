@@ -31,7 +31,6 @@ struct Demo {
     constants: Constants,
 }
 
-// ANCHOR: show
 common::shader_enum! {
     /// What a pixel shows.
     enum Show: SHOW {
@@ -41,7 +40,6 @@ common::shader_enum! {
     /// Where the hit shader finds the corners of its triangle.
     enum Positions: POSITIONS { Structure = "acceleration structure", Buffer }
 }
-// ANCHOR_END: show
 
 /// What a pipeline is made for: the specialization constants of its shaders.
 #[derive(Clone, Copy, PartialEq)]
@@ -80,7 +78,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.choice("positions", &mut self.constants.positions);
@@ -88,9 +85,7 @@ impl Sample for Demo {
         c.slider("sun elevation", &mut self.sun.elevation, 0.0..=90.0);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let position_fetch = self.constants.positions == Positions::Structure;
         if position_fetch != self.scene.options.position_fetch {
@@ -101,7 +96,6 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -124,7 +118,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The pipeline for the shaders' constants.
 fn pipeline(
     gpu: &Gpu,
@@ -144,4 +137,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -112,7 +112,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.name) {
             self.take_scene();
@@ -128,7 +127,6 @@ impl Sample for Demo {
         c.choice("sum", &mut self.constants.sum);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.name != self.built {
@@ -140,7 +138,6 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: sums
         let extent = frame.image.extent;
         let size =
             u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
@@ -153,7 +150,6 @@ impl Sample for Demo {
         }
         // The frame before may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
-        // ANCHOR_END: sums
         // ANCHOR: trace
         let light = Light::directional(&self.sun);
         let push = Push {
@@ -192,7 +188,6 @@ impl Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: however long a path is, its rays do not nest.
 fn pipeline(
     gpu: &Gpu,
@@ -215,4 +210,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -66,7 +66,6 @@ impl Staged {
     }
 }
 
-// ANCHOR: white
 /// A scene in white: what a surface does not mirror, it scatters, and it swallows nothing.
 fn white(source: &Scene, polished: bool) -> Scene {
     let mut scene = source.clone();
@@ -81,4 +80,3 @@ fn white(source: &Scene, polished: bool) -> Scene {
     }
     scene
 }
-// ANCHOR_END: white

@@ -129,7 +129,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("preset", &mut self.preset) {
             self.take_preset();
@@ -144,7 +143,6 @@ impl Sample for Demo {
         c.choice("plane test", &mut self.constants.plane_test);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.preset != self.built {
@@ -156,7 +154,6 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: world
         let camera = self.camera.basis(frame.aspect());
         let (plane, board) = self.plane.for_shaders(camera.origin);
         let [sun, lamp] = self.lighting.both();
@@ -168,7 +165,6 @@ impl Sample for Demo {
             lights: if self.lights == Lights::Point { [lamp, sun] } else { [sun, lamp] },
         };
         self.world.update(frame.cmd, &[world])?;
-        // ANCHOR_END: world
         // ANCHOR: trace
         let push = Push {
             camera,
@@ -203,7 +199,6 @@ impl Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The plane adds no shader: raygen knows where it is.
 fn pipeline(
     gpu: &Gpu,
@@ -228,4 +223,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -67,7 +67,6 @@ pub fn extend(model: &mut Model) {
     }
 }
 
-// ANCHOR: reflection
 /// What part of the light a material mirrors when looked at straight. In an MTL file that is the
 /// specular colour, if the illumination model reflects (`illum 3`); the balls have a list of
 /// their own, and their mirror images have their colour.
@@ -78,7 +77,6 @@ pub fn reflection(material: &Material) -> Vec3 {
         None => Vec3::ZERO,
     }
 }
-// ANCHOR_END: reflection
 
 impl Preset {
     /// The preset of a name. `scene` stands on the board; the others take meshes of its model.
@@ -91,7 +89,6 @@ impl Preset {
     }
 }
 
-// ANCHOR: board
 /// The scene on an infinite board. The plane y = 0 takes the place of the squares and the frame. The screen,
 /// which stands on the frame, is left out: there is the horizon.
 fn board(scene: &Scene) -> Preset {
@@ -116,9 +113,7 @@ fn board(scene: &Scene) -> Preset {
         },
     }
 }
-// ANCHOR_END: board
 
-// ANCHOR: four_spheres
 /// Four balls above a green plane, which they mirror and which mirrors them.
 fn four_spheres(scene: &Scene) -> Preset {
     let model = scene.model.clone();
@@ -144,7 +139,6 @@ fn four_spheres(scene: &Scene) -> Preset {
         },
     }
 }
-// ANCHOR_END: four_spheres
 
 /// Balls half sunk into a tilted plane, whose normal is no unit vector.
 fn pov(scene: &Scene) -> Preset {

@@ -72,13 +72,11 @@ impl Sample for Demo {
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self> {
         let mut scene = setup.scene_or(Scene::chess)?;
         let camera = scene.camera;
-        // ANCHOR: data
         let finishes = finishes(&scene.model);
         for instance in &mut scene.instances {
             instance.record_offset = finishes[instance.material].pattern;
         }
         let finishes = Buffer::with_data(gpu, "finishes", &finishes, input_usage())?;
-        // ANCHOR_END: data
         let scene = SceneOnGpu::new(gpu, &scene, setup.options)?;
         let sun = Sun { azimuth: 60.0, elevation: 17.0, radiance: Vec3::new(4.4, 3.5, 2.4) };
         Ok(Self {
@@ -96,7 +94,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         self.lighting.controls(c);
@@ -105,7 +102,6 @@ impl Sample for Demo {
         c.integer("far", &mut self.far, 0..=1 << 24);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -129,7 +125,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(
     gpu: &Gpu,
@@ -166,4 +161,3 @@ fn pipeline(
         .push_constants::<Push>();
     callables.iter().fold(builder, |builder, shader| builder.callable(shader)).build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -10,7 +10,6 @@ use glam::{UVec2, Vec2, Vec3};
 /// Width and height of the cloth.
 pub const SIZE: Vec2 = Vec2::new(4.2, 2.6);
 
-// ANCHOR: push
 common::shader_struct! {
     /// What the compute shader is told of a frame.
     struct Cloth {
@@ -24,7 +23,6 @@ common::shader_struct! {
         phase: f32,
     }
 }
-// ANCHOR_END: push
 
 /// The flag on the device.
 pub struct Flag {
@@ -78,7 +76,6 @@ impl Flag {
         }
     }
 
-    // ANCHOR: deform
     /// Moves the vertices to where they are at a frame.
     pub fn deform(&self, cmd: vk::CommandBuffer, frame: u32) -> Result<()> {
         let [swing, phase] = wind(frame);
@@ -91,7 +88,6 @@ impl Flag {
         barrier::deform_to_build(&self.gpu, cmd);
         Ok(())
     }
-    // ANCHOR_END: deform
 }
 
 /// The box that the cloth never leaves, about the pole's top.
@@ -99,7 +95,6 @@ pub fn bounds() -> (Vec3, Vec3) {
     (Vec3::new(-0.5 * SIZE.x, -1.25 * SIZE.y, -SIZE.x), Vec3::new(SIZE.x, 0.1, SIZE.x))
 }
 
-// ANCHOR: wind
 /// How far the cloth swings at a frame, and the phase of its waves: in 64 bits, so that the last frame of a long
 /// game is as exact as the first.
 fn wind(frame: u32) -> [f32; 2] {
@@ -110,7 +105,6 @@ fn wind(frame: u32) -> [f32; 2] {
     let open = open * open * (3.0 - 2.0 * open);
     [(1.9 + (gust - 1.9) * open) as f32, (0.9 * seconds).fract() as f32]
 }
-// ANCHOR_END: wind
 
 /// The cloth without wind: it hangs in a plane from its pole, two triangles a cell.
 fn flat(cells: UVec2) -> Mesh {
@@ -130,7 +124,6 @@ fn flat(cells: UVec2) -> Mesh {
     Mesh { name: "flag".to_owned(), vertices, triangles, material: 0 }
 }
 
-// ANCHOR: pipeline
 fn pipeline(gpu: &Gpu) -> Result<ComputePipeline> {
     ComputePipeline::builder(env!("CARGO_BIN_NAME"))
         .compute("flag.comp")
@@ -138,4 +131,3 @@ fn pipeline(gpu: &Gpu) -> Result<ComputePipeline> {
         .push_constants::<Cloth>()
         .build_compute(gpu)
 }
-// ANCHOR_END: pipeline

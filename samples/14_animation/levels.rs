@@ -68,7 +68,6 @@ impl Levels {
         self.shown == Some((frame, plan))
     }
 
-    // ANCHOR: reach
     /// Records what takes the levels to a frame. What they are there follows from the frame and the plan alone: built
     /// at the last frame that `every` divides, and updated once from there.
     pub fn reach(
@@ -93,9 +92,7 @@ impl Levels {
         self.shown = Some((frame, plan));
         Ok(())
     }
-    // ANCHOR_END: reach
 
-    // ANCHOR: show
     /// Moves everything to a frame: vertices, the flag's bottom level, instances, the top level, in this order.
     fn show(
         &mut self,
@@ -126,7 +123,6 @@ impl Levels {
             false => self.tlas.update(cmd, &input, for_top),
         })
     }
-    // ANCHOR_END: show
 
     /// Bytes and milliseconds of both levels, built and updated.
     pub fn report(&self) -> Result<serde_json::Value> {

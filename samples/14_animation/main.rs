@@ -93,7 +93,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.playback(&mut self.playback);
         c.choice("flag", &mut self.plan.flag);
@@ -104,7 +103,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     /// What was set is reached before the next frame: its time is that of tracing.
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
@@ -169,7 +167,6 @@ fn motion(setup: &Setup) -> Result<Motion> {
     legs::open(path)
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -185,4 +182,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

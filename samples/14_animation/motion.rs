@@ -60,7 +60,6 @@ pub struct Placed {
 }
 
 impl Motion {
-    // ANCHOR: frame
     /// Every piece at a frame, in their order.
     pub fn at(&self, frame: u32) -> impl Iterator<Item = Placed> {
         self.pieces.iter().map(move |piece| {
@@ -77,5 +76,4 @@ impl Motion {
             Placed { side, kind, at: Affine3A { matrix3, translation: Vec3A::from(place) } }
         })
     }
-    // ANCHOR_END: frame
 }

@@ -134,7 +134,6 @@ impl World {
         order::for_build(gpu, &bounds.collect::<Vec<_>>(), self.scene.options.ordering)
     }
 
-    // ANCHOR: instances
     /// The instances at a frame, in an order that a build has chosen.
     pub fn instances(
         &self,
@@ -150,7 +149,6 @@ impl World {
         };
         order.iter().map(instance).collect()
     }
-    // ANCHOR_END: instances
 }
 
 /// Adds table, pole and the flag's material to the chess set; returns that.

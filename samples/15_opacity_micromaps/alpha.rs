@@ -5,7 +5,6 @@ use glam::DVec2;
 /// Alpha from here on counts as opaque.
 pub const THRESHOLD: f64 = 0.5;
 
-// ANCHOR: guard
 /// How far from the threshold a texel has to be. A device's filter has few bits, and two devices may answer
 /// differently where alpha is this near.
 pub const GUARD: f64 = 0.02;
@@ -13,7 +12,6 @@ pub const GUARD: f64 = 0.02;
 /// How far a device's filter may look beside the place it is asked for, in texels: it knows a place to at least
 /// four binary digits of a texel (`subTexelPrecisionBits`).
 pub const SUBTEXEL: f64 = 1.0 / 16.0;
-// ANCHOR_END: guard
 
 /// The alpha channel of a texture, repeated beyond its edges.
 pub struct Alpha {
@@ -28,7 +26,6 @@ impl Alpha {
     pub fn new(width: u32, height: u32, rgba: &[u8]) -> Self {
         let size @ [width, height] = [width as usize, height as usize];
         let alpha: Vec<u8> = rgba.iter().skip(3).step_by(4).copied().collect();
-        // ANCHOR: sums
         let mut sums = vec![[0; 2]; (width + 1) * (height + 1)];
         for y in 0..height {
             let mut row = [0; 2];
@@ -40,7 +37,6 @@ impl Alpha {
                 sums[(y + 1) * (width + 1) + x + 1] = [above[0] + row[0], above[1] + row[1]];
             }
         }
-        // ANCHOR_END: sums
         Self { size, alpha, sums }
     }
 
@@ -49,7 +45,6 @@ impl Alpha {
         DVec2::new(self.size[0] as f64, self.size[1] as f64)
     }
 
-    // ANCHOR: range
     /// What every lookup between two corners of a box answers, in texture coordinates: opaque, transparent, or
     /// nothing certain. A lookup lies between the least and the largest of the texels that it reads, whatever
     /// their shares.
@@ -68,7 +63,6 @@ impl Alpha {
         let [all, opaque, transparent] = found;
         if opaque == all { Some(true) } else { (transparent == all).then_some(false) }
     }
-    // ANCHOR_END: range
 
     /// How many texels of a rectangle are surely opaque, and how many surely transparent.
     fn count(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> [u32; 2] {
@@ -93,7 +87,6 @@ impl Alpha {
     }
 }
 
-// ANCHOR: texels
 /// The columns, or rows, that lookups between two coordinates can read, as ranges within the texture: the second is
 /// empty unless they go over its edge. None if a coordinate is not finite.
 fn texels(low: f64, high: f64, size: usize) -> Option<[(usize, usize); 2]> {
@@ -111,4 +104,3 @@ fn texels(low: f64, high: f64, size: usize) -> Option<[(usize, usize); 2]> {
     let end = start + (behind - first) as usize;
     Some([(start, end.min(size)), (0, end.saturating_sub(size))])
 }
-// ANCHOR_END: texels

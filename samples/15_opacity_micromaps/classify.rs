@@ -15,7 +15,6 @@ common::shader_enum! {
     }
 }
 
-// ANCHOR: slack
 /// How far outside of a triangle the weights of a hit may lie, by the rounding of the device. Beyond that the
 /// shader takes no state for true. The same number is in `micromap.glsl`.
 pub const SLACK: f64 = 1.0 / 16384.0;
@@ -26,7 +25,6 @@ pub const SEARCH: f64 = 1.0 / 1_048_576.0;
 /// What the shader rounds where it interpolates texture coordinates and multiplies them by the texture's size,
 /// as a part of the largest coordinate. A dozen roundings of 2^-24 each are less.
 pub const ROUNDING: f64 = 1.0 / 1_048_576.0;
-// ANCHOR_END: slack
 
 /// The state of each micro-triangle of a triangle, in the order of the curve. Corners are texture coordinates.
 pub fn triangle(alpha: &Alpha, corners: [Vec2; 3], level: u32, rule: Rule) -> Vec<State> {
@@ -49,7 +47,6 @@ fn micro_corners(corners: [DVec2; 3], index: u32, level: u32) -> [DVec2; 3] {
         .map(|[a, b, c]| exact(a) * corners[0] + exact(b) * corners[1] + exact(c) * corners[2])
 }
 
-// ANCHOR: bound
 /// Looks at the box around a micro-triangle, made larger by all that may be rounded.
 fn by_bound(alpha: &Alpha, corners: [DVec2; 3], small: [DVec2; 3]) -> State {
     let (low, high) = around(small);
@@ -64,7 +61,6 @@ fn by_bound(alpha: &Alpha, corners: [DVec2; 3], small: [DVec2; 3]) -> State {
         None => guess(alpha.lookup((small[0] + small[1] + small[2]) / 3.0)),
     }
 }
-// ANCHOR_END: bound
 
 /// Unknown, and what it would be by its middle.
 fn guess(alpha: f64) -> State {
@@ -76,7 +72,6 @@ fn around(corners: [DVec2; 3]) -> (DVec2, DVec2) {
     (a.min(b).min(c), a.max(b).max(c))
 }
 
-// ANCHOR: samples
 /// The rule of a well-known tutorial: four lookups at the middle and beside it. How far beside does not depend on
 /// the level.
 fn by_samples(alpha: &Alpha, corners: [DVec2; 3], index: u32, level: u32) -> State {
@@ -97,4 +92,3 @@ fn by_samples(alpha: &Alpha, corners: [DVec2; 3], index: u32, level: u32) -> Sta
         guess(mean)
     }
 }
-// ANCHOR_END: samples

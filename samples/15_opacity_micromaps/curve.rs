@@ -30,7 +30,6 @@ pub const fn bytes(level: u32) -> usize {
     count(level).div_ceil(4) as usize
 }
 
-// ANCHOR: corners
 /// The corners of a micro-triangle. Two binary digits of its number choose one of four parts, the next two a
 /// part of that.
 pub fn corners(index: u32, level: u32) -> [Weights; 3] {
@@ -48,7 +47,6 @@ pub fn corners(index: u32, level: u32) -> [Weights; 3] {
     }
     triangle
 }
-// ANCHOR_END: corners
 
 /// Written out, as most of the time that states take is spent here: weights are no less than 0.
 fn middle(a: Weights, b: Weights) -> Weights {
@@ -62,10 +60,8 @@ pub fn tally(states: &[State]) -> [u64; 4] {
     counts
 }
 
-// ANCHOR: pack
 /// Two bits a state, from the lowest of each byte.
 pub fn pack(states: &[State]) -> Vec<u8> {
     let byte = |four: &[State]| four.iter().rev().fold(0, |byte, &state| byte << 2 | state as u8);
     states.chunks(4).map(byte).collect()
 }
-// ANCHOR_END: pack

@@ -105,7 +105,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.choice("level", &mut self.build.level);
@@ -116,16 +115,13 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.build != self.micromaps.build {
             self.micromaps = Micromaps::new(gpu, &self.source, &self.scene, self.build)?;
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -167,7 +163,6 @@ fn behind_the_screen() -> Result<Scene> {
     Ok(scene)
 }
 
-// ANCHOR: pipeline
 /// The pipeline for the shaders' constants.
 fn pipeline(
     gpu: &Gpu,
@@ -188,4 +183,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -106,7 +106,6 @@ impl Micromaps {
             let alpha = alphas
                 .entry(pair.texture)
                 .or_insert_with(|| Alpha::new(of.width, of.height, &of.rgba));
-            // ANCHOR: states
             let mesh = &scene.model.meshes[pair.mesh];
             let states = workers::each(&mesh.triangles, |corners| {
                 let corners = corners.map(|corner| mesh.vertices[corner as usize].uv);
@@ -114,7 +113,6 @@ impl Micromaps {
                 progress.lock().unwrap_or_else(PoisonError::into_inner).step();
                 (curve::pack(&states), curve::tally(&states))
             });
-            // ANCHOR_END: states
             let mut bytes = Vec::with_capacity(states.len() * curve::bytes(cut) + 3);
             for (packed, tally) in states {
                 bytes.extend(packed);

@@ -75,14 +75,12 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
         c.one_of("workgroup", &mut self.constants.workgroup, &WORKGROUPS.map(|(shape, _)| shape));
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -105,7 +103,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// One stage: no groups, no recursion, and nothing to put into a table.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<ComputePipeline> {
     let (_, workgroup) = WORKGROUPS[constants.workgroup as usize];
@@ -119,4 +116,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .push_constants::<Push>()
         .build_compute(gpu)
 }
-// ANCHOR_END: pipeline

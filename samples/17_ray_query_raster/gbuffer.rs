@@ -19,7 +19,6 @@ common::shader_enum! {
     }
 }
 
-// ANCHOR: depth
 impl Depth {
     fn format(self) -> vk::Format {
         match self {
@@ -36,7 +35,6 @@ impl Depth {
         }
     }
 }
-// ANCHOR_END: depth
 
 common::shader_struct! {
     /// Where an instance stands: both matrices by columns.
@@ -155,7 +153,6 @@ impl Targets {
         Ok(Self { seen, depth })
     }
 
-    // ANCHOR: begin
     /// Begins to draw: what the images held is of no more use.
     fn begin(&self, frame: &Frame, depth: Depth) {
         use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
@@ -207,9 +204,7 @@ impl Targets {
             device.cmd_set_scissor(frame.cmd, 0, &[extent.into()]);
         }
     }
-    // ANCHOR_END: begin
 
-    // ANCHOR: end
     /// Ends drawing: what was drawn becomes visible to the compute shader.
     fn end(&self, frame: &Frame) {
         use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
@@ -225,7 +220,6 @@ impl Targets {
             frame.gpu.device.cmd_pipeline_barrier2(frame.cmd, &dependency);
         }
     }
-    // ANCHOR_END: end
 }
 
 /// A change of an image's layout, whose stages are still to be named.
@@ -241,7 +235,6 @@ fn barrier(
         .new_layout(to)
 }
 
-// ANCHOR: pipeline
 /// Two stages, and the formats of what they draw to. There is no vertex input: corners are read by address.
 fn pipeline(gpu: &Gpu, _: &TextureTable, depth: Depth) -> Result<GraphicsPipeline> {
     let (_, nearer) = depth.farthest();
@@ -254,4 +247,3 @@ fn pipeline(gpu: &Gpu, _: &TextureTable, depth: Depth) -> Result<GraphicsPipelin
         .push_constants::<Draw>()
         .build_graphics(gpu)
 }
-// ANCHOR_END: pipeline

@@ -86,7 +86,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.choice("primary", &mut self.constants.primary);
@@ -95,7 +94,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -127,7 +125,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// One stage: no groups, no recursion, and nothing to put into a table.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<ComputePipeline> {
     ComputePipeline::builder(env!("CARGO_BIN_NAME"))
@@ -142,4 +139,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .push_constants::<Push>()
         .build_compute(gpu)
 }
-// ANCHOR_END: pipeline

@@ -94,7 +94,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         // A scene brings its view.
         if c.choice("scene", &mut self.build.scene) {
@@ -113,9 +112,7 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let (eye, old) = (self.camera.eye.as_vec3(), &self.strands);
         if old.is_outdated(self.build, eye) {
@@ -124,7 +121,6 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let scene = &self.strands.scene;
@@ -148,7 +144,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// A hit group for each kind of surface: triangles, and swept spheres.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -174,4 +169,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

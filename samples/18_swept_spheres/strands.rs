@@ -47,7 +47,6 @@ pub struct Strands {
 }
 
 impl Strands {
-    // ANCHOR: chain
     /// Segments from each node to the next: two that share an end share its numbers.
     pub fn chain(&mut self, nodes: impl IntoIterator<Item = Node>, material: u32) {
         let first = self.nodes.len() as u32;
@@ -55,9 +54,7 @@ impl Strands {
         let last = self.nodes.len() as u32;
         self.segments.extend((first + 1..last).map(|next| Segment { first: next - 1, material }));
     }
-    // ANCHOR_END: chain
 
-    // ANCHOR: bounds
     /// Corners of the box around each segment: the box around both of its end spheres, for what the segment
     /// adds to them lies between them. Never smaller by rounding.
     pub fn bounds(&self) -> Vec<Bounds> {
@@ -67,7 +64,6 @@ impl Strands {
         };
         self.segments.iter().map(around).collect()
     }
-    // ANCHOR_END: bounds
 }
 
 impl Node {

@@ -95,7 +95,6 @@ impl StrandsOnGpu {
         let bounds = strands.bounds();
         let all = around(bounds.iter().chain(&source.bounds_of_instances()));
         let reach = reach(all, eye);
-        // ANCHOR: level
         let order = order::for_build(gpu, &bounds, options.ordering);
         let ids = Buffer::with_data(gpu, "order of segments", &order, input_usage())?;
         let mut boxes_of = source.bounds_of_instances();
@@ -110,7 +109,6 @@ impl StrandsOnGpu {
             instances.push(instance_on_gpu(&Affine3A::IDENTITY, source.instances.len(), 1, blas));
             boxes_of.push(around(&bounds));
         }
-        // ANCHOR_END: level
         let ordered = order::for_build(gpu, &boxes_of, options.ordering);
         let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
         let tlas = build_top(gpu, &ordered)?;

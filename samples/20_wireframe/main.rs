@@ -73,7 +73,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.slider("line width", &mut self.width, 0.0..=20.0);
@@ -82,7 +81,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -107,7 +105,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The pipeline for the shaders' constants.
 fn pipeline(
     gpu: &Gpu,
@@ -130,4 +127,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

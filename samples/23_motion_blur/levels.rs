@@ -130,7 +130,6 @@ impl Levels {
         of(self.room_for) == of(plan)
     }
 
-    // ANCHOR: reach
     /// Records what builds the levels of a frame.
     pub fn reach(
         &mut self,
@@ -164,9 +163,7 @@ impl Levels {
         self.shown = Some((frame, plan));
         Ok(())
     }
-    // ANCHOR_END: reach
 
-    // ANCHOR: instances
     /// The instances, neighbours beside each other. What is under way is there once for each moment, or once swept.
     fn instances(&self, world: &World, shown: &[Shown], plan: Plan) -> Vec<[u8; 64]> {
         let (mut list, mut mover) = (Vec::new(), 0);
@@ -203,7 +200,6 @@ impl Levels {
         let order = order::for_build(&self.gpu, &bounds, ordering);
         order.iter().map(|&index| instance_bytes(&list[index as usize].1)).collect()
     }
-    // ANCHOR_END: instances
 
     /// Bytes, what is in them, and how often the intersection shader was called.
     pub fn report(&self) -> Result<serde_json::Value> {

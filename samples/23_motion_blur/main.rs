@@ -115,7 +115,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.playback(&mut self.playback);
         c.slider("shutter", &mut self.plan.shutter, 0.0..=2.0);
@@ -130,7 +129,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if !self.levels.fit(self.plan) {
@@ -179,13 +177,11 @@ impl Sample for Demo {
 }
 
 impl Demo {
-    // ANCHOR: samples
     /// One sample says it all where nothing is under way. Data has no mean: then it is that of the first sample.
     fn samples_needed(&self) -> u32 {
         let is_data = [Show::Hit, Show::Direction, Show::Origin].contains(&self.constants.show);
         if is_data || !self.levels.moves { 1 } else { self.samples }
     }
-    // ANCHOR_END: samples
 }
 
 /// The legs that `--scene` names, else those of Morphy's game at the opera.
@@ -199,7 +195,6 @@ fn motion(setup: &Setup) -> Result<Motion> {
     legs::open(path)
 }
 
-// ANCHOR: pipeline
 /// A hit group for triangles as they stand, and one for those that an intersection shader moves.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -227,4 +222,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -11,7 +11,6 @@ pub const KINDS: [&str; 7] = ["pawn", "rook", "knight", "bishop", "queen", "king
 /// Frames that a piece is under way.
 pub const UNDER_WAY: u32 = 34;
 
-// ANCHOR: leg
 /// A piece on its way: from here to there, in these frames.
 pub struct Leg {
     pub begin: u32,
@@ -49,7 +48,6 @@ fn smooth(x: f32) -> f32 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
-// ANCHOR_END: leg
 
 /// A piece through a whole game: its side and kind by number, where it stands at first, and its legs in order.
 pub struct Piece {
@@ -86,7 +84,6 @@ impl Placed {
 }
 
 impl Motion {
-    // ANCHOR: time
     /// Every piece at a time, in their order; those that are lifted turn so many times on their way.
     pub fn at(&self, time: f64, turns: u32) -> impl Iterator<Item = Placed> {
         self.pieces.iter().map(move |piece| {
@@ -102,7 +99,6 @@ impl Motion {
             Placed { side, kind, yaw, place }
         })
     }
-    // ANCHOR_END: time
 
     /// The most pieces that are under way at any time, seen through a shutter that is open for so many frames.
     pub fn most_under_way(&self, shutter: f32) -> usize {

@@ -28,7 +28,6 @@ impl Pose {
     }
 }
 
-// ANCHOR: between
 /// The pose at a part of the way, 0 to 1, as a matrix.
 pub fn between([open, close]: [Pose; 2], part: f32, kind: Between) -> Affine3A {
     let translation = open.place + part * (close.place - open.place);
@@ -48,4 +47,3 @@ pub fn between([open, close]: [Pose; 2], part: f32, kind: Between) -> Affine3A {
         }
     }
 }
-// ANCHOR_END: between

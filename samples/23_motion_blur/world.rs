@@ -87,7 +87,6 @@ impl World {
         Ok(Self { scene, motion, addresses, kinds, standing, host, primitives, _records: records })
     }
 
-    // ANCHOR: shown
     /// Everything while the shutter is open, for so many frames from this one on: first what stands, then the pieces.
     pub fn shown(&self, frame: u32, shutter: f32, turns: u32) -> Vec<Shown> {
         let pieces = 2 * self.kinds.len();
@@ -112,7 +111,6 @@ impl World {
         });
         still.chain(moving).collect()
     }
-    // ANCHOR_END: shown
 
     /// How many instances there are.
     pub fn count(&self) -> usize {

@@ -85,7 +85,6 @@ impl Batch {
     }
 }
 
-// ANCHOR: margin
 /// Each shape in a bottom level of its own, as one box. The box has a margin that grows with the
 /// distance of its rays' origins: the device's box test rounds.
 fn boxes(gpu: &Gpu, shapes: &[Shape], asked: &[(usize, Ray)]) -> Result<Level> {
@@ -107,7 +106,6 @@ fn boxes(gpu: &Gpu, shapes: &[Shape], asked: &[(usize, Ray)]) -> Result<Level> {
         let size = (high - low).max_element().min(1e9);
         reach[index] = reach[index].max((origin - near).abs().max_element() + size);
     }
-    // ANCHOR_END: margin
     let bottom = |(shape, reach): (&Shape, &f64)| -> Result<_> {
         let (low, high) = shape.bounds();
         // As in `common::gpu::padded`; an instance's matrix takes three products and their sum.

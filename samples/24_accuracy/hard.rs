@@ -17,11 +17,9 @@ use crate::ladder::{Code, Primitive, Rung};
 use crate::probe::{Probe, Way};
 use crate::shape::Shape;
 
-// ANCHOR: range
 /// Traced, a top rung must be right where no coordinate of the ray's origin is larger than this. Farther
 /// away the device's own box test decides.
 const RANGE: f32 = 1e7;
-// ANCHOR_END: range
 
 /// What a run of a case file found.
 #[derive(Serialize)]

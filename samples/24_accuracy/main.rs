@@ -86,7 +86,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.one_of("show", &mut self.show, &["split", "picture", "error"]);
         let names = specimen::PRIMITIVES.map(Primitive::name);
@@ -100,7 +99,6 @@ impl Sample for Demo {
             c.chart(&live.chart(rung.label));
         }
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         self.choose_pipeline(frame.gpu)?;

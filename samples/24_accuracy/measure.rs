@@ -18,7 +18,6 @@ use crate::measurement::{Errors, March, MeasuredRung, Measurement, Time};
 use crate::probe::{Instrument, Load, Probe, Way};
 use crate::query::Answer;
 
-// ANCHOR: timed
 /// How many milliseconds a launch has to take to be worth timing; a software driver begins at once.
 const LEAST: f64 = 5.0;
 const LEAST_ON_SOFTWARE: f64 = 2.0;
@@ -30,7 +29,6 @@ const MOST_REPEATS_ON_A_GPU: u32 = 16;
 /// The most invocations for each query, and in all.
 const MOST_COPIES: u32 = 1024;
 const MOST_ASKED: u32 = 1 << 24;
-// ANCHOR_END: timed
 
 /// Measures every rung of these primitives (of all if there are none), or those that must be right, on
 /// `rays` rays a family, and times it over `rounds` rounds.
@@ -182,7 +180,6 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
     Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), ..errors }
 }
 
-// ANCHOR: enough
 /// How often to ask each query for a launch that is worth timing, and which rung is the cheapest.
 fn enough(
     probe: &Probe,
@@ -223,7 +220,6 @@ fn enough(
     let cheapest = (0..times.len()).min_by(|&a, &b| times[a].total_cmp(&times[b])).unwrap_or(0);
     Ok((load, cheapest))
 }
-// ANCHOR_END: enough
 
 // ANCHOR: times
 /// The time of every rung, one after the other in every round; `None` for what cannot be timed.

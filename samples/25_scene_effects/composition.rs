@@ -168,7 +168,6 @@ impl Composition {
         if plain { &[] } else { &self.finishes }
     }
 
-    // ANCHOR: prune
     /// Drops the meshes that nothing places and the textures that no material in use reads, so that no
     /// memory is spent on them. Materials stay: they are few, and others count on their numbers.
     pub fn prune(&mut self) {
@@ -194,7 +193,6 @@ impl Composition {
             }
         }
     }
-    // ANCHOR_END: prune
 }
 
 /// Glass has no holes: what comes through it is not what its opacity leaves.

@@ -49,7 +49,6 @@ impl Costs {
         Ok(Self { recipe, timers, rounds: Vec::new(), is_due: false })
     }
 
-    // ANCHOR: measure
     /// Records the picture without each effect and with all of them. `trace` records it by a recipe, and
     /// says whether that recipe's pipeline was there.
     ///
@@ -78,7 +77,6 @@ impl Costs {
         }
         Ok(())
     }
-    // ANCHOR_END: measure
 
     /// Adds the last band to its round.
     fn read(&mut self) -> Result<()> {

@@ -32,7 +32,6 @@ pub fn needed(findings: &[Finding]) -> Effects {
     needed.fold(Effects::default(), |set, finding| set.with(finding.effect))
 }
 
-// ANCHOR: found
 /// Why a scene calls for an effect, if it does. Only what is placed counts: a material that nothing
 /// wears calls for nothing.
 fn found(scene: &Composition, effect: Effect) -> Option<String> {
@@ -101,7 +100,6 @@ fn found(scene: &Composition, effect: Effect) -> Option<String> {
         MotionBlur => count(scene.moving(), "sphere").map(|n| format!("{n} under way")),
     }
 }
-// ANCHOR_END: found
 
 fn why_not(effect: Effect) -> &'static str {
     match effect {

@@ -95,7 +95,6 @@ impl SceneGeometry {
         reach(from, eye) <= self.reach
     }
 
-    // ANCHOR: level
     /// Boxes for the intersection shader of a kind, near beside near; returns their order.
     fn level(
         &mut self,
@@ -125,7 +124,6 @@ impl SceneGeometry {
         self._levels.push(blas);
         Ok(order)
     }
-    // ANCHOR_END: level
 
     /// Records in the order of the build; no buffer for none.
     fn records<T: bytemuck::Pod>(
@@ -161,7 +159,6 @@ impl SceneGeometry {
         })
     }
 
-    // ANCHOR: top
     /// The top level whose instances name the hit records of a pipeline, and the bits of its cull mask.
     ///
     /// # Errors
@@ -178,11 +175,9 @@ impl SceneGeometry {
         }
         Ok(&self.tops[place].1)
     }
-    // ANCHOR_END: top
 }
 
 impl Placed {
-    // ANCHOR: instance
     fn for_device(&self, recipe: Recipe) -> vk::AccelerationStructureInstanceKHR {
         let mask = self.kind.mask() as u8;
         vk::AccelerationStructureInstanceKHR {
@@ -197,7 +192,6 @@ impl Placed {
             },
         }
     }
-    // ANCHOR_END: instance
 }
 
 /// Corners of the box around a sphere and its way, never inside it by rounding.

@@ -22,7 +22,6 @@ impl Composition {
         }
     }
 
-    // ANCHOR: media
     /// The bodies of glass that a point is in: the lowest numbers of their materials first, and then air.
     pub fn media_at(&self, point: DVec3) -> [u32; 4] {
         let materials = &self.scene.model.materials;
@@ -48,5 +47,4 @@ impl Composition {
         media.resize(4, AIR);
         [media[0], media[1], media[2], media[3]]
     }
-    // ANCHOR_END: media
 }

@@ -21,13 +21,11 @@ pub struct Lamps {
 /// What no shadow ray asks for light.
 const NO_EMITTER: u32 = u32::MAX;
 
-// ANCHOR: lamp
 /// Whether shadow rays may ask a material for its light. They end before it: so they would not see whether
 /// they go through one of its holes.
 fn is_lamp(material: &Material) -> bool {
     material.emission.max_element() > 0.0 && !material.has_cutout()
 }
-// ANCHOR_END: lamp
 
 impl Composition {
     /// The first material of a sphere or a placed mesh that shines.

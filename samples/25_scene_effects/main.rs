@@ -103,7 +103,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         let known = if self.file.is_some() { SCENES.len() } else { FILE as usize };
         if c.one_of("scene", &mut self.number, &SCENES[..known]) {
@@ -128,7 +127,6 @@ impl Sample for Demo {
         c.slider("lens diameter", &mut self.scene.lens.diameter, 0.0..=1.0);
         c.slider("focus", &mut self.scene.lens.focus, effects::FOCUS);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.measure && !gpu.limits.has_timestamps() {

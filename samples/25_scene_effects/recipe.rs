@@ -56,7 +56,6 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    // ANCHOR: constants
     /// For a scene, and no other.
     pub fn specialised(scene: &Composition, effects: Effects) -> Self {
         let kinds = scene
@@ -81,7 +80,6 @@ impl Recipe {
             patterns: 0b1110,
         }
     }
-    // ANCHOR_END: constants
 
     /// The kinds of geometry that it has hit groups for, in the order of the hit records.
     pub fn kinds(&self) -> Vec<GeometryKind> {
@@ -99,7 +97,6 @@ impl Recipe {
         self.kinds().into_iter().fold(0, |mask, kind| mask | kind.mask())
     }
 
-    // ANCHOR: groups
     fn hit_group(&self, kind: GeometryKind) -> HitGroup<'static> {
         match kind {
             // Geometry without holes is opaque: the device calls no any-hit shader for it.
@@ -114,7 +111,6 @@ impl Recipe {
             GeometryKind::Strand => HitGroup::procedural("strand.rint").closest_hit("strand.rchit"),
         }
     }
-    // ANCHOR_END: groups
 
     /// What the device need not look for, where it can be told.
     fn skipped(&self, gpu: &Gpu) -> vk::PipelineCreateFlags {
@@ -130,7 +126,6 @@ impl Recipe {
     }
 }
 
-// ANCHOR: build
 /// Hit groups stand without gaps, so each has the number of its place.
 pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<RayTracingPipeline> {
     let mut builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -161,4 +156,3 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
     let defines: Vec<String> = recipe.effects.all().map(Effect::define).collect();
     defines.iter().fold(builder, |builder, define| builder.define(define, 1)).build(gpu)
 }
-// ANCHOR_END: build

@@ -35,7 +35,6 @@ pub fn report(demo: &Demo) -> Result<Value> {
     }))
 }
 
-// ANCHOR: compiled
 /// What was compiled, from the very words that the driver got.
 fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
     let Variant { key: recipe, pipeline, sbt } = variant;
@@ -57,4 +56,3 @@ fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
         "build_milliseconds": build_time.as_secs_f64() * 1e3,
     }))
 }
-// ANCHOR_END: compiled

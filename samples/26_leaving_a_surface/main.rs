@@ -92,7 +92,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
@@ -104,9 +103,7 @@ impl Sample for Demo {
         c.integer("bounce", &mut self.bounce, 0..=MAX_DEPTH);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: place
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let placement = Placement::new(self.size, self.moved);
         if placement != self.placement {
@@ -115,7 +112,6 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: place
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -140,7 +136,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// The rule for a ray's start is a constant of the pipeline, like the view.
 fn pipeline(
     gpu: &Gpu,
@@ -161,4 +156,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -9,7 +9,6 @@ use glam::{Vec2, Vec3};
 /// Two neighbouring parts of a profile make a smooth edge if the cosine of the angle between them is more.
 const SMOOTH: f32 = 0.8;
 
-// ANCHOR: turned
 /// A profile, turned around the y axis. Its points are radius and height, from the axis to the axis, and
 /// what it encloses is on its left. The normals are those of the round body.
 pub fn turned(name: &str, profile: &[Vec2], segments: u32) -> Mesh {
@@ -62,7 +61,6 @@ pub fn ball(name: &str, segments: u32) -> Mesh {
     mesh.vertices.iter_mut().for_each(|vertex| vertex.normal = vertex.position.normalize());
     mesh
 }
-// ANCHOR_END: turned
 
 /// A bar along z from -1/2 to 1/2; its section is the polygon, whose corners are counter-clockwise.
 pub fn bar(name: &str, section: &[Vec2]) -> Mesh {

@@ -31,7 +31,6 @@ common::shader_struct! {
 pub const AIR: u32 = u32::MAX;
 
 impl From<&Material> for Glass {
-    // ANCHOR: glass
     /// Of the illumination models 6 and 7 say that light is refracted, 4 and 9 that it is not: a body, and a
     /// sheet. `Tf` is what comes through a sheet, or through one unit of a body.
     fn from(material: &Material) -> Self {
@@ -47,10 +46,8 @@ impl From<&Material> for Glass {
             kind: kind as u32,
         }
     }
-    // ANCHOR_END: glass
 }
 
-// ANCHOR: media
 /// The bodies of glass that a point is in: the lowest numbers of their materials first, and then air.
 pub fn media_at(scene: &Scene, point: DVec3) -> [u32; 4] {
     let is_body =
@@ -86,4 +83,3 @@ fn turns(scene: &Scene, instance: &common::scene::Instance, point: DVec3) -> f64
     // A mirrored instance has its triangles the other way around.
     angle.abs() / (2.0 * std::f64::consts::PI)
 }
-// ANCHOR_END: media

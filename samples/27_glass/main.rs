@@ -125,7 +125,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.name) {
             let Staged { scene, lamp, sky } = Staged::new(self.name, &self.source);
@@ -140,7 +139,6 @@ impl Sample for Demo {
         c.integer("seed", &mut self.seed, 0..=1000);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.name != self.built {
@@ -153,7 +151,6 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: sums
         let extent = frame.image.extent;
         let size =
             u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
@@ -167,8 +164,6 @@ impl Sample for Demo {
         }
         // The frame before may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
-        // ANCHOR_END: sums
-        // ANCHOR: world
         if is_start {
             let light = Light::point(&self.lamp);
             let world = World {
@@ -181,7 +176,6 @@ impl Sample for Demo {
             };
             self.world.update(frame.cmd, &[world])?;
         }
-        // ANCHOR_END: world
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
@@ -214,7 +208,6 @@ fn glasses(gpu: &Gpu, scene: &Scene) -> Result<Buffer> {
     Buffer::with_data(gpu, "glasses", &glasses, input_usage())
 }
 
-// ANCHOR: pipeline
 /// Raygen traces every ray of a path: however long that is, rays do not nest.
 fn pipeline(
     gpu: &Gpu,
@@ -235,4 +228,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -48,7 +48,6 @@ const PANE: f32 = 1.2;
 /// How far a piece stands above the board: glass on wood has air below it.
 const GAP: f32 = 1e-3;
 
-// ANCHOR: chess
 /// The chess set: white men of glass, black ones of ruby glass, kings and queens of gold.
 pub fn chess() -> Result<Scene> {
     let mut scene = Scene::chess_of_metal()?;
@@ -85,7 +84,6 @@ fn glass(name: &str, refraction: f32, through: Vec3) -> Material {
         ..Material::default()
     }
 }
-// ANCHOR_END: chess
 
 impl Staged {
     /// The scene of a name; `source` is the chess set.
@@ -164,7 +162,6 @@ fn furnace(source: &Scene) -> Scene {
 /// How thick the glass of the drink is.
 const WALL: f32 = 0.07;
 
-// ANCHOR: drink
 /// A drink in a glass on the chess board; `into` is how far it reaches into the wall.
 ///
 /// The glass is the first material, so it counts where both are.
@@ -222,4 +219,3 @@ fn drink(source: &Scene, into: f32) -> Scene {
     scene.camera = Camera::new(DVec3::new(4.6, 2.7, -3.4), DVec3::new(0.45, 0.68, 0.45), 24.0);
     scene
 }
-// ANCHOR_END: drink

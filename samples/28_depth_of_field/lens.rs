@@ -40,7 +40,6 @@ impl ThinLens {
         Self { diameter: (focus / 10.0).min(WIDEST), focus, blades: 6, rotation: 0.0 }
     }
 
-    // ANCHOR: controls
     /// Declares what may be set.
     pub fn controls(&mut self, c: &mut Controls) {
         c.slider("lens diameter", &mut self.diameter, 0.0..=WIDEST);
@@ -48,7 +47,6 @@ impl ThinLens {
         c.integer("blades", &mut self.blades, 0..=12);
         c.slider("blade rotation", &mut self.rotation, 0.0..=360.0);
     }
-    // ANCHOR_END: controls
 
     /// The lens for a shader.
     pub fn shader(&self) -> Lens {

@@ -28,7 +28,6 @@ pub const UNITS: u64 = 1 << 24;
 pub const MOST: usize = 1 << 20;
 
 impl AliasTable {
-    // ANCHOR: shares
     /// A table for weights from 0 up. What is chosen has the probability of its *share*, the weight rounded to
     /// parts of the table.
     ///
@@ -64,7 +63,6 @@ impl AliasTable {
         shares[strongest] = all - others;
         Ok(Self { columns: columns(&shares, count), shares })
     }
-    // ANCHOR_END: shares
 
     /// The probability of number `i`.
     pub fn probability(&self, i: usize) -> f64 {
@@ -73,7 +71,6 @@ impl AliasTable {
     }
 }
 
-// ANCHOR: columns
 /// Divides shares among columns: one with less than a column gets the rest of its column from one with more.
 fn columns(shares: &[u64], count: usize) -> Vec<Column> {
     let mut left = shares.to_vec();
@@ -92,7 +89,6 @@ fn columns(shares: &[u64], count: usize) -> Vec<Column> {
     }
     columns
 }
-// ANCHOR_END: columns
 
 #[cfg(test)]
 mod tests {

@@ -72,7 +72,6 @@ pub struct Emitters {
 const ROUNDING: f64 = 1.0 / 16_777_216.0;
 
 impl Emitters {
-    // ANCHOR: emitters
     /// The emitters of a scene and its spheres.
     ///
     /// # Errors
@@ -96,7 +95,6 @@ impl Emitters {
         }
         Ok(Self { list, first, table })
     }
-    // ANCHOR_END: emitters
 }
 
 fn shines(material: &Material) -> bool {
@@ -104,7 +102,6 @@ fn shines(material: &Material) -> bool {
 }
 
 impl Emitter {
-    // ANCHOR: power
     /// The light that it sends out: pi times radiance times surface. A triangle shines on both sides.
     fn power(&self, material: &Material) -> f64 {
         let [across, along] = [self.across, self.along].map(|edge| edge.as_dvec3());
@@ -115,7 +112,6 @@ impl Emitter {
         let [red, green, blue] = material.emission.to_array().map(f64::from);
         std::f64::consts::PI * surface * (red + green + blue) / 3.0
     }
-    // ANCHOR_END: power
 }
 
 /// How near a ray may end to a sphere: as 08 has it for one that starts there, and `slack` for the way. Along

@@ -50,7 +50,6 @@ impl LitScene {
         let emitters = Emitters::new(scene, spheres)?;
         let reach = reach(staged, eye);
 
-        // ANCHOR: spheres
         // 08 teaches the box around a sphere and its margin.
         let bounds: Vec<order::Bounds> = spheres
             .iter()
@@ -70,7 +69,6 @@ impl LitScene {
             AccelerationStructure::bottom(gpu, "spheres", &[geometry], options)
         });
         let level = level.transpose()?;
-        // ANCHOR_END: spheres
 
         let mut around = scene.bounds_of_instances();
         let placed = scene.instances.iter().enumerate().map(|(i, instance)| {

@@ -127,7 +127,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         if c.choice("scene", &mut self.name) {
             let Staged { scene, sky, .. } = Staged::new(self.name, &self.source);
@@ -143,7 +142,6 @@ impl Sample for Demo {
         c.integer("seed", &mut self.seed, 0..=1000);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let eye = self.camera.eye.as_vec3();
@@ -158,7 +156,6 @@ impl Sample for Demo {
     }
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: sums
         let extent = frame.image.extent;
         let size =
             u64::from(extent.width) * u64::from(extent.height) * size_of::<PixelSum>() as u64;
@@ -171,7 +168,6 @@ impl Sample for Demo {
         }
         // The frame before may still write its sums when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
-        // ANCHOR_END: sums
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
@@ -201,7 +197,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Raygen traces every ray of a path: however long that is, rays do not nest.
 fn pipeline(
     gpu: &Gpu,
@@ -226,4 +221,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -42,7 +42,6 @@ pub struct Staged {
     pub sky: Sky,
 }
 
-// ANCHOR: chess
 /// Gold, silver, ivory, red and blue stone by night, among lamps, embers on the board and screens of paper.
 pub fn chess() -> Result<Staged> {
     let mut scene = Scene::chess_of_metal()?;
@@ -121,7 +120,6 @@ fn screen(size: Vec2) -> impl Iterator<Item = (Vec3, Vec3, bool)> {
 fn lamp(name: &str, emission: Vec3) -> Material {
     Material { name: name.to_owned(), base_color: Vec3::ZERO, emission, ..Material::default() }
 }
-// ANCHOR_END: chess
 
 impl Staged {
     /// A scene from a file: what shines in it is all the light, or else it is day.
@@ -156,7 +154,6 @@ impl Staged {
     }
 }
 
-// ANCHOR: furnace
 /// A scene in white that scatters all light, in a ball that shines with 1: there is nothing to be seen.
 fn furnace(source: &Staged) -> (Scene, Vec<Sphere>) {
     let mut scene = source.scene.clone();
@@ -172,9 +169,7 @@ fn furnace(source: &Staged) -> (Scene, Vec<Sphere>) {
     let material = scene.model.materials.len() - 1;
     (scene, vec![Sphere { center, radius, material }])
 }
-// ANCHOR_END: furnace
 
-// ANCHOR: above
 /// The white square alone, and balls that shine: centre, radius and radiance.
 fn above_square(balls: &[(Vec3, f32, f32)]) -> (Scene, Vec<Sphere>) {
     let mut scene = closed_forms::white_square(0.75);
@@ -198,4 +193,3 @@ pub fn many() -> Vec<(Vec3, f32, f32)> {
     };
     (0..64).map(ball).collect()
 }
-// ANCHOR_END: above

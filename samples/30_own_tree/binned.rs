@@ -65,7 +65,6 @@ struct Growth {
 }
 
 impl Growth {
-    // ANCHOR: grow
     /// The tree over a part that begins at position `first`, its root on a level; the root of all is on level 1.
     /// Nodes are appended: a node, all below its first child, all below its second.
     fn grow(
@@ -92,9 +91,7 @@ impl Growth {
         };
         Subtree::join(nodes, at, children, self.most)
     }
-    // ANCHOR_END: grow
 
-    // ANCHOR: beside
     /// As two calls of `grow`, the second on a thread of its own.
     fn grow_beside(
         &self,
@@ -127,7 +124,6 @@ impl Growth {
         b.node = b.node.map(|node| node + before);
         [a, b]
     }
-    // ANCHOR_END: beside
 
     /// Takes a thread, if there is one.
     fn has_idle(&self) -> bool {
@@ -136,7 +132,6 @@ impl Growth {
     }
 }
 
-// ANCHOR: split
 /// The most primitives that fit below a node on a level: what a leaf may have on the last, and twice as many on each
 /// level above.
 fn most_below(most: u32, level: u32) -> u64 {
@@ -176,7 +171,6 @@ fn partition(part: &mut [Primitive], is_first: impl Fn(&Primitive) -> bool) -> u
     }
     firsts
 }
-// ANCHOR_END: split
 
 /// Where the bins of a part lie: from the first middle of a primitive to the last.
 struct Grid {
@@ -189,7 +183,6 @@ struct Grid {
     bins: usize,
 }
 
-// ANCHOR: grid
 impl Grid {
     fn around(part: &[Primitive]) -> Self {
         let middle =
@@ -215,7 +208,6 @@ impl Grid {
         (self.place(hull, axis) as usize).min(self.bins - 1)
     }
 }
-// ANCHOR_END: grid
 
 /// What lies in the bins along each axis: the box around it, and how many.
 struct Bins<'a> {
@@ -223,7 +215,6 @@ struct Bins<'a> {
     grid: &'a Grid,
 }
 
-// ANCHOR: bins
 impl<'a> Bins<'a> {
     fn of(part: &[Primitive], grid: &'a Grid) -> Self {
         let mut bins = [[(Hull::EMPTY, 0); BINS]; 3];
@@ -260,15 +251,12 @@ impl<'a> Bins<'a> {
         best.1
     }
 }
-// ANCHOR_END: bins
 
-// ANCHOR: add
 /// Adds a bin to those so far, and says what they cost: area times count; ∞ where there are none.
 fn add(so_far: &mut (Hull, u32), bin: &(Hull, u32)) -> f64 {
     *so_far = (so_far.0.join(&bin.0), so_far.1 + bin.1);
     if so_far.1 == 0 { f64::INFINITY } else { so_far.0.half_area() * f64::from(so_far.1) }
 }
-// ANCHOR_END: add
 
 #[cfg(test)]
 mod tests;

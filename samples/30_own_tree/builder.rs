@@ -32,13 +32,11 @@ impl Builder {
         self.into_leaves(bounds, FOLDED)
     }
 
-    // ANCHOR: instances
     /// A tree over the boxes of instances. To enter one costs a ray as much as several nodes, so no two share a
     /// leaf: a ray that meets the leaf would enter both.
     pub fn over_instances(self, bounds: &[Bounds]) -> Tree {
         self.into_leaves(bounds, 1)
     }
-    // ANCHOR_END: instances
 
     fn into_leaves(self, bounds: &[Bounds], most: u32) -> Tree {
         let tree = binned_into(bounds, most);
@@ -68,7 +66,6 @@ impl Builder {
     }
 }
 
-// ANCHOR: device
 /// The device's tree. It is read back only to be packed with the others: a program that builds anew in each frame
 /// would walk it where it lies.
 fn on_device(gpu: &Gpu, builder: &DeviceBuilder, mesh: &Mesh) -> Result<Tree> {
@@ -85,4 +82,3 @@ fn on_device(gpu: &Gpu, builder: &DeviceBuilder, mesh: &Mesh) -> Result<Tree> {
         .with_context(|| format!("the device's tree of the mesh {}", quoted(&mesh.name)))?;
     Ok(read)
 }
-// ANCHOR_END: device

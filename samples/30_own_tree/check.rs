@@ -13,7 +13,6 @@ pub const DEPTH: u32 = 48;
 /// The most primitives in a leaf.
 pub const LEAF: u32 = 8;
 
-// ANCHOR: check
 /// Whether a tree keeps its promises: each primitive that has a place lies in just one leaf, each box holds
 /// all that lies below it, each node is reached in just one way, and depth and leaves have their bounds.
 ///
@@ -44,7 +43,6 @@ pub fn check(tree: &Tree, bounds: &[Bounds]) -> Result<()> {
     ensure!(missed.is_none(), "position {} of {} is in no leaf", missed.unwrap_or(0), order.len());
     Ok(())
 }
-// ANCHOR_END: check
 
 /// Whether all numbers of a tree over so many primitives lead somewhere, and each way down ends. Bytes that a device
 /// wrote may hold any numbers: this comes before they are followed. [`check`] also looks at the boxes.

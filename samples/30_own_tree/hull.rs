@@ -4,7 +4,6 @@ use common::glam::Vec3;
 
 use crate::tree::Bounds;
 
-// ANCHOR: hull
 /// A box: its low corner, and its high corner negated. So the box around two boxes is the lesser of each
 /// pair of numbers, which a processor finds for four pairs at a time. One number of each four is idle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +36,6 @@ impl Hull {
         x * y + y * z + z * x
     }
 }
-// ANCHOR_END: hull
 
 impl Hull {
     /// Half the middle along an axis: so it is finite, and so is the way from one to another.

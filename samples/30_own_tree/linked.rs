@@ -110,7 +110,6 @@ impl Linked {
         if a == child { b } else { a }
     }
 
-    // ANCHOR: links
     /// Takes a part out, and its parent, whose place the sibling takes. By how much the boxes above shrink.
     pub fn take_out(&mut self, part: u32) -> f64 {
         let parent = self[part].parent;
@@ -139,9 +138,7 @@ impl Linked {
             self[parent].children = [new, self.other(parent, old)];
         }
     }
-    // ANCHOR_END: links
 
-    // ANCHOR: renew
     /// Measures a part of two anew. Whether it has changed, and by how much its area has shrunk.
     fn renew(&mut self, at: u32) -> (bool, f64) {
         let [a, b] = self[at].children;
@@ -165,7 +162,6 @@ impl Linked {
         }
         all
     }
-    // ANCHOR_END: renew
 
     /// The tree for a shader, small parts folded into leaves of at most `most` primitives.
     pub fn into_tree(self, most: u32) -> Tree {

@@ -121,7 +121,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.sun(&mut self.sun);
@@ -135,7 +134,6 @@ impl Sample for Demo {
         c.integer("walk step", &mut self.view.step, 1..=200);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.builder != self.built_by {
@@ -166,7 +164,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// One stage, and a stack for the trees that there are.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<ComputePipeline> {
     ComputePipeline::builder(env!("CARGO_BIN_NAME"))
@@ -183,4 +180,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, constants: Constants) -> Result<
         .rounding_to_nearest_even(gpu)
         .build_compute(gpu)
 }
-// ANCHOR_END: pipeline

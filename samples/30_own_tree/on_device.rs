@@ -37,7 +37,6 @@ pub struct Triangles {
     pub count: u32,
 }
 
-// ANCHOR: pipelines
 /// Builds trees of triangles.
 pub struct DeviceBuilder {
     extent: ComputePipeline,
@@ -71,7 +70,6 @@ impl DeviceBuilder {
             gpu: gpu.clone(),
         })
     }
-    // ANCHOR_END: pipelines
 
     /// Records that `tree` becomes one over `triangles`, for the compute shaders that follow in `cmd`. Earlier ones
     /// may have read the tree, and moved the triangles.
@@ -90,7 +88,6 @@ impl DeviceBuilder {
     ) -> Result<()> {
         check(triangles, tree, scratch)?;
         self.sort(cmd, triangles, tree, scratch)?;
-        // ANCHOR: hierarchy
         let nodes_count = tree.nodes_count();
         let push = Hierarchy {
             keys: scratch.keys[1],
@@ -100,11 +97,9 @@ impl DeviceBuilder {
             nodes_count,
         };
         self.each(cmd, &self.hierarchy, &push, nodes_count)?;
-        // ANCHOR_END: hierarchy
         self.refit(cmd, triangles, tree, scratch)
     }
 
-    // ANCHOR: refit
     /// Records that the boxes and corners of a built tree are those of triangles that have moved. Which node lies
     /// above which stays, and with it which triangles were left out; a triangle whose corners are no longer finite
     /// has a box that no ray meets.
@@ -140,9 +135,7 @@ impl DeviceBuilder {
         barrier::pass_to_pass(&self.gpu, cmd);
         Ok(())
     }
-    // ANCHOR_END: refit
 
-    // ANCHOR: sort
     /// Records that positions get their triangles.
     fn sort(
         &self,
@@ -186,7 +179,6 @@ impl DeviceBuilder {
         }
         Ok(())
     }
-    // ANCHOR_END: sort
 
     /// Records a pass with an invocation for each of `count` things.
     fn each<T: ShaderStruct>(

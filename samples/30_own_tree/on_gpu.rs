@@ -75,7 +75,6 @@ impl TreesOnGpu {
         let meshes = &scene.model.meshes;
         let triangles: Vec<Vec<_>> = meshes.iter().map(corners_of).collect();
         let trees = builder.trees(gpu, meshes, &triangles)?;
-        // ANCHOR: top
         let bounds = scene.instances.iter().map(|instance| {
             let to_world = matrix(instance);
             let (low, high) = trees[instance.mesh].bounds();
@@ -84,9 +83,7 @@ impl TreesOnGpu {
         });
         let bounds: Vec<_> = bounds.collect();
         let top = builder.over_instances(&bounds);
-        // ANCHOR_END: top
 
-        // ANCHOR: pack
         let mut nodes: Vec<_> = top.placed(0, 0).collect();
         let mut corners = Vec::new();
         let mut starts = Vec::new();
@@ -101,7 +98,6 @@ impl TreesOnGpu {
         {
             ensure!(count < 1 << 28, "{count} {what} are too many: a position has 28 bits");
         }
-        // ANCHOR_END: pack
         let mut growth = 0.0f64;
         let mut reach = 0.0f32;
         let placed = top.order.iter().map(|&number| {
@@ -191,7 +187,6 @@ fn columns(matrix: &DAffine3) -> [Vec3; 4] {
     [of.x_axis, of.y_axis, of.z_axis, matrix.translation].map(DVec3::as_vec3)
 }
 
-// ANCHOR: growth
 /// u = 2^-24, the most that a rounding is off.
 const U: f64 = 1.0 / 16_777_216.0;
 
@@ -213,4 +208,3 @@ fn can_be_inverted(to_world: &DAffine3) -> bool {
     columns(&to_object).iter().all(|column| column.is_finite())
         && U * spread(to_world, &to_object) < 1.0
 }
-// ANCHOR_END: growth

@@ -13,7 +13,6 @@ pub const TRAVERSAL: f64 = 1.0;
 /// What a test of a primitive costs.
 pub const INTERSECTION: f64 = 1.0;
 
-// ANCHOR: cost
 /// What a line costs that meets the root's box and else lies anywhere: [`TRAVERSAL`] for each node that it
 /// visits, [`INTERSECTION`] for each primitive of a leaf that it visits. It meets a box within another as
 /// often as their surface areas say (Goldsmith and Salmon 1987, MacDonald and Booth 1990).
@@ -33,7 +32,6 @@ pub fn cost(tree: &Tree) -> f64 {
     let is_some = tree.nodes[0].children.iter().any(|child| child.low.x <= child.high.x);
     if is_some && root > 0.0 { TRAVERSAL + below / root } else { 0.0 }
 }
-// ANCHOR_END: cost
 
 /// How many nodes the longest way from the root passes, the root among them: as many entries as the stack
 /// of a walk needs, at most.

@@ -10,7 +10,6 @@ use crate::check::LEAF;
 use crate::hull::Hull;
 use crate::tree::{Bounds, Child, Node};
 
-// ANCHOR: quantised
 common::shader_struct! {
     /// A node whose boxes stand on a grid: a coordinate is `origin + q * step`, q a whole number up to 255.
     /// 36 bytes.
@@ -27,7 +26,6 @@ common::shader_struct! {
         pub first: [u32; 2],
     }
 }
-// ANCHOR_END: quantised
 
 /// The largest number that steps may reach, so that no sum is infinite: 2^126.
 const REACH: f32 = f32::from_bits((126 + 127) << 23);
@@ -74,7 +72,6 @@ fn is_empty((low, high): &Bounds) -> bool {
     low.x > high.x
 }
 
-// ANCHOR: decode
 impl Quantised {
     /// The boxes, as a shader finds them.
     pub fn children(&self) -> [Child; 2] {
@@ -92,9 +89,7 @@ impl Quantised {
         })
     }
 }
-// ANCHOR_END: decode
 
-// ANCHOR: grid
 /// A grid along one axis. A step is no shorter than the distance of floats at the far end, so that two places
 /// of the grid are two numbers.
 #[derive(Clone, Copy)]
@@ -119,9 +114,7 @@ impl Grid {
         let mut grids = steps.map(|step| Self { origin, step });
         grids.find(|grid| grid.is_at_least(255, high)).expect("the steps go beyond REACH")
     }
-    // ANCHOR_END: grid
 
-    // ANCHOR: places
     /// Whether a place on the grid is never above a number, however its sum is rounded.
     fn is_at_most(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
@@ -159,7 +152,6 @@ impl Grid {
         ((f64::from(x) - f64::from(self.origin)) / f64::from(self.step)) as u8
     }
 }
-// ANCHOR_END: places
 
 #[cfg(test)]
 mod tests;

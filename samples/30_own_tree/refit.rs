@@ -3,7 +3,6 @@
 use crate::hull::Hull;
 use crate::tree::{Bounds, Child, Node, Tree};
 
-// ANCHOR: refit
 /// Gives a tree over moved primitives the boxes that they need: as tight as before, but no longer around
 /// neighbours, if those have parted. Nodes may lie in any order.
 ///
@@ -41,7 +40,6 @@ fn upward(nodes: &[Node]) -> Vec<u32> {
     found.reverse();
     found
 }
-// ANCHOR_END: refit
 
 fn bounds_of(child: Child) -> Bounds {
     (child.low, child.high)

@@ -48,7 +48,6 @@ struct Move {
 }
 
 impl Linked {
-    // ANCHOR: round
     /// Looks for a better place for each part, and moves those that have one. Whether any has.
     fn round(&mut self) -> bool {
         let parts = self.len();
@@ -65,9 +64,7 @@ impl Linked {
         }
         moved
     }
-    // ANCHOR_END: round
 
-    // ANCHOR: search
     /// The best place for a part, if one is better than where it is.
     ///
     /// Where it is taken from, its parent goes with it, and the boxes above shrink. On the way to a place all
@@ -108,9 +105,7 @@ impl Linked {
             saved += self[above].area - rest.half_area();
         }
     }
-    // ANCHOR_END: search
 
-    // ANCHOR: move
     /// Moves a part beside another, if that makes all areas together smaller and no way too long.
     fn move_if_better(&mut self, part: u32, beside: u32) -> bool {
         let above = self[part].parent;
@@ -131,7 +126,6 @@ impl Linked {
         self.put_in(part, above, if is_better { beside } else { sibling });
         is_better
     }
-    // ANCHOR_END: move
 }
 
 #[cfg(test)]

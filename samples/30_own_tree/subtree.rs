@@ -22,7 +22,6 @@ pub(crate) struct Subtree {
     pub cost: f64,
 }
 
-// ANCHOR: fold
 impl Subtree {
     /// All of it in one leaf.
     pub fn leaf(hull: Hull, first: u32, count: u32) -> Self {
@@ -44,7 +43,6 @@ impl Subtree {
         Self { node: Some(at as u32), cost, ..leaf }
     }
 }
-// ANCHOR_END: fold
 
 impl From<Subtree> for Child {
     fn from(Subtree { hull, node, first, count, .. }: Subtree) -> Self {

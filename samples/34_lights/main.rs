@@ -62,13 +62,11 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         self.lighting.controls(c);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -90,7 +88,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -106,4 +103,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

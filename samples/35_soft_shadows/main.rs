@@ -64,7 +64,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         self.lighting.controls(c);
@@ -72,7 +71,6 @@ impl Sample for Demo {
         c.integer("light samples", &mut self.samples, 1..=64);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -98,7 +96,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -114,4 +111,3 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

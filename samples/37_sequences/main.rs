@@ -89,7 +89,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.show);
         c.choice("sequence", &mut self.sequence);
@@ -100,16 +99,13 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
-        // ANCHOR: means
         if self.means.extent != frame.image.extent {
             self.means = Image::storage(frame.gpu, "means", frame.image.extent)?;
         }
         // The frame before may still write its means when this one begins to read them.
         barrier::trace_to_trace(frame.gpu, frame.cmd);
-        // ANCHOR_END: means
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
@@ -136,15 +132,12 @@ impl Sample for Demo {
         Ok(())
     }
 
-    // ANCHOR: accumulates
     fn accumulates(&self) -> bool {
         // Data has no mean.
         self.accumulate && ![Show::Hit, Show::Direction].contains(&self.show)
     }
-    // ANCHOR_END: accumulates
 }
 
-// ANCHOR: pipeline
 /// The pipeline for what is shown: a specialization constant of the shaders.
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
@@ -161,9 +154,7 @@ fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracing
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline
 
-// ANCHOR: offsets
 /// The offsets, in pixels, below which a given part of the Blackman-Harris filter lies.
 ///
 /// The filter is the window of Harris 1978 with four terms and a width of three pixels. Its integral is
@@ -190,4 +181,3 @@ fn offsets(gpu: &Gpu) -> Result<Buffer> {
         (0..=PIECES).map(|piece| inverse(piece as f64 / PIECES as f64)).collect();
     Buffer::with_data(gpu, "offsets", &offsets, vk::BufferUsageFlags::STORAGE_BUFFER)
 }
-// ANCHOR_END: offsets

@@ -13,21 +13,17 @@ pub fn bottom(
     bounds: impl IntoIterator<Item = Bounds>,
     reach: f32,
 ) -> Result<AccelerationStructure> {
-    // ANCHOR: boxes
     let boxes: Vec<[Vec3; 2]> = bounds.into_iter().map(|bounds| padded(bounds, reach)).collect();
     let input = boxes_on_gpu(gpu, name, &boxes)?;
     let count = boxes.len() as u32;
     let geometry = Geometry::Aabbs { boxes: input.address, count, opaque: true };
-    // ANCHOR_END: boxes
     let options = BuildOptions { compact: true, ..BuildOptions::default() };
     AccelerationStructure::bottom(gpu, name, &[geometry], options)
 }
 
-// ANCHOR: reach
 /// How far a ray may begin from a shape: at the eye or, as shadow rays do, anywhere on the scene.
 /// Rounded up to a power of two, so that few steps of a camera change it.
 pub fn reach((low, high): Bounds, eye: Vec3) -> f32 {
     let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
     farthest.length().log2().ceil().exp2()
 }
-// ANCHOR_END: reach

@@ -108,7 +108,6 @@ impl Sample for Demo {
         })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         // A scene brings its size, its view, and whether its shadows are worth their time.
         if c.choice("scene", &mut self.build.scene) {
@@ -134,9 +133,7 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
-    // ANCHOR: rebuild
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         let eye = self.camera.eye.as_vec3();
         if self.shapes.is_outdated(self.build, eye) {
@@ -144,7 +141,6 @@ impl Sample for Demo {
         }
         Ok(())
     }
-    // ANCHOR_END: rebuild
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         let Variant { key, pipeline, sbt } =
@@ -177,7 +173,6 @@ impl Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// A hit group for each kind of surface: triangles, spheres, boxes.
 ///
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough.
@@ -205,4 +200,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

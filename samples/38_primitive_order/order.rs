@@ -12,7 +12,6 @@ common::shader_enum! {
 const DIGITS: u32 = 10;
 
 impl Order {
-    // ANCHOR: order
     /// The boxes' numbers in this order: the first place of the build holds box `order[0]`. Boxes that
     /// nothing tells apart stay as they are, so that the result is the same everywhere.
     pub fn of(self, bounds: &[Bounds]) -> Vec<u32> {
@@ -30,7 +29,6 @@ impl Order {
         }
         order
     }
-    // ANCHOR_END: order
 }
 
 fn middle((low, high): Bounds) -> Vec3 {
@@ -68,7 +66,6 @@ impl Grid {
     }
 }
 
-// ANCHOR: morton
 /// The digits of three numbers by turns, the highest first: which eighth of the cube, which eighth of
 /// that, and so on (Morton 1966).
 fn morton(cell: [u32; 3]) -> u32 {
@@ -76,9 +73,7 @@ fn morton(cell: [u32; 3]) -> u32 {
         .rev()
         .fold(0, |code, digit| cell.into_iter().fold(code, |code, x| code << 1 | x >> digit & 1))
 }
-// ANCHOR_END: morton
 
-// ANCHOR: hilbert
 /// How far along Hilbert's curve a cell is. It visits eighths as Morton's does, but turns and mirrors each,
 /// so that it leaves one where the next begins (Skilling 2004).
 fn hilbert(mut cell: [u32; 3]) -> u32 {
@@ -101,4 +96,3 @@ fn hilbert(mut cell: [u32; 3]) -> u32 {
     let flipped = flips.fold(0, |flipped, digit| flipped ^ ((1 << digit) - 1));
     morton(cell.map(|x| x ^ flipped))
 }
-// ANCHOR_END: hilbert

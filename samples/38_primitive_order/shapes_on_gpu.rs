@@ -63,7 +63,6 @@ impl ShapesOnGpu {
         let reach = if build.margin { reach(everything, eye) } else { 0.0 };
 
         let ordering = scene.options.ordering;
-        // ANCHOR: instances
         let mut instances = Vec::new();
         for (index, piece) in pieces {
             let blas = &scene.blas[piece.mesh];
@@ -80,12 +79,10 @@ impl ShapesOnGpu {
                 bounds.push(level.bounds);
             }
         }
-        // ANCHOR_END: instances
         let ordered = order::for_build(gpu, &bounds, ordering);
         let ordered: Vec<_> = ordered.iter().map(|&i| instances[i as usize]).collect();
         let tlas = build_top(gpu, &ordered)?;
 
-        // ANCHOR: copies
         let copies = [
             Buffer::with_data(
                 gpu,
@@ -95,7 +92,6 @@ impl ShapesOnGpu {
             )?,
             Buffer::with_data(gpu, "boxes as built", &boxes.built(&shapes.boxes), input_usage())?,
         ];
-        // ANCHOR_END: copies
         let first = spheres.tree.len() as u32;
         let behind = boxes.tree.iter().map(|node| Node { next: first + node.next, ..*node });
         let tree: Vec<Node> = spheres.tree.iter().copied().chain(behind).collect();
@@ -142,7 +138,6 @@ impl ShapesOnGpu {
         build != self.build || reach != self.reach
     }
 
-    // ANCHOR: host_c
     /// c of the quadratic for rays from the eye: products and sums of f32 numbers, in f64.
     pub fn compute_host_c(&mut self, frame: &Frame, eye: Vec3) -> Result<()> {
         if self.host_c.as_ref().is_some_and(|(known, _)| *known == eye) {
@@ -165,7 +160,6 @@ impl ShapesOnGpu {
         self.host_c = Some((eye, buffer));
         Ok(())
     }
-    // ANCHOR_END: host_c
 
     /// Where c lies; nowhere before it was computed.
     pub fn host_c_address(&self) -> Address {

@@ -40,7 +40,6 @@ fn grow(bounds: &[Bounds], nodes: &mut Vec<Node>) -> Bounds {
 }
 // ANCHOR_END: tree
 
-// ANCHOR: expected
 /// How many boxes a line has to be tested against, one that meets the root and else lies anywhere: the root,
 /// and the two halves of each box that it meets. It meets a box within another as often as their
 /// surface areas say: the surface area heuristic.
@@ -53,4 +52,3 @@ pub fn expected_tests(nodes: &[Node]) -> f64 {
     let all: f64 = halved.map(|(_, node)| area(node)).sum();
     nodes.first().map_or(0.0, |root| 1.0 + 2.0 * all / area(root))
 }
-// ANCHOR_END: expected

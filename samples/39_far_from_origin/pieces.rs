@@ -53,7 +53,6 @@ impl Pieces {
         Ok(self.top_levels[which].insert(top_level))
     }
 
-    // ANCHOR: memory
     /// Bytes of everything that grows with the pieces.
     pub fn memory(&self, scene: &SceneOnGpu) -> serde_json::Value {
         let meshes = &self.meshes.model.meshes;
@@ -71,5 +70,4 @@ impl Pieces {
             "instance_bytes": pieces * size_of::<vk::AccelerationStructureInstanceKHR>(),
         })
     }
-    // ANCHOR_END: memory
 }

@@ -9,7 +9,6 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use crate::formation::{BLACK, BOARD, Formation, Piece, WHITE};
 
-// ANCHOR: masks
 /// Which bits a ray asks for: it sees an instance if they share one.
 pub const SEEN: [(&str, u8); 4] = [
     ("everything", 0xff),
@@ -17,7 +16,6 @@ pub const SEEN: [(&str, u8); 4] = [
     ("all but black", BOARD | WHITE),
     ("the board", BOARD),
 ];
-// ANCHOR_END: masks
 
 const NO_FLAGS: Flags = Flags::empty();
 /// What an instance may say of its triangles.
@@ -28,7 +26,6 @@ pub const FLAGS: [(&str, Flags); 4] = [
     ("force no-opaque", Flags::FORCE_NO_OPAQUE),
 ];
 
-// ANCHOR: record
 common::shader_struct! {
     /// What a piece has of its own, at its custom index.
     pub struct PieceRecord {
@@ -39,7 +36,6 @@ common::shader_struct! {
         tone: f32,
     }
 }
-// ANCHOR_END: record
 
 /// What the instances are made for: where the set is, seen from an origin, and the flags of its white
 /// pieces.
@@ -73,7 +69,6 @@ impl TopLevel {
         let bounds = pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance()));
         let bounds: Vec<_> = bounds.collect();
         let order = order::for_build(gpu, &bounds, scene.options.ordering);
-        // ANCHOR: instances
         let instances = order.iter().map(|&index| {
             let piece = &pieces[index as usize];
             let flags = if piece.mask == WHITE { build.white } else { NO_FLAGS };
@@ -91,14 +86,12 @@ impl TopLevel {
             }
         });
         let tlas = build_top(gpu, &instances.collect::<Vec<_>>())?;
-        // ANCHOR_END: instances
         let records: Vec<_> = pieces.iter().map(record).collect();
         let records = Buffer::with_data(gpu, "piece records", &records, input_usage())?;
         Ok(Self { tlas, records, build })
     }
 }
 
-// ANCHOR: inverse
 /// The inverse in f64, once a piece, and not in f32, once a ray or by the device.
 fn record(piece: &Piece) -> PieceRecord {
     let columns = piece.linear.to_cols_array().map(f64::from);
@@ -110,4 +103,3 @@ fn record(piece: &Piece) -> PieceRecord {
         tone: piece.tone,
     }
 }
-// ANCHOR_END: inverse

@@ -74,7 +74,6 @@ impl Sample for Demo {
         Ok(Self { scene, pipelines: Variants::default(), camera, sun, rays: 1, constants })
     }
 
-    // ANCHOR: controls
     fn controls(&mut self, c: &mut Controls) {
         c.choice("show", &mut self.constants.show);
         c.choice("footprint", &mut self.constants.footprint);
@@ -82,7 +81,6 @@ impl Sample for Demo {
         c.sun(&mut self.sun);
         c.camera(&mut self.camera);
     }
-    // ANCHOR_END: controls
 
     fn render(&mut self, frame: &Frame) -> Result<()> {
         // ANCHOR: trace
@@ -105,7 +103,6 @@ impl Sample for Demo {
     }
 }
 
-// ANCHOR: pipeline
 /// Only the raygen shader traces rays: they do not nest, and a recursion depth of 1 is enough. The payload has room
 /// for the neighbouring rays only in a pipeline that reads them.
 fn pipeline(
@@ -132,4 +129,3 @@ fn pipeline(
         .push_constants::<Push>()
         .build(gpu)
 }
-// ANCHOR_END: pipeline

@@ -10,12 +10,10 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
     vec3 normal = world_normal(surface);
     vec3 view = -gl_WorldRayDirectionEXT;
 

@@ -10,7 +10,6 @@
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
-// ANCHOR: place
 // Computes the hit anew, from the shape and not from the ray: on the sphere or the wall as nearly as
 // rounding allows, wherever the ray came from. And how far above the surface a leaving ray must start.
 //
@@ -49,16 +48,13 @@ void place_on_shape(uint id) {
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = ROUNDING * dot(abs(hit.face), straying);
 }
-// ANCHOR_END: place
 
 // The nearest hit is a sphere or a box: the intersection shader has left its normal.
 void main() {
-    // ANCHOR: fetch
     bool sphere = gl_HitKindEXT == KIND_SPHERE;
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
     uint material = sphere ? push.shapes.spheres.at[id].material : push.shapes.boxes.at[id].material;
-    // ANCHOR_END: fetch
     // ANCHOR: report
     place_on_shape(id);
     hit.t = gl_HitTEXT;

@@ -1,7 +1,6 @@
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
@@ -16,4 +15,3 @@ struct Hit {
     vec3 object;      // in the mesh's space, for a view: the normal
     uint place;       // the instance's place in the array that was built: gl_InstanceID
 };                    // 96 bytes
-// ANCHOR_END: hit

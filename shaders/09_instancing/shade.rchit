@@ -13,7 +13,6 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec2 weights;
 
-// ANCHOR: world_normal
 // From the mesh's space to the world, not of unit length. The matrix is right only if it turns and no
 // more: whatever stretches a surface one way must turn its normal the other way.
 vec3 world_normal(PieceRecord piece, vec3 normal) {
@@ -26,18 +25,14 @@ vec3 world_normal(PieceRecord piece, vec3 normal) {
     }
     return normal * piece.inverse;
 }
-// ANCHOR_END: world_normal
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    // ANCHOR: fetch
     PieceRecord piece = push.pieces.at[gl_InstanceCustomIndexEXT];
     InstanceRecord instance = push.scene.instances.at[piece.mesh];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[piece.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
     vec3 normal = normalize(world_normal(piece, surface.normal));
@@ -53,5 +48,4 @@ void main() {
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.place = gl_InstanceID;
     hit.object = surface.normal;
-    // ANCHOR_END: report
 }

@@ -13,7 +13,6 @@ struct MeshRecord {
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes { MeshRecord at[]; };
 
-// ANCHOR: surface
 // As 02's, with corners from elsewhere, and attributes where vertices were.
 Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 weights) {
     Attributes a = mesh.vertices.at[index.x];
@@ -26,7 +25,6 @@ Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 weights) 
     surface.uv = w.x * a.uv + w.y * b.uv + w.z * c.uv;
     return surface;
 }
-// ANCHOR_END: surface
 
 // The corners of a triangle of the model, from our own vertices.
 vec3[3] corners_at(InstanceRecord instance, uint triangle) {
@@ -37,9 +35,7 @@ vec3[3] corners_at(InstanceRecord instance, uint triangle) {
         instance.vertices.at[index.z].position);
 }
 
-// ANCHOR: point
 // The point with these barycentric coordinates, in object space.
 vec3 point_at(vec3 corners[3], vec2 weights) {
     return corners[0] + weights.x * (corners[1] - corners[0]) + weights.y * (corners[2] - corners[0]);
 }
-// ANCHOR_END: point

@@ -14,7 +14,6 @@ hitAttributeEXT vec2 weights;
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     MaterialRecord material = push.scene.materials.at[instance.material];
@@ -30,15 +29,12 @@ void main() {
         surface = surface_at(instance, triangle, weights);
     }
     // ANCHOR_END: corners
-    // ANCHOR_END: fetch
-    // ANCHOR: normal
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     vec3 view = -gl_WorldRayDirectionEXT;
     // The flat triangle decides which side the ray sees: near an outline the smooth normal may look away.
     vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
     normal = faceforward(normal, -faceforward(face, -view, face), normal);
-    // ANCHOR_END: normal
 
     vec3 base = material.base_color;
     if (material.base_texture >= 0) {
@@ -67,12 +63,10 @@ void main() {
     if (SHOW == SHOW_DIRECTION) {
         payload = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
     }
-    // ANCHOR: points
     if (SHOW == SHOW_HIT_POINT) {
         payload = vec4(gl_ObjectToWorldEXT * vec4(point_at(corners, weights), 1.0), gl_HitTEXT);
     }
     if (SHOW == SHOW_RAY_POINT) {
         payload = vec4(gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT, gl_HitTEXT);
     }
-    // ANCHOR_END: points
 }

@@ -23,7 +23,6 @@ const uint CHECKER_FILTERED = 0;
 const uint CHECKER_POINT = 1;
 const uint CHECKER_OFF = 2;
 
-// ANCHOR: footprint
 // How wide the cone of a pixel's rays is on the plane, along two axes of the plane: an ellipse, as long
 // as the ray is slanting (Amanatides, "Ray Tracing with Cones", 1984).
 vec2 footprint(float width, vec3 direction, vec3 normal, vec3 u, vec3 v) {
@@ -36,16 +35,13 @@ vec2 footprint(float width, vec3 direction, vec3 normal, vec3 u, vec3 v) {
     return width * vec2(length(vec2(dot(along, u) / slant, dot(across, u))),
                         length(vec2(dot(along, v) / slant, dot(across, v))));
 }
-// ANCHOR_END: footprint
 
-// ANCHOR: shininess
 // The exponent of a highlight as wide as that of a surface of this roughness (Walter et al.,
 // "Microfacet Models for Refraction", 2007, with their width as roughness squared).
 float shininess(float roughness) {
     float width = roughness * roughness;
     return 2.0 / (width * width) - 2.0;
 }
-// ANCHOR_END: shininess
 
 // What the board is made of, its colour apart.
 MaterialRecord board_material(Board board) {
@@ -60,7 +56,6 @@ MaterialRecord board_material(Board board) {
 const uint SIDE_OUTSIDE = 0;
 const uint SIDE_INSIDE = 1;
 
-// ANCHOR: report
 // The plane at the distance t of a ray, reported as a hit shader reports a triangle. If it `shines`, its
 // colour from inside is one of its own.
 Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
@@ -91,4 +86,3 @@ Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     hit.curvature = 0.0;
     return hit;
 }
-// ANCHOR_END: report

@@ -1,7 +1,6 @@
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it. The plane is reported by the raygen shader itself.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
@@ -15,6 +14,5 @@ struct Hit {
     uint instance;    // which instance: gl_InstanceCustomIndexEXT, or PLANE
     float curvature;  // by how much the normal turns in a unit of length
 };                    // 84 bytes
-// ANCHOR_END: hit
 
 const uint PLANE = -2;

@@ -6,7 +6,6 @@ const float FAR = 1e30;
 // Whether the path has met the plane last, so that its next rays leave the plane.
 bool on_plane = false;
 
-// ANCHOR: meet
 // Where a ray meets the plane, FAR if it does not. A line meets a plane once: a ray that leaves it has
 // nothing to ask, and needs no offset.
 float meet_plane(vec3 origin, vec3 direction, float end) {
@@ -18,7 +17,6 @@ float meet_plane(vec3 origin, vec3 direction, float end) {
     bool passes = INSIDE == INSIDE_THROUGH && dot(direction, plane.normal) > 0.0;
     return t > 0.0 && t < end && !passes ? t : FAR;
 }
-// ANCHOR_END: meet
 
 // Where each rung finds the plane; -1 where it does not.
 vec4 by_every_rung(vec3 origin, vec3 direction) {

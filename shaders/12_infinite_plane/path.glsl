@@ -80,7 +80,6 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         }
     }
     // ANCHOR_END: light
-    // ANCHOR: next
     bool is_picture = SHOW == SHOW_PICTURE;
     gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start, visible));
     path.throughput *= mirror;
@@ -90,5 +89,4 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
     ray.width += ray.spread * hit.t;
     ray.spread += 2.0 * hit.curvature * ray.width;
-    // ANCHOR_END: next
 }

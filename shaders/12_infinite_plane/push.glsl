@@ -9,7 +9,6 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reflections { vec3 at[]; };
 
-// ANCHOR: world
 // What is in the world beside the scene. It would not fit into push constants: 128 bytes are all that
 // every device has.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
@@ -19,7 +18,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint light_count;
     Light lights[2];
 };
-// ANCHOR_END: world
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -3,7 +3,6 @@
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-// ANCHOR: curvature
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
 float curvature(InstanceRecord instance, uint triangle) {
     uvec3 corner = instance.triangles.at[triangle];
@@ -16,7 +15,6 @@ float curvature(InstanceRecord instance, uint triangle) {
     }
     return most;
 }
-// ANCHOR_END: curvature
 
 // The built-in variables of a hit shader say which surface it is.
 Hit report(vec2 weights) {

@@ -5,7 +5,6 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
 layout(location = 1) rayPayloadEXT bool lit;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     float plane = meet_plane(origin, to_light, end);
     if (PLANE_TEST == TEST_BEFORE && plane < FAR) {
@@ -30,4 +29,3 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     );
     return lit && plane == FAR;
 }
-// ANCHOR_END: shadow

@@ -6,7 +6,6 @@
 layout(location = 0) callableDataEXT Pattern pattern;
 // ANCHOR_END: caller
 
-// ANCHOR: choose
 // The weight of a pattern at a place.
 float weight_at(uint kind, vec3 place, int far) {
     if (CHOOSE == CHOOSE_CALLABLE) {
@@ -21,7 +20,6 @@ float weight_at(uint kind, vec3 place, int far) {
         default: return checker(place, far);
     }
 }
-// ANCHOR_END: choose
 
 // The hit's colour becomes that of its material's pattern.
 void patterned(inout Hit hit) {

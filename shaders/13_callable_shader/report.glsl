@@ -16,13 +16,10 @@ vec3 object_point(InstanceRecord instance, uint triangle, vec2 w) {
 
 // The nearest hit: what surface it is, and where.
 void report() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -39,5 +36,4 @@ void report() {
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.object = object_point(instance, triangle, weights);
     hit.weight = 0.0;
-    // ANCHOR_END: report
 }

@@ -10,7 +10,6 @@
 #include "report.glsl"
 #include "choose.glsl"
 
-// ANCHOR: hit
 // The nearest hit; its pattern too, if the hit shader is to ask for it.
 void main() {
     report();
@@ -18,4 +17,3 @@ void main() {
         patterned(hit);
     }
 }
-// ANCHOR_END: hit

@@ -28,7 +28,6 @@ const float LAG = 0.3;      // of a wave: the lower edge follows the upper one
 const float SAG = 0.12;     // of the height: how far the free end hangs
 const float TURN = 6.283185;    // no more than 2 pi
 
-// ANCHOR: main
 // Along the cloth its direction swings from side to side, as a river's does: then it is nowhere longer or
 // shorter than it was, however far it swings (Langbein and Leopold 1966). So a vertex is reached by steps
 // of one length, each in the direction of its middle, and two vertices of a row stay as far apart as they were.
@@ -60,4 +59,3 @@ void main() {
     vertex.uv = uv;
     cloth.vertices.at[at.y * (cloth.cells.x + 1) + at.x] = vertex;
 }
-// ANCHOR_END: main

@@ -19,7 +19,6 @@ const uint STATE_UNKNOWN_OPAQUE = 3;
 // How far outside of a triangle a hit may lie and still be looked up; the bound on each state reaches so far.
 const float SLACK = 1.0 / 16384.0;
 
-// ANCHOR: index
 // Which micro-triangle a point lies in. `w` are the weights of the three corners. Each turn finds the part that
 // holds the point, and the point's weights within it; whatever they are, the number is below 4^level.
 uint micro_triangle(vec3 w, int level) {
@@ -42,9 +41,7 @@ uint micro_triangle(vec3 w, int level) {
     }
     return index;
 }
-// ANCHOR_END: index
 
-// ANCHOR: state
 // The state of a hit; `weights` are its hit attributes.
 uint state_at(Micromap micromap, uint triangle, vec2 weights) {
     vec3 w = vec3(1.0 - weights.x - weights.y, weights);
@@ -58,7 +55,6 @@ uint state_at(Micromap micromap, uint triangle, vec2 weights) {
     uint bit = first + 2 * micro_triangle(w, micromap.level);
     return micromap.states.at[bit >> 5] >> (bit & 31u) & 3u;
 }
-// ANCHOR_END: state
 
 // Wood, sky, and what has to be looked up: bright where a guess takes it for opaque.
 vec3 color_of(uint state) {

@@ -14,7 +14,6 @@ layout(local_size_x_id = 3, local_size_y_id = 4) in;
 layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D picture;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     rayQueryEXT query;
     rayQueryInitializeEXT(
@@ -30,9 +29,7 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     while (rayQueryProceedEXT(query)) {}
     return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
 }
-// ANCHOR_END: shadow
 
-// ANCHOR: trace
 // What a ray meets.
 Hit trace(vec3 origin, vec3 direction) {
     rayQueryEXT query;
@@ -56,7 +53,6 @@ Hit trace(vec3 origin, vec3 direction) {
     }
     return hit;
 }
-// ANCHOR_END: trace
 
 // What a view shows of a hit instead of the picture.
 vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {

@@ -7,9 +7,7 @@ layout(location = 2) in vec2 weights;
 
 layout(location = 0) out uvec4 seen;
 
-// ANCHOR: fragment
 // What a pixel sees so far: the depth test decides whether it stays.
 void main() {
     seen = uvec4(instance, triangle, floatBitsToUint(weights));
 }
-// ANCHOR_END: fragment

@@ -22,7 +22,6 @@ layout(location = 0) flat out uint instance;
 layout(location = 1) flat out uint triangle;
 layout(location = 2) out vec2 weights;
 
-// ANCHOR: vertex
 // One corner of a triangle, by the records that a hit shader reads. A draw call is for one instance.
 void main() {
     instance = gl_InstanceIndex;
@@ -43,4 +42,3 @@ void main() {
     float depth = DEPTH == DEPTH_REVERSED ? draw.near : distance - draw.near;
     gl_Position = vec4(x, -y, depth, distance);
 }
-// ANCHOR_END: vertex

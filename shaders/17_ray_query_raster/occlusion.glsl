@@ -5,7 +5,6 @@
 
 const uint DIMENSION_OCCLUSION = 2;
 
-// ANCHOR: openness
 // The part of the sky that is open, each direction weighted by its cosine: 0 to 1. Points on the unit disk,
 // lifted to the hemisphere above it, are spread by just that weight (Malley's method), so each ray counts
 // alike. `first` are two random numbers.
@@ -25,4 +24,3 @@ float openness(Start start, vec3 normal, uint count, vec2 first) {
     }
     return float(open) / float(max(count, 1));
 }
-// ANCHOR_END: openness

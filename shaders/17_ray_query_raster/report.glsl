@@ -5,7 +5,6 @@
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-// ANCHOR: seen
 // What was found: four numbers of 32 bits, the texel of the G-buffer.
 struct Seen {
     uint instance;        // NOTHING for the sky
@@ -14,7 +13,6 @@ struct Seen {
 };
 
 const uint NOTHING = 0xffffffff;
-// ANCHOR_END: seen
 
 // The surface that was seen, and where: of the ray through the pixel's middle.
 void report(inout Hit hit, Seen seen, vec3 ray) {

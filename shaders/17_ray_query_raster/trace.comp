@@ -93,10 +93,8 @@ void main() {
             vec2 first = random(id, 0, 0, DIMENSION_OCCLUSION).xy;
             open = openness(start, hit.normal, push.occlusion_rays, first);
         }
-        // ANCHOR: ambient
         color = material.emission + open * hit.color * ambient(hit.normal)
             + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -direction);
-        // ANCHOR_END: ambient
     }
     vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, seen, direction, visible, open);
     imageStore(picture, ivec2(id), pixel);

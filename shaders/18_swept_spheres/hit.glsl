@@ -1,7 +1,6 @@
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
@@ -15,4 +14,3 @@ struct Hit {
     uint instance;    // which instance: gl_InstanceCustomIndexEXT
     float along;      // where on a segment: 0 and 1 are its ends; -1 on a triangle
 };                    // 84 bytes
-// ANCHOR_END: hit

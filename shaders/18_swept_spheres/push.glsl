@@ -5,13 +5,11 @@
 #include "common/false_color.glsl"
 #include "common/strand.glsl"
 
-// ANCHOR: strands
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer StrandAddresses {
     Nodes nodes;
     Segments segments;
     Original ids;   // primitive i of the build is segment ids.at[i]
 };
-// ANCHOR_END: strands
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -10,7 +10,6 @@
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT Crossing crossing;
 
-// ANCHOR: place
 // Where the hit is, and how far above the surface a leaving ray must start.
 void place_on_strand(Node a, Node b) {
     vec3 own;
@@ -30,17 +29,13 @@ void place_on_strand(Node a, Node b) {
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = ROUNDING * dot(abs(hit.face), straying);
 }
-// ANCHOR_END: place
 
 // The nearest hit is a swept sphere: the intersection shader has left its normal, and where along it.
 void main() {
-    // ANCHOR: fetch
     uint id = push.strands.ids.at[gl_PrimitiveID];
     Segment segment = push.strands.segments.at[id];
     Node a = push.strands.nodes.at[segment.first];
     Node b = push.strands.nodes.at[segment.first + 1];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place_on_strand(a, b);
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
@@ -57,5 +52,4 @@ void main() {
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.along = crossing.s;
-    // ANCHOR_END: report
 }

@@ -4,7 +4,6 @@
 #include "common/two_float.glsl"
 #include "common/swept.glsl"
 
-// ANCHOR: foot
 struct ExactFoot {
     TwoFloat3 p;
     vec2 t;
@@ -39,9 +38,7 @@ ExactFoot in_unit(ExactFoot foot, float unit) {
 vec2 ff_inside(ExactFoot foot, vec2 r) {
     return ff_sub(ff_mul(r, r), ff_dot(foot.p, foot.p));
 }
-// ANCHOR_END: foot
 
-// ANCHOR: two_float
 bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
     float speed = unit_of(largest(d));
     TwoFloat3 dir = ff_vector(speed * d);
@@ -135,4 +132,3 @@ bool swept_two_float(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmi
     }
     return false;
 }
-// ANCHOR_END: two_float

@@ -17,7 +17,6 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 layout(location = 0) rayPayloadInEXT Seen seen;
 hitAttributeEXT vec2 weights;
 
-// ANCHOR: chosen
 // What is read of a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     if (FOOTPRINT == FOOTPRINT_POINT) {
@@ -48,18 +47,14 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
     }
     return row_of(on_texture(mapping, axes.a), on_texture(mapping, axes.b), size);
 }
-// ANCHOR_END: chosen
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
     Hit hit;
-    // ANCHOR: report
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -80,6 +75,5 @@ void main() {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    // ANCHOR_END: report
     seen.hit = hit;
 }

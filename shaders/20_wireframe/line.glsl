@@ -1,6 +1,5 @@
 // How far a pixel is from the edges of the triangle that its ray met.
 
-// ANCHOR: distance
 // The distances in pixels to the three edges, each opposite its corner; inside the triangle all are
 // positive. Everything is in object space: the corners, the eye, the basis of the picture.
 //
@@ -26,9 +25,7 @@ vec3 edge_distances(vec3 corners[3], vec3 eye, vec3 direction, vec3 right, vec3 
     }
     return distances;
 }
-// ANCHOR_END: distance
 
-// ANCHOR: coverage
 // How much of the pixel the triangle's lines cover, 0 to 1, for closest hit and any-hit shaders. Half of a
 // line belongs to the triangle on this side of the edge.
 float line_coverage(vec2 weights) {
@@ -49,4 +46,3 @@ float line_coverage(vec2 weights) {
     float half_width = 0.5 * push.width;
     return clamp(min(nearest + 0.5, half_width) - max(nearest - 0.5, -half_width), 0.0, 1.0);
 }
-// ANCHOR_END: coverage

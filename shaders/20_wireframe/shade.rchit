@@ -12,12 +12,9 @@ hitAttributeEXT vec2 weights;
 
 // The nearest hit: the triangle's own normal, the material's colour, and the lines.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     MaterialRecord material = push.scene.materials.at[instance.material];
     vec3 corners[3] = gl_HitTriangleVertexPositionsEXT;
-    // ANCHOR_END: fetch
-    // ANCHOR: normal
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 face = cross(corners[1] - corners[0], corners[2] - corners[0]);
     vec3 view = -gl_WorldRayDirectionEXT;
@@ -25,7 +22,6 @@ void main() {
     // A triangle may be so small that its area has no digits: then the side that the ray came from is up.
     normal = normalize(dot(normal, normal) > 1e-37 ? normal : view);
     normal = faceforward(normal, -view, normal);
-    // ANCHOR_END: normal
 
     vec3 base = material.base_color;
     vec3 color = material.emission + base * ambient(normal);
@@ -38,7 +34,6 @@ void main() {
     if (SHOW == SHOW_NORMAL) {
         color = 0.5 + 0.5 * normal;
     }
-    // ANCHOR: ink
     // Darker on a light surface, lighter on a dark one. The fourth number is what the line covers.
     float coverage = line_coverage(weights);
     float brightness = dot(color, vec3(0.2126, 0.7152, 0.0722));
@@ -47,5 +42,4 @@ void main() {
         ink = vec3(0.0);
     }
     payload = vec4(mix(color, ink, coverage), coverage);
-    // ANCHOR_END: ink
 }

@@ -1,7 +1,6 @@
 // The ground: where a ray meets it, in its box.
 #include "common/box.glsl"
 
-// ANCHOR: box
 // Where a ray enters the ground's box and where it leaves it; x > y if it passes by.
 vec2 in_the_box(vec3 o, vec3 d, float tmin, float tmax) {
     vec2 t;
@@ -11,9 +10,7 @@ vec2 in_the_box(vec3 o, vec3 d, float tmin, float tmax) {
     }
     return vec2(max(t.x, tmin), min(t.y, tmax));
 }
-// ANCHOR_END: box
 
-// ANCHOR: meet
 // Where a ray meets the ground, by a rung. A direction's length is 1 but for its rounding; the older rungs
 // take t for a length.
 HeightfieldHit meet_ground(uint rung, vec3 o, vec3 d, float tmin, float tmax) {
@@ -27,4 +24,3 @@ HeightfieldHit meet_ground(uint rung, vec3 o, vec3 d, float tmin, float tmax) {
     hit.t /= unit;
     return hit;
 }
-// ANCHOR_END: meet

@@ -5,7 +5,6 @@
 #include "common/false_color.glsl"
 #include "common/heightfield.glsl"
 
-// ANCHOR: ground
 // A landscape in a box.
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ground {
     HeightfieldShape shape;
@@ -14,7 +13,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Gro
     float error;         // by how much a height above the ground may be wrong, computed in the box
     uint material;
 };
-// ANCHOR_END: ground
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -8,16 +8,13 @@
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 
-// ANCHOR: color
 // Meadows, dry on the tops of hills; snow on what is high; and rock where it is steep, or seen from below.
 vec3 color(float height, vec3 face) {
     vec3 meadow = mix(vec3(0.05, 0.13, 0.03), vec3(0.5, 0.4, 0.14), smoothstep(-1.2, 1.9, height));
     vec3 cover = mix(meadow, vec3(0.85, 0.88, 0.92), smoothstep(8.0, 12.0, height));
     return mix(vec3(0.3, 0.24, 0.19), cover, smoothstep(0.3, 0.75, face.y));
 }
-// ANCHOR_END: color
 
-// ANCHOR: place
 // The hit again, from the formula and not from the ray: its height is what a march computes there.
 //
 // How far above the ground must a leaving ray start, so that a march finds the start above it? A
@@ -34,11 +31,9 @@ void place_on_ground() {
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = 2.0 * push.ground.error;
 }
-// ANCHOR_END: place
 
 // The nearest hit is the ground.
 void main() {
-    // ANCHOR: report
     place_on_ground();
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
@@ -47,5 +42,4 @@ void main() {
     hit.material = push.ground.material;
     hit.triangle = gl_PrimitiveID;
     hit.instance = gl_InstanceCustomIndexEXT;
-    // ANCHOR_END: report
 }

@@ -3,7 +3,6 @@
 
 const float FAR = 1e30;
 
-// ANCHOR: march
 // The ground alone, without the pieces: an intersection shader has no payload to count in, but the march
 // is a function like any other, and can be called here.
 vec4 march(vec3 origin, vec3 direction) {
@@ -27,4 +26,3 @@ vec4 march(vec3 origin, vec3 direction) {
     float size = clamp(log2(max(abs(error), 1e-6) * 1e6) / log2(1e6), 0.0, 1.0);
     return vec4(error > 1e-3 ? vec3(0.1, 0.4 + 0.5 * size, 0.1) : heat(size), 1.0);
 }
-// ANCHOR_END: march

@@ -2,7 +2,6 @@
 //
 // For shaders that have included solid.glsl.
 
-// ANCHOR: way
 // What part of the way from 0 to `end` lies in a solid, and within its clip.
 float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
     Interval clip = in_clip(solid, o, d);
@@ -17,9 +16,7 @@ float way_within(SolidRecord solid, vec3 o, vec3 d, float end) {
     }
     return way;
 }
-// ANCHOR_END: way
 
-// ANCHOR: outside
 // How far a ray goes outside of all solids, up to where it ends.
 //
 // Closed solids need no look: a ray that comes to one ends there, and a camera within one has another
@@ -38,7 +35,6 @@ float way_outside(vec3 o, vec3 d, float end) {
     }
     return max(end - within, 0.0);
 }
-// ANCHOR_END: outside
 
 // What part of the light is left after a way through fog.
 float clear_after(float way) {

@@ -5,7 +5,6 @@
 #include "common/false_color.glsl"
 #include "common/plane.glsl"
 
-// ANCHOR: solids
 struct Ball {
     vec3 center;
     float radius;
@@ -65,7 +64,6 @@ const uint STEP_UNION = 64;
 const uint STEP_INTERSECTION = 65;
 const uint STEP_DIFFERENCE = 66;
 const uint STEP_INVERSE = 67;
-// ANCHOR_END: solids
 
 struct Fog {
     vec3 color;

@@ -12,7 +12,6 @@ vec3 in_space_of(SolidRecord solid, vec4 v) {
     return vec3(dot(solid.to_object[0], v), dot(solid.to_object[1], v), dot(solid.to_object[2], v));
 }
 
-// ANCHOR: bounds
 // How far below a plane a point is, times |N|, and how fast a ray rises to it.
 float height_below(Plane plane, vec3 o) {
     switch (RUNG) {
@@ -58,7 +57,6 @@ vec2 in_ball(Ball ball, vec3 o, vec3 d) {
     vec2 t;
     return sphere_stable(f, d, ball.radius, t) ? t : vec2(NOWHERE, -NOWHERE);
 }
-// ANCHOR_END: bounds
 
 // ANCHOR: interval
 // Between which t a ray is in a convex part, and through which faces it comes and goes.
@@ -93,7 +91,6 @@ Interval in_part(Part part, vec3 o, vec3 d) {
 }
 // ANCHOR_END: interval
 
-// ANCHOR: holds
 // Whether the solid holds a point that lies in these of its parts: bit i is part i. The program is in
 // postfix order, its stack are the bits of a number.
 bool holds(SolidRecord solid, uint members) {
@@ -114,9 +111,7 @@ bool holds(SolidRecord solid, uint members) {
     }
     return (stack & 1) != 0;
 }
-// ANCHOR_END: holds
 
-// ANCHOR: contains
 // Whether a convex part holds a point: every one of its faces does.
 bool part_holds(Part part, vec3 point) {
     bool within = true;
@@ -145,9 +140,7 @@ bool contains(SolidRecord solid, vec3 point) {
     }
     return holds(solid, members);
 }
-// ANCHOR_END: contains
 
-// ANCHOR: line
 // A solid's parts along a ray: from where to where the ray is in each. Parts that it never meets have none.
 Interval intervals[MAX_PARTS];
 uint parts[MAX_PARTS];
@@ -197,7 +190,6 @@ Interval in_clip(SolidRecord solid, vec3 o, vec3 d) {
         ? Interval(-NOWHERE, NOWHERE, 0, 0)
         : in_part(push.solids.parts.at[solid.clip], o, d);
 }
-// ANCHOR_END: line
 
 // Where a ray goes through a solid's surface.
 struct Crossing {
@@ -207,7 +199,6 @@ struct Crossing {
     bool enters;
 };
 
-// ANCHOR: crossing
 // The first t after tmin where the ray comes into the solid or leaves it.
 bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, out Crossing found) {
     follow(solid, o, d, tmin, tmax);
@@ -236,4 +227,3 @@ bool first_crossing(SolidRecord solid, vec3 o, vec3 d, float tmin, float tmax, o
     }
     return false;
 }
-// ANCHOR_END: crossing

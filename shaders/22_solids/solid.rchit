@@ -12,7 +12,6 @@ layout(location = 0) rayPayloadInEXT Hit hit;
 // The part and the face that the ray goes through.
 hitAttributeEXT uvec2 crossed;
 
-// ANCHOR: place
 // The hit again, from the face and not from the ray, in the solid's own space: its point, the normal of
 // the face, and by how much, in units of ROUNDING, the next ray may find it on the wrong side.
 //
@@ -57,16 +56,12 @@ void place_on_face(Face face) {
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = ROUNDING * dot(abs(hit.face), straying);
 }
-// ANCHOR_END: place
 
 // The nearest hit is a solid: the intersection shader has left its part and face.
 void main() {
-    // ANCHOR: fetch
     SolidRecord solid = push.solids.at.at[gl_InstanceCustomIndexEXT - push.solids.first];
     Part part = push.solids.parts.at[solid.first_part + crossed.x];
     Face face = push.solids.faces.at[crossed.y];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place_on_face(face);
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
@@ -77,5 +72,4 @@ void main() {
     hit.triangle = crossed.y - push.solids.parts.at[solid.first_part].first_face;
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.kind = gl_HitKindEXT;
-    // ANCHOR_END: report
 }

@@ -1,6 +1,5 @@
 // What is under way while the shutter is open, and where it is at a time.
 
-// ANCHOR: mover
 struct Mover {
     vec4 open_rotation;     // unit quaternions: axis times sine, and cosine, of half the angle
     vec4 close_rotation;
@@ -11,7 +10,6 @@ struct Mover {
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Movers { Mover at[]; };
-// ANCHOR_END: mover
 
 layout(constant_id = 3) const uint BETWEEN = 0;
 const uint BETWEEN_ROTATION = 0;

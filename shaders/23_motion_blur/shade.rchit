@@ -29,7 +29,6 @@ mat4x3 inverted(const mat4x3 m) {
 // The nearest hit: what surface it is, and where. One that was moved by the intersection shader is where that has
 // moved it, for the same ray carries the same time.
 void main() {
-    // ANCHOR: fetch
     mat4x3 to_world = gl_ObjectToWorldEXT;
     mat4x3 to_object = gl_WorldToObjectEXT;
     uint record = gl_InstanceCustomIndexEXT & ~UNDER_WAY;
@@ -43,8 +42,6 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place(hit, instance, triangle, weights, to_world, to_object, gl_WorldRayDirectionEXT);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -59,5 +56,4 @@ void main() {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = record | (gl_InstanceCustomIndexEXT & UNDER_WAY);
-    // ANCHOR_END: report
 }

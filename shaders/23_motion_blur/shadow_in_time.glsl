@@ -5,7 +5,6 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 // The time of the sample that is traced.
 float now;
 
-// ANCHOR: shadow
 layout(location = 1) rayPayloadEXT bool lit;
 
 bool is_lit(vec3 origin, vec3 to_light, float end) {
@@ -28,4 +27,3 @@ bool is_lit(vec3 origin, vec3 to_light, float end) {
     );
     return lit;
 }
-// ANCHOR_END: shadow

@@ -24,7 +24,6 @@ layout(push_constant, scalar) uniform Sweeping {
 
 const float ROUNDING = 5.9604645e-8;
 
-// ANCHOR: box
 // The box around a triangle's way, whatever the time.
 //
 // A place goes straight, and a corner as seen from it along an arc. An arc of angle θ leaves its chord by the chord
@@ -53,7 +52,6 @@ Bounds swept(Mover mover, vec3 corners[3]) {
     vec3 room = vec3(sweep.margin + 64.0 * ROUNDING * size);
     return Bounds(low + arcs.low - room, high + arcs.high + room);
 }
-// ANCHOR_END: box
 
 // One invocation for a box of a mover's room. What it does not need is a point, of which the intersection shader makes
 // nothing. Boxes of NaN would be inactive; but with llvmpipe (Mesa 25.0.7) all boxes above them are lost, too.

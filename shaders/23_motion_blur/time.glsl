@@ -5,7 +5,6 @@
 // What else than in chapters before a number is for.
 const uint DIMENSION_TIME = 2;
 
-// ANCHOR: time
 // The time of a pixel's sample: 0 when the shutter opens, and less than 1.
 float sample_time(uvec2 pixel, uint i) {
     float u = random(pixel, i, push.frame, DIMENSION_TIME).x;
@@ -16,11 +15,8 @@ float sample_time(uvec2 pixel, uint i) {
         default: return min((float(i) + u) / float(push.samples), 0.99999994);
     }
 }
-// ANCHOR_END: time
 
-// ANCHOR: mask
 // Which instances a ray of this time sees.
 uint mask_of(float time) {
     return METHOD == METHOD_MOMENTS ? 1u << uint(time * float(push.moments)) : 0xff;
 }
-// ANCHOR_END: mask

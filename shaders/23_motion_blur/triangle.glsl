@@ -6,7 +6,6 @@ struct Crossing {
     vec2 weights;    // of the second and third corner
 };
 
-// ANCHOR: triangle
 // Axes in another order, that of the direction's largest coordinate last.
 vec3 ordered(vec3 v, vec3 size) {
     return size.x > size.y && size.x > size.z ? v.yzx : size.y > size.z ? v.zxy : v;
@@ -36,4 +35,3 @@ bool crosses(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out Crossing c
     crossing.t = (u * pa.z + v * pb.z + w * pc.z) / (sum * d.z);
     return true;
 }
-// ANCHOR_END: triangle

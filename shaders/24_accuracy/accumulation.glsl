@@ -6,24 +6,19 @@ const uint ACCUMULATE_MEAN = 1;
 const uint ACCUMULATE_KAHAN = 2;
 const uint ACCUMULATE_FIXED = 3;
 
-// ANCHOR: sum
 // The sum so far. Once it is 2^24 samples large, a further one is less than half its last place, and
 // rounding takes it away.
 void add_to_sum(inout float sum, float value) {
     sum += value;
 }
-// ANCHOR_END: sum
 
-// ANCHOR: mean
 // The mean so far, moved towards the sample: `count` with it. Nothing grows, but late steps are small
 // beside the mean, and they round.
 void add_to_mean(inout float mean, float value, uint count) {
     precise float next = mean + (value - mean) / float(count);
     mean = next;
 }
-// ANCHOR_END: mean
 
-// ANCHOR: kahan
 // The sum so far in x; in y what rounding has added to it, which the next sample takes off (Kahan,
 // Communications of the ACM 8:1, 1965).
 void add_to_kahan(inout vec2 sum, float value) {
@@ -32,9 +27,7 @@ void add_to_kahan(inout vec2 sum, float value) {
     precise float error = (next - sum.x) - owed;
     sum = vec2(next, error);
 }
-// ANCHOR_END: kahan
 
-// ANCHOR: fixed
 // The sum in 64 bits without a floating point. Each sample is rounded once, whatever came before: the sum
 // does not depend on the order, and sums of parts of the samples add up to that of all.
 struct FixedSum {
@@ -65,4 +58,3 @@ float mean_of_fixed(FixedSum sum, int bits, uint count) {
     vec2 divisor = two_sum(65536.0 * float(count >> 16), float(count & 0xffffu));
     return scaled(ff_div(sum_total(total), divisor), -bits).x;
 }
-// ANCHOR_END: fixed

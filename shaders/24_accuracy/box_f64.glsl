@@ -2,7 +2,6 @@
 
 const uint BOX_FLOAT64 = 4;
 
-// ANCHOR: float64
 // box_division() once more, with doubles for floats; then the first hit with tmin < t <= tmax.
 bool box_float64(
     vec3 o, vec3 d, float tmin, float tmax, vec3 low, vec3 high, out float t, out vec3 normal) {
@@ -42,4 +41,3 @@ bool box_float64(
     normal = enters ? face_in : face_out;
     return true;
 }
-// ANCHOR_END: float64

@@ -5,7 +5,6 @@ const uint BOX_TWO_FLOAT = 3;
 
 #include "common/crossing.glsl"
 
-// ANCHOR: two_float
 // The first hit with tmin < t <= tmax. As in box_division(), but two walls that are crossed at almost
 // the same t are compared exactly; so the box has no leaks at its edges, and no false hits there.
 bool box_two_float(
@@ -64,4 +63,3 @@ bool box_two_float(
     normal = hit.face;
     return true;
 }
-// ANCHOR_END: two_float

@@ -9,7 +9,6 @@
 const uint CAPSULE_TEXTBOOK = 0;
 const uint CAPSULE_STABLE = 1;
 
-// ANCHOR: textbook
 // The cylinder's quadratic from dot products as they stand. Each is a difference of two numbers that
 // grow with the distance.
 bool capsule_textbook(vec3 f, vec3 d, vec3 u, float r, out vec2 t) {
@@ -40,9 +39,7 @@ bool capsule_textbook(vec3 f, vec3 d, vec3 u, float r, out vec2 t) {
     }
     return true;
 }
-// ANCHOR_END: textbook
 
-// ANCHOR: stable
 // First the origin moves along the ray, to where it is close to the segment's middle: what follows does
 // not know the distance. Then the cylinder by its distance from the ray, which is the part of w along
 // the common perpendicular d × u: no term is larger than the capsule.
@@ -79,9 +76,7 @@ bool capsule_stable(vec3 f, vec3 d, vec3 u, float r, out vec2 t) {
     }
     return true;
 }
-// ANCHOR_END: stable
 
-// ANCHOR: normal
 // The outward normal at a point p of the surface, as seen from the segment's start: away from the
 // segment's nearest point. Its length is r.
 vec3 capsule_normal(vec3 p, vec3 u) {
@@ -89,4 +84,3 @@ vec3 capsule_normal(vec3 p, vec3 u) {
     float nearest = uu > 0.0 ? clamp(dot(p, u) / uu, 0.0, 1.0) : 0.0;
     return p - nearest * u;
 }
-// ANCHOR_END: normal

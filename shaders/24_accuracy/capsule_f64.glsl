@@ -2,7 +2,6 @@
 
 const uint CAPSULE_FLOAT64 = 3;
 
-// ANCHOR: sphere
 // One end: sphere_stable() with doubles for floats.
 bool end_float64(dvec3 f, dvec3 d, double r, out dvec2 t) {
     precise double a = dot(d, d);
@@ -22,9 +21,7 @@ bool end_float64(dvec3 f, dvec3 d, double r, out dvec2 t) {
     }
     return true;
 }
-// ANCHOR_END: sphere
 
-// ANCHOR: float64
 // capsule_stable() once more; then the first hit with tmin < t <= tmax.
 bool capsule_float64(vec3 o, vec3 direction, float tmin, float tmax, vec3 start, vec3 end, float radius,
     out float t, out vec3 normal) {
@@ -76,4 +73,3 @@ bool capsule_float64(vec3 o, vec3 direction, float tmin, float tmax, vec3 start,
     }
     return false;
 }
-// ANCHOR_END: float64

@@ -6,7 +6,6 @@
 
 const uint CAPSULE_TWO_FLOAT = 2;
 
-// ANCHOR: body
 // Where a line meets the infinite cylinder around the segment.
 struct BodyRoots {
     bool met;
@@ -78,9 +77,7 @@ TwoFloat3 body_outward(BodyRoots roots, TwoFloat3 u, bool enters) {
     TwoFloat3 sideways = ff_mul(ff_cross(roots.across, u), chord);
     return ff_sub(ff_mul(roots.across, roots.beside), sideways);
 }
-// ANCHOR_END: body
 
-// ANCHOR: two_float
 // The first hit with tmin < t <= tmax.
 bool capsule_two_float(vec3 o, vec3 d, float tmin, float tmax, vec3 a, vec3 b, float r, out float t,
     out vec3 normal) {
@@ -133,4 +130,3 @@ bool capsule_two_float(vec3 o, vec3 d, float tmin, float tmax, vec3 a, vec3 b, f
     }
     return false;
 }
-// ANCHOR_END: two_float

@@ -2,7 +2,6 @@
 #include "query.glsl"
 #include "ask.glsl"
 
-// ANCHOR: main
 void main() {
     uint asked = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
     if (asked >= push.asked) {
@@ -28,4 +27,3 @@ void main() {
         push.answers.at[i] = answer;
     }
 }
-// ANCHOR_END: main

@@ -3,7 +3,6 @@
 
 const uint INSTANCE_TWO_FLOAT = 2;
 
-// ANCHOR: two_float
 // A matrix of two-floats by its rows.
 struct TwoFloatRows {
     TwoFloat3 x;
@@ -61,4 +60,3 @@ bool instance_two_float(vec3 o, vec3 d, float tmin, float tmax, mat3 linear, vec
         ff_dot(n, TwoFloat3(inverse.x.z, inverse.y.z, inverse.z.z))));
     return true;
 }
-// ANCHOR_END: two_float

@@ -20,7 +20,6 @@ struct SphereDeparture {
     float radius;
 };
 
-// ANCHOR: naive
 // The point as it stands. Half of all such points lie below the surface.
 Start start_nothing(SphereDeparture from) {
     return Start(from.position, 0.0);
@@ -35,9 +34,7 @@ Start start_tmin(SphereDeparture from) {
 Start start_normal(SphereDeparture from) {
     return Start(from.position + 1e-4 * from.normal, 0.0);
 }
-// ANCHOR_END: naive
 
-// ANCHOR: integers
 Start start_integers(SphereDeparture from) {
     return Start(up_by_floats(from.position, from.normal), 0.0);
 }
@@ -48,9 +45,7 @@ Start start_reprojected(SphereDeparture from) {
     precise vec3 point = from.center + (from.radius / length(f)) * f;
     return Start(up_by_floats(point, from.normal), 0.0);
 }
-// ANCHOR_END: integers
 
-// ANCHOR: bound
 // The nearest point of the sphere, up by no more than rounding may cost (after Pharr, Jakob and
 // Humphreys, Physically Based Rendering, 4th edition, 6.8). Below u = 2^-24 is the error of one rounding,
 // relative, f the point as seen from the centre, p in the world, n the normal. An error of e·|f| in every
@@ -84,7 +79,6 @@ Start start_bound(SphereDeparture from) {
     precise vec3 origin = from.center + above;
     return Start(origin, 0.0);
 }
-// ANCHOR_END: bound
 
 // The start by one of the rules above.
 Start start_of_ray(uint rule, SphereDeparture from) {

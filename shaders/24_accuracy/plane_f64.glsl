@@ -2,7 +2,6 @@
 
 const uint PLANE_FLOAT64 = 5;
 
-// ANCHOR: float64
 // By the point close by, as in plane_point().
 bool plane_float64(Plane plane, vec3 o, vec3 d, float tmin, float tmax, out float t, out vec3 normal) {
     dvec3 n = dvec3(plane.normal);
@@ -23,4 +22,3 @@ bool plane_float64(Plane plane, vec3 o, vec3 d, float tmin, float tmax, out floa
     normal = slope > 0.0 ? -vec3(unit) : vec3(unit);
     return true;
 }
-// ANCHOR_END: float64

@@ -2,7 +2,6 @@
 
 const uint SPHERE_FLOAT64 = 7;
 
-// ANCHOR: float64
 // The formulas of sphere_two_float(), with doubles; the first hit with tmin < t <= tmax. Products of two
 // floats are exact in doubles, so in f × d, where all that is large cancels, hardly anything rounds.
 bool sphere_float64(
@@ -37,4 +36,3 @@ bool sphere_float64(
     normal = vec3(outward / (a * double(r)));
     return true;
 }
-// ANCHOR_END: float64

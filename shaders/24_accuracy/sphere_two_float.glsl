@@ -5,7 +5,6 @@
 const uint SPHERE_COMPENSATED = 5;
 const uint SPHERE_TWO_FLOAT = 6;
 
-// ANCHOR: compensated
 // sphere_stable() with dot products as good as if they had twice the bits. What remains is the rounding
 // of f, of the foot and of d's multiple: enough for a sphere in the distance, not for a planet's ground.
 bool sphere_compensated(vec3 f, vec3 d, float r, out vec2 t) {
@@ -33,7 +32,6 @@ bool sphere_compensated(vec3 f, vec3 d, float r, out vec2 t) {
     }
     return true;
 }
-// ANCHOR_END: compensated
 
 // ANCHOR: roots
 // Where a line meets a sphere, in two-floats: the roots of a·t² - 2b·t + c = 0.
@@ -88,7 +86,6 @@ TwoFloat3 sphere_outward(SphereRoots roots, TwoFloat3 d, bool enters) {
 }
 // ANCHOR_END: roots
 
-// ANCHOR: two_float
 // The first hit with tmin < t <= tmax, from the origin itself: o - center need not be a float.
 bool sphere_two_float(
     vec3 o, vec3 d, float tmin, float tmax, vec3 center, float r, out float t, out vec3 normal) {
@@ -113,4 +110,3 @@ bool sphere_two_float(
     normal = ff_normalize(sphere_outward(roots, ff_vector(direction), enters));
     return true;
 }
-// ANCHOR_END: two_float

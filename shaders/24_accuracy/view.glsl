@@ -25,7 +25,6 @@ const uint SHOW_SPLIT = 0;
 const uint SHOW_PICTURE = 1;
 const uint SHOW_ERROR = 2;
 
-// ANCHOR: heat
 // Black to one unit in the last place; then blue, green and yellow to red, a colour for every factor of
 // about 30. Magenta for a hit that is none, cyan for a miss that is none.
 const vec3 HEAT[6] = vec3[](
@@ -44,7 +43,6 @@ vec3 heat(Answer answer, Answer truth) {
     float at = clamp(log2(max(gaps, 1.0)) / 5.0, 0.0, 4.999);
     return mix(HEAT[int(at)], HEAT[int(at) + 1], fract(at));
 }
-// ANCHOR_END: heat
 
 // A surface with squares as large as one, so that a wrong t shows.
 vec3 shade(Query query, Answer answer) {

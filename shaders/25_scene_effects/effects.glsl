@@ -2,7 +2,6 @@
 //
 // Alone, as tests and editors compile it, a shader has everything.
 
-// ANCHOR: everything
 #ifndef SPECIALISED
 #define EFFECT_TRIANGLES
 #define EFFECT_TEXTURES
@@ -27,9 +26,7 @@
 #define EFFECT_DEPTH_OF_FIELD
 #define EFFECT_MOTION_BLUR
 #endif
-// ANCHOR_END: everything
 
-// ANCHOR: derived
 // What several effects need.
 #if defined(EFFECT_POINT_SHADOWS) || defined(EFFECT_DIRECTIONAL_SHADOWS)
 #define SHADOWS
@@ -73,4 +70,3 @@
 #if defined(EFFECT_PATTERNS) || defined(EFFECT_WIREFRAME)
 #define FINISHES
 #endif
-// ANCHOR_END: derived

@@ -5,7 +5,6 @@
 const uint DIMENSION_EMITTER = 6;
 const uint DIMENSION_POINT = 7;
 
-// ANCHOR: likelihood
 // The density of `kept_above(cosine_direction(u, normal), up)`: of a direction, and of the one that is
 // mirrored to it.
 float likelihood(vec3 direction, vec3 normal, vec3 up) {
@@ -14,10 +13,8 @@ float likelihood(vec3 direction, vec3 normal, vec3 up) {
     float both = max(dot(direction, normal), 0.0) + max(dot(other, normal), 0.0);
     return above > 0.0 ? both / 3.14159265 : 0.0;
 }
-// ANCHOR_END: likelihood
 
 #ifdef CHANCES
-// ANCHOR: chance
 // A ray has met what shines. What part of that light is counted here: the rest is that of shadow rays, by the
 // balance heuristic. What no shadow ray could have found is counted as a whole.
 float part_by_chance(Path path, Ray ray, Hit hit) {
@@ -28,10 +25,8 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
     float chance = path.density * angle_of(emitter, ray.origin, ray.direction, hit.t);
     return chance / max(chance + emitter.probability, 1e-30);
 }
-// ANCHOR_END: chance
 #endif
 
-// ANCHOR: asked
 // Which emitter: by its power. Both numbers are multiples of 2^-24, and there are 2^k columns: so nothing here
 // is rounded.
 uint chosen(vec2 u) {
@@ -61,4 +56,3 @@ vec3 asked(Path path, Hit hit, float matte) {
 #endif
     return weight * hit.color * radiance;
 }
-// ANCHOR_END: asked

@@ -19,7 +19,6 @@ vec3 left_on_way(uvec4 media, float way) {
     return is_air ? vec3(1.0) : left_after(way * push.world.glasses.at[media.x].absorption);
 }
 
-// ANCHOR: pass
 // A ray met glass, and goes one of two ways. Returns whether it goes through.
 bool pass(inout Path path, inout Ray ray, Hit hit) {
     Glass glass = push.world.glasses.at[hit.material];
@@ -55,4 +54,3 @@ bool pass(inout Path path, inout Ray ray, Hit hit) {
     path.media = beyond;
     return true;
 }
-// ANCHOR_END: pass

@@ -1,7 +1,6 @@
 // What a hit shader reports of the surface that a ray met. What to do about it, the raygen shader
 // decides: this is the payload of its rays. It has what the effects in use have to tell, and no more.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float t;          // the distance along the ray; -1 if the ray met nothing
@@ -29,7 +28,6 @@ struct Hit {
     vec2 cone;        // told to the shader: the ray's width and spread. Told by it, in x: how much lines cover
 #endif
 };                    // 44 to 92 bytes
-// ANCHOR_END: hit
 
 // The ground and the plane are made of nothing that is in the list of materials.
 const uint MATERIAL_GROUND = -2;

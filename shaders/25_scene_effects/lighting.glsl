@@ -20,7 +20,6 @@ Start shadow_start(Hit hit) {
     return start;
 }
 
-// ANCHOR: visibility
 // Whether shadow rays go to a light.
 bool casts_shadows(Light light, uint number) {
 #ifndef EFFECT_POINT_SHADOWS
@@ -62,10 +61,8 @@ float visibility(DiskLight disk, Start start, Hit hit, vec2 first) {
     }
     return float(seen) / float(count);
 }
-// ANCHOR_END: visibility
 #endif
 
-// ANCHOR: kinds
 // A light of the world. If all are of one kind, the compiler is told which.
 DiskLight light_of(uint number) {
     DiskLight disk = push.world.lights[number];
@@ -74,7 +71,6 @@ DiskLight light_of(uint number) {
         : disk.light.kind;
     return disk;
 }
-// ANCHOR_END: kinds
 
 // The light of a lamp that a surface sends to the eye, in direction `view`. The part `visible` of the lamp's
 // light arrives at the surface. The point itself is lit, not the one that shadow rays leave: without shadows

@@ -1,7 +1,6 @@
 // Lines along the edges of a triangle, as wide in pixels as asked for: as chapter 20 has them, for every ray
 // that has a cone.
 
-// ANCHOR: lines
 // How much of a pixel the lines of a triangle cover, 0 to 1. `cone` is how wide the ray's cone is where it
 // begins, and by how much it widens.
 float line_coverage(vec3 corners[3], vec3 origin, vec3 direction, vec2 cone, float width) {
@@ -24,4 +23,3 @@ float line_coverage(vec3 corners[3], vec3 origin, vec3 direction, vec2 cone, flo
     float half_width = 0.5 * width;
     return clamp(min(nearest + 0.5, half_width) - max(nearest - 0.5, -half_width), 0.0, 1.0);
 }
-// ANCHOR_END: lines

@@ -83,7 +83,6 @@ MaterialRecord material_of(Hit hit, out vec3 reflection) {
 }
 
 #ifdef EFFECT_BOUNCES
-// ANCHOR: scatters
 // A surface mirrors or scatters what comes next: one of the two, and the likelier the more light comes that
 // way (chapter 11). Returns whether it scatters, and with what probability it does.
 bool scatters(inout Path path, vec3 color, vec3 mirror, out float matte) {
@@ -96,7 +95,6 @@ bool scatters(inout Path path, vec3 color, vec3 mirror, out float matte) {
     path.throughput *= color / matte;
     return true;
 }
-// ANCHOR_END: scatters
 #endif
 
 // Where a path goes on from a surface.
@@ -104,7 +102,6 @@ const uint WAY_MIRROR = 0;
 const uint WAY_BOUNCE = 1;
 const uint WAY_GLASS = 2;
 
-// ANCHOR: advance
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
 #if defined(PATHS) && defined(CONES)
@@ -216,4 +213,3 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     path.bounce++;
 #endif
 }
-// ANCHOR_END: advance

@@ -2,7 +2,6 @@
 #include "ray.glsl"
 #include "squares.glsl"
 
-// ANCHOR: meet
 // Where a ray meets the plane, FAR if it does not. A line meets a plane once: a ray that leaves it has
 // nothing to ask, and needs no offset.
 float meet_plane(vec3 origin, vec3 direction, float end, bool on_plane) {
@@ -13,7 +12,6 @@ float meet_plane(vec3 origin, vec3 direction, float end, bool on_plane) {
     }
     return t > 0.0 && t < end ? t : FAR;
 }
-// ANCHOR_END: meet
 
 // The plane at the distance t of a ray, reported as a hit shader reports a triangle.
 Hit hit_of_plane(Ray ray, float t) {

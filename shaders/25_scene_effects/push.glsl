@@ -101,7 +101,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Gla
 
 const uint MAX_LIGHTS = 4;
 
-// ANCHOR: world
 // Everything that a scene may have. What it has not is empty: a program that knows nothing of the scene
 // has to look.
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer World {
@@ -134,7 +133,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Wor
     uint moving;          // whether anything moves while the shutter is open
     uint filtered;        // whether textures are averaged over what a pixel sees
 };
-// ANCHOR_END: world
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
@@ -142,23 +140,19 @@ layout(push_constant, scalar) uniform Push {
     World world;
 } push;
 
-// ANCHOR: constants
 // Which kinds of light there are, one bit a kind; how many lights at most; which kinds of geometry rays
 // look at; which patterns there are, one bit each. The compiler drops what such a constant rules out.
 layout(constant_id = 0) const uint LIGHT_KINDS = 3;
 layout(constant_id = 1) const uint LIGHTS = 4;
 layout(constant_id = 2) const uint RAY_MASK = 0xff;
 layout(constant_id = 3) const uint PATTERNS = 14;
-// ANCHOR_END: constants
 
-// ANCHOR: flags
 // What every ray is told: without cut-outs, no any-hit shader is to be looked for.
 #ifdef EFFECT_CUT_OUT
 const uint RAY_FLAGS = gl_RayFlagsNoneEXT;
 #else
 const uint RAY_FLAGS = gl_RayFlagsOpaqueEXT;
 #endif
-// ANCHOR_END: flags
 
 // As far as rays go.
 const float FAR = 1e30;

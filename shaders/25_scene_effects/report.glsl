@@ -4,7 +4,6 @@
 #include "finish.glsl"
 #endif
 
-// ANCHOR: report
 // `own` is what the shape's test costs, in roundings; the device's own transform of the ray takes 30 of
 // the point's coordinates (chapter 08, with the unit matrix).
 Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
@@ -41,4 +40,3 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #endif
     return hit;
 }
-// ANCHOR_END: report

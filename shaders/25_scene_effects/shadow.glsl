@@ -2,7 +2,6 @@
 
 layout(location = 1) rayPayloadEXT bool lit;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end, bool on_plane) {
 #ifdef EFFECT_PLANE
     if (meet_plane(origin, to_light, end, on_plane) < FAR) {
@@ -26,4 +25,3 @@ bool is_lit(vec3 origin, vec3 to_light, float end, bool on_plane) {
     );
     return lit;
 }
-// ANCHOR_END: shadow

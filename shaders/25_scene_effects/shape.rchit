@@ -11,7 +11,6 @@
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
-// ANCHOR: main
 // The nearest hit is a sphere or a box: the intersection shader has left its normal. The point is taken
 // from the shape and not from the ray.
 void main() {
@@ -51,4 +50,3 @@ void main() {
     }
 #endif
 }
-// ANCHOR_END: main

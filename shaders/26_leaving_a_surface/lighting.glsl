@@ -4,7 +4,6 @@
 // Whether nothing lies between a start above a surface and the light.
 bool is_lit(Start start, vec3 to_light);
 
-// ANCHOR: visibility
 Start shadow_start(Hit hit, Departure from, vec3 to_light) {
     Start start = start_of_ray(from, to_light);
     start.origin += hit.lift;
@@ -18,7 +17,6 @@ float visibility(Hit hit, Start start, vec3 to_light) {
     // What is below the surface, the surface itself hides; that needs no ray.
     return dot(up, to_light) > 0.0 && is_lit(start, to_light) ? 1.0 : 0.0;
 }
-// ANCHOR_END: visibility
 
 // What a surface sends to the eye, in direction `view`, of the light that arrives at it from a direction.
 vec3 lit_by(vec3 arriving, vec3 to_light, Hit hit, MaterialRecord material, vec3 view) {

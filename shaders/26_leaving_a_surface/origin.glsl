@@ -27,7 +27,6 @@ struct Departure {
     vec3 e2;
 };
 
-// ANCHOR: departure
 Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
     uvec3 corner = instance.triangles.at[hit.triangle];
     vec3 a = instance.vertices.at[corner.x].position;
@@ -57,7 +56,6 @@ Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
     from.rise = dot(up, from.to_mesh * from.normal);
     return from;
 }
-// ANCHOR_END: departure
 
 // ANCHOR: naive
 // The point that the last ray reached, as it stands. Half of all such points lie below the surface.
@@ -89,7 +87,6 @@ Start start_reprojected(Departure from) {
 }
 // ANCHOR_END: integers
 
-// ANCHOR: test_error
 // How high above the plane of a triangle, in units of ROUNDING, a ray must start, so that no
 // rounding in the triangle test puts it below the plane. It holds for the tests of Woop, Benthin and Wald
 // (JCGT 2:1, 2013) and of Moeller and Trumbore (JGT 2:1, 1997). All is in the mesh's space; the page
@@ -119,9 +116,7 @@ float triangle_test_error(Departure from, vec3 direction) {
     vec3 reach = abs(from.to_a) + longest * size / length(direction);
     return 24.0 * longest + (products + 8.0 * dot(reach, normal_error)) / area;
 }
-// ANCHOR_END: test_error
 
-// ANCHOR: bound
 // From the point in the triangle, up by no more than rounding may cost. How much the matrices cost is
 // not guessed: the point is sent back through the inverse, as the device will send the ray.
 Start start_bound(Departure from, vec3 direction) {
@@ -132,14 +127,11 @@ Start start_bound(Departure from, vec3 direction) {
     float step = height / from.rise + ROUNDING * dot(abs(from.normal), abs(from.position));
     return Start(from.position + step * from.normal, 0.0);
 }
-// ANCHOR_END: bound
 
-// ANCHOR: height
 // Chapter 05's: one step for every direction above the surface, so it knows no direction.
 Start start_height(Departure from) {
     return Start(from.position + from.height * from.normal, 0.0);
 }
-// ANCHOR_END: height
 
 // A vector of the mesh's space in the world, by the inverse of the matrix that goes the other way.
 vec3 into_world(mat3 to_mesh, vec3 v) {
@@ -149,7 +141,6 @@ vec3 into_world(mat3 to_mesh, vec3 v) {
     return vec3(dot(x, v), dot(y, v), dot(z, v)) / dot(x, to_mesh[0]);
 }
 
-// ANCHOR: magnitudes
 // Up by what enters the position: the largest coordinates of the corners, as seen along the normal. The
 // factor was found by trial: one to eight roundings were enough, and 32 leave room (Mitsuba 3, pull request
 // 1962, 2026; its meshes lie in the world, so the corners are taken there).
@@ -161,7 +152,6 @@ Start start_magnitudes(Departure from) {
     float height = 32.0 * ROUNDING * dot(abs(from.normal), largest);
     return Start(from.position + height * from.normal, 0.0);
 }
-// ANCHOR_END: magnitudes
 
 // The start by the rule that the pipeline is made for, for a ray in this direction.
 Start start_of_ray(Departure from, vec3 direction) {

@@ -4,7 +4,6 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
 layout(location = 1) rayPayloadEXT bool lit;
 
-// ANCHOR: shadow
 bool is_lit(Start start, vec3 to_light) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
@@ -25,4 +24,3 @@ bool is_lit(Start start, vec3 to_light) {
     );
     return lit;
 }
-// ANCHOR_END: shadow

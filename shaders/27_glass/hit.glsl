@@ -1,7 +1,6 @@
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float height;     // a ray that starts so far along `face`, up or down, is clear of the surface
@@ -15,4 +14,3 @@ struct Hit {
     uint instance;    // which instance: gl_InstanceCustomIndexEXT
     bool entering;    // whether the ray came from outside of the body
 };                    // 84 bytes
-// ANCHOR_END: hit

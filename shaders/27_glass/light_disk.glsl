@@ -1,6 +1,5 @@
 // The lamp, as seen by a ray that meets it by chance.
 
-// ANCHOR: disk
 // The lamp is a disk that faces whoever looks at it (35). What reaches a surface at distance 1 from all of it
 // is its strength: so its radiance is the strength over the area. `t` is how far the ray came.
 vec3 seen_of_light(DiskLight lamp, vec3 origin, vec3 direction, float t) {
@@ -14,4 +13,3 @@ vec3 seen_of_light(DiskLight lamp, vec3 origin, vec3 direction, float t) {
     }
     return lamp.light.strength / (3.14159265 * lamp.radius * lamp.radius);
 }
-// ANCHOR_END: disk

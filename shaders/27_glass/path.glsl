@@ -2,7 +2,6 @@
 #include "common/media.glsl"
 #include "light_disk.glsl"
 
-// ANCHOR: path
 struct Path {
     uvec2 pixel;       // whose colour it makes
     vec3 color;        // what the eye sees so far
@@ -11,7 +10,6 @@ struct Path {
     bool asked;        // whether the next ray leaves a surface that a shadow ray has asked for the light
     uvec4 media;       // the bodies that the next ray is in
 };
-// ANCHOR_END: path
 
 struct Ray {
     vec3 origin;
@@ -31,7 +29,6 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// ANCHOR: roulette
 // Whether the next ray is worth tracing. Clear glass takes nothing, and ends no path by chance: the depth does.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
@@ -45,7 +42,6 @@ bool goes_on(inout Path path) {
     }
     return true;
 }
-// ANCHOR_END: roulette
 
 // A ray met glass, and goes one of two ways.
 void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
@@ -132,7 +128,6 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         gather(path, lit_by(arriving, to_light, hit, lit, -ray.direction));
     }
     // ANCHOR_END: light
-    // ANCHOR: next
     vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
     vec3 rest = color * (1.0 - (polished ? mirror : material.specular));
     // One of the two ways, and the likelier the more light comes along it.
@@ -150,5 +145,4 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
     path.bounce++;
     ray.origin = hit.position + hit.height * hit.face;
-    // ANCHOR_END: next
 }

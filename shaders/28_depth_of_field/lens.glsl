@@ -1,7 +1,6 @@
 // A thin lens: rays start all over it, and those of one point of the picture meet in the plane in focus.
 #include "common/aperture.glsl"
 
-// ANCHOR: rungs
 // Two other ways to write the direction to the point in focus. One does not know where the ray really starts,
 // and the other rounds the point.
 vec3 coarse_direction(CameraBasis camera, Lens lens, vec3 to_focus, vec3 offset, vec3 origin) {
@@ -12,14 +11,12 @@ vec3 coarse_direction(CameraBasis camera, Lens lens, vec3 to_focus, vec3 offset,
     vec3 focus = camera.origin + to_focus / max(lens.inverse_focus, 1e-18);
     return focus - origin;
 }
-// ANCHOR_END: rungs
 
 struct Ray {
     vec3 origin;
     vec3 direction;
 };
 
-// ANCHOR: ray
 // The ray through a place in the picture, in pixels, from a place on the lens.
 Ray through_lens(CameraBasis camera, Lens lens, vec2 point, uvec2 size, vec2 u) {
     vec2 screen = 2.0 * point / vec2(size) - 1.0;
@@ -37,4 +34,3 @@ Ray through_lens(CameraBasis camera, Lens lens, vec2 point, uvec2 size, vec2 u) 
     }
     return Ray(origin, normalize(direction));
 }
-// ANCHOR_END: ray

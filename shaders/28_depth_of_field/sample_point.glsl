@@ -4,7 +4,6 @@
 // What else than in chapters before a number is for.
 const uint DIMENSION_LENS = 5;
 
-// ANCHOR: sample
 // Where the ray of a frame goes through its pixel, or through the lens, in [0, 1)^2.
 vec2 sample_point(uvec2 pixel, uint i, uint dimension) {
     if (push.sequence == SEQUENCE_CENTRE) {
@@ -34,4 +33,3 @@ vec2 sample_point(uvec2 pixel, uint i, uint dimension) {
     }
     return vec2(to_unit(point.x), to_unit(point.y));
 }
-// ANCHOR_END: sample

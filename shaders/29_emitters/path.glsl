@@ -32,7 +32,6 @@ void gather(inout Path path, vec3 seen) {
     path.color += light;
 }
 
-// ANCHOR: roulette
 // Whether the next ray is worth tracing. A path that has lost nothing is not ended by chance.
 bool goes_on(inout Path path) {
     float contribution = largest(path.throughput);
@@ -46,9 +45,7 @@ bool goes_on(inout Path path) {
     }
     return true;
 }
-// ANCHOR_END: roulette
 
-// ANCHOR: likelihood
 // The density of `kept_above(cosine_direction(u, normal), up)`: of a direction, and of the one that is
 // mirrored to it.
 float likelihood(vec3 direction, vec3 normal, vec3 up) {
@@ -57,9 +54,7 @@ float likelihood(vec3 direction, vec3 normal, vec3 up) {
     float both = max(dot(direction, normal), 0.0) + max(dot(other, normal), 0.0);
     return above > 0.0 ? both / 3.14159265 : 0.0;
 }
-// ANCHOR_END: likelihood
 
-// ANCHOR: chance
 // A ray has met an emitter. Shadow rays count a part of its light, too. This is the other part.
 float part_by_chance(Path path, Ray ray, Hit hit) {
     if (ESTIMATOR == ESTIMATOR_BSDF || path.density == NO_OTHER) {
@@ -73,9 +68,7 @@ float part_by_chance(Path path, Ray ray, Hit hit) {
     float chance = path.density * angle_of(emitter, ray.origin, ray.direction, hit.t);
     return chance / max(chance + probability_of(index), 1e-30);
 }
-// ANCHOR_END: chance
 
-// ANCHOR: asked
 // What a surface scatters of the light that shadow rays ask for. `matte` is the probability that the path
 // scatters, too, and does not mirror.
 void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_eye, float matte) {
@@ -98,7 +91,6 @@ void ask(inout Path path, Hit hit, MaterialRecord material, vec3 from, float to_
             / (chosen.probability + chance));
     }
 }
-// ANCHOR_END: asked
 
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
@@ -114,7 +106,6 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         gather(path, part_by_chance(path, ray, hit) * material.emission);
     }
     // ANCHOR_END: light
-    // ANCHOR: next
     float to_eye = max(dot(hit.normal, -ray.direction), 0.0);
     bool polished = material.illumination >= ILLUMINATION_MIRROR;
     vec3 mirror = polished ? fresnel(material.specular, to_eye) : vec3(0.0);
@@ -140,5 +131,4 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
     path.bounce++;
     ray.origin = from;
-    // ANCHOR_END: next
 }

@@ -27,7 +27,6 @@ Ray ray_through(vec3 origin, vec3 direction, float growth, float reach) {
 }
 // ANCHOR_END: ray
 
-// ANCHOR: slabs
 // Where the ray enters a box, between 0 and `tmax`, or MISSED. The direction's sign says which wall of a pair
 // is the near one; so a box whose low corner lies above its high one is missed by all rays.
 float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
@@ -46,9 +45,7 @@ float entered_slabs(Ray ray, vec3 low, vec3 high, float tmax) {
     }
     return enter <= leave ? enter : MISSED;
 }
-// ANCHOR_END: slabs
 
-// ANCHOR: exact
 // The same, where each comparison is exact: what is compared is multiplied out, not divided.
 float entered_exactly(Ray ray, vec3 low, vec3 high, float tmax) {
     if (low.x > high.x) {
@@ -78,7 +75,6 @@ float entered_exactly(Ray ray, vec3 low, vec3 high, float tmax) {
     }
     return before(leave, enter) ? MISSED : enter.distance.x / enter.speed;
 }
-// ANCHOR_END: exact
 
 float entered(Ray ray, Child child, float tmax) {
     return BOXES == BOXES_TWO_FLOAT

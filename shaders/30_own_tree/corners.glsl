@@ -17,7 +17,6 @@ bool is_finite(vec3 v) {
     return all(notEqual(floatBitsToUint(v) & EXPONENT, uvec3(EXPONENT)));
 }
 
-// ANCHOR: box_of
 // The least box around a triangle. A triangle that is not finite has none, so that no ray meets it.
 Bounds box_of(Corners t) {
     if (!(is_finite(t.a) && is_finite(t.b) && is_finite(t.c))) {
@@ -25,7 +24,6 @@ Bounds box_of(Corners t) {
     }
     return Bounds(min(min(t.a, t.b), t.c), max(max(t.a, t.b), t.c));
 }
-// ANCHOR_END: box_of
 
 // Halved before they are added: the sum of two finite corners may not be finite.
 vec3 centre(Bounds box) {

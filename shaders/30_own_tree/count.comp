@@ -8,7 +8,6 @@
 
 shared uint counts[DIGITS];
 
-// ANCHOR: count
 void main() {
     const uint self = gl_LocalInvocationIndex;
     for (uint d = self; d < DIGITS; d += WIDTH) {
@@ -23,4 +22,3 @@ void main() {
         push.counts.at[gl_WorkGroupID.x * DIGITS + d] = counts[d];
     }
 }
-// ANCHOR_END: count

@@ -24,7 +24,6 @@ Extent together(Extent a, Extent b) {
     return Extent(min(a.low, b.low), a.count + b.count, max(a.high, b.high));
 }
 
-// ANCHOR: extent
 void main() {
     const uint self = gl_LocalInvocationIndex;
     Extent own = Extent(nowhere().low, 0, nowhere().high);
@@ -51,4 +50,3 @@ void main() {
         push.extents.at[push.is_last == 0 ? 1 + gl_WorkGroupID.x : 0] = found[0];
     }
 }
-// ANCHOR_END: extent

@@ -22,7 +22,6 @@ layout(push_constant, scalar) uniform Fit {
 
 const uint NO_NODE = 0xffffffff;
 
-// ANCHOR: fit
 // The box around the positions from `first` up to `end`, that one left out. Where a pair is not whole in the range, its
 // half is taken from this level; the rest is left to the level above.
 Bounds box_around(uint first, uint end) {
@@ -59,4 +58,3 @@ void main() {
     set_box(i, 0, box_around(min(i, end), middle));
     set_box(i, 1, box_around(middle, max(i, end) + 1));
 }
-// ANCHOR_END: fit

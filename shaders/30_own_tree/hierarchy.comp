@@ -23,7 +23,6 @@ layout(push_constant, scalar) uniform Hierarchy {
 
 const uint NO_NODE = 0xffffffff;
 
-// ANCHOR: prefix
 // How many leading bits the keys at two positions share; less than any if there is no such position. Where keys are
 // the same the positions are compared, so that no two are the same.
 int shared_prefix(uint key, int i, int j, int count) {
@@ -33,9 +32,7 @@ int shared_prefix(uint key, int i, int j, int count) {
     uint differ = key ^ push.keys.at[j];
     return differ != 0 ? 31 - findMSB(differ) : 63 - findMSB(i ^ j);
 }
-// ANCHOR_END: prefix
 
-// ANCHOR: range
 // A node's range begins or ends at the node's own index. It grows to the side where the keys are more alike, as far as
 // they share more bits with the node's key than its neighbour on the other side does, which is outside.
 int other_end(uint key, int i, int side, int outside, int count) {
@@ -51,9 +48,7 @@ int other_end(uint key, int i, int side, int outside, int count) {
     }
     return i + reach * side;
 }
-// ANCHOR_END: range
 
-// ANCHOR: split
 // The last position of the range's left part: there the keys' first bit that they do not all share changes.
 int split(uint key, int i, int side, int end, int count) {
     int inside = shared_prefix(key, i, end, count);
@@ -66,7 +61,6 @@ int split(uint key, int i, int side, int end, int count) {
     } while (more > 1);
     return i + reach * side + min(side, 0);
 }
-// ANCHOR_END: split
 
 // Without a box, until its primitives' boxes are known.
 Child child(int first, bool is_leaf) {

@@ -18,7 +18,6 @@ layout(push_constant, scalar) uniform Leaves {
     uint count;
 } push;
 
-// ANCHOR: leaves
 void main() {
     uint i = invocation();
     if (i >= push.count) {
@@ -28,4 +27,3 @@ void main() {
     push.corners.at[i] = corners;
     push.boxes.at[i] = box_of(corners);
 }
-// ANCHOR_END: leaves

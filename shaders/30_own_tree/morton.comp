@@ -20,7 +20,6 @@ layout(push_constant, scalar) uniform Code {
     uint count;
 } push;
 
-// ANCHOR: morton
 // Sorts behind every finite triangle.
 const uint NOT_FINITE = 0x3fffffff;
 
@@ -42,7 +41,6 @@ uint morton(vec3 centre, Extent all) {
     uvec3 cell = min(uvec3(1024.0 * part), uvec3(1023));
     return min(spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z), NOT_FINITE - 1);
 }
-// ANCHOR_END: morton
 
 void main() {
     uint i = invocation();

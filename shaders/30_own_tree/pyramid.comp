@@ -13,7 +13,6 @@ layout(push_constant, scalar) uniform Level {
     uint count;     // of these
 } push;
 
-// ANCHOR: pyramid
 void main() {
     uint i = invocation();
     uint first = 0, count = push.count;
@@ -30,4 +29,3 @@ void main() {
         count = (count + 1) / 2;
     }
 }
-// ANCHOR_END: pyramid

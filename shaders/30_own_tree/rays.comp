@@ -31,7 +31,6 @@ Answer answer(Given given) {
         rayQueryGetIntersectionPrimitiveIndexEXT(query, true), 0);
 }
 #elif defined(BY_ALL)
-// ANCHOR: all
 // Every triangle of every instance: what any tree must not change.
 Answer answer(Given given) {
     Answer answer = Answer(given.tmax, NOTHING, 0, 0);
@@ -50,7 +49,6 @@ Answer answer(Given given) {
     }
     return answer;
 }
-// ANCHOR_END: all
 #else
 Answer answer(Given given) {
     // Two copies of the walk, each without what the other needs.

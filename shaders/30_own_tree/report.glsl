@@ -4,7 +4,6 @@
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-// ANCHOR: weights
 // The weights of the second and the third corner, as the watertight test has them.
 vec2 weights_at(Corners corners, vec3 origin, vec3 direction) {
     uint axis = longest_axis(direction);
@@ -23,11 +22,9 @@ vec2 weights_at(Corners corners, vec3 origin, vec3 direction) {
     // A triangle seen edge-on, which another test has met: any point of it will do.
     return all == 0.0 ? vec2(1.0 / 3.0) : vec2(v, w) / all;
 }
-// ANCHOR_END: weights
 
 // The surface at the nearest hit of a walk.
 void report(inout Hit hit, Met met, vec3 origin, vec3 ray) {
-    // ANCHOR: questions
     Placed placed = push.trees.at[0].placed.at[met.placed];
     mat4x3 to_world = placed.to_world;
     mat4x3 to_object = placed.to_object;
@@ -37,7 +34,6 @@ void report(inout Hit hit, Met met, vec3 origin, vec3 ray) {
     uint number = placed.number;
     uint primitive = met.position - placed.first;
     hit.t = met.t;
-    // ANCHOR_END: questions
     InstanceRecord instance = push.scene.instances.at[number];
     uint triangle = instance.original.at[primitive];
     Surface surface = surface_at(instance, triangle, weights);

@@ -6,7 +6,6 @@
 
 // The second part: how often each digit is in all shares before one, and in all.
 
-// ANCHOR: scan
 void main() {
     uint d = gl_GlobalInvocationID.x;
     uint sum = 0;
@@ -17,4 +16,3 @@ void main() {
     }
     push.totals.at[d] = sum;
 }
-// ANCHOR_END: scan

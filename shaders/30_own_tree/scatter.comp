@@ -12,7 +12,6 @@ shared uint next[DIGITS];         // where the next key of each digit goes
 shared uint who[DIGITS][ROWS];    // which invocations have a key of each digit in each row, a bit for each
 shared uint sums[WIDTH];
 
-// ANCHOR: begin
 // Where this share's first key of each digit goes: an invocation adds up the digits of its own, and then what the
 // invocations before it have.
 void begin() {
@@ -35,9 +34,7 @@ void begin() {
     }
     barrier();
 }
-// ANCHOR_END: begin
 
-// ANCHOR: scatter
 // Invocations work in no order, and keys of one digit must stay in theirs. So each sets a bit; and how many bits
 // there are before its own is how many such keys come before it.
 void main() {
@@ -80,4 +77,3 @@ void main() {
         barrier();
     }
 }
-// ANCHOR_END: scatter

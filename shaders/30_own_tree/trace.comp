@@ -13,13 +13,10 @@ layout(local_size_x_id = 4, local_size_y_id = 5) in;
 
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2D picture;
 
-// ANCHOR: shadow
 bool is_lit(vec3 origin, vec3 to_light, float end) {
     return walk(push.trees.at[0], origin, to_light, end, true).placed == NOTHING;
 }
-// ANCHOR_END: shadow
 
-// ANCHOR: trace
 // What a ray meets.
 Hit trace(vec3 origin, vec3 direction, out Met met) {
     met = walk(push.trees.at[0], origin, direction, 1e30, false);
@@ -32,7 +29,6 @@ Hit trace(vec3 origin, vec3 direction, out Met met) {
     }
     return hit;
 }
-// ANCHOR_END: trace
 
 // What a view shows of a hit instead of the picture.
 vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
@@ -52,13 +48,11 @@ vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
 
 // One ray a pixel, through its middle; and from what it meets, one to the light.
 void main() {
-    // ANCHOR: band
     uvec2 at = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(at, push.band.size))) {
         return;    // the last workgroups reach beyond the band
     }
     uvec2 id = push.band.first + at;
-    // ANCHOR_END: band
     vec2 point = vec2(id) + 0.5;
     vec3 direction = ray_direction(push.camera, point, imageSize(picture));
     pixel_direction = direction;
@@ -69,7 +63,6 @@ void main() {
     float visible = 1.0;
     float apart = 1.0;    // from the pixel of the one ray
     if (SHOW == SHOW_WALK) {
-        // ANCHOR: one_walk
         // The boxes of this pixel's own walk are forgotten; those of the one ray count. It walks twice: to count its
         // nodes, and to draw as many of them as are asked for.
         vec2 size = vec2(imageSize(picture));
@@ -82,7 +75,6 @@ void main() {
             last = min(last, walk(push.trees.at[0], push.camera.origin, one, 1e30, false).boxes);
         }
         apart = distance(point, aim) / size.y;
-        // ANCHOR_END: one_walk
     }
     if (hit.t >= 0.0 && SHOW < SHOW_STEPS) {
         MaterialRecord material = push.scene.materials.at[hit.material];

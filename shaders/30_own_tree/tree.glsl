@@ -1,7 +1,6 @@
 // Trees as a walk reads them: nodes, triangles and instances, all by address.
 #include "node.glsl"
 
-// ANCHOR: quantised
 // The same node in 36 bytes: its boxes stand on a grid of its own, whose steps are powers of two. So a product
 // with a step is exact, and the host has chosen places whose sums do not cut into the box.
 struct Quantised {
@@ -28,9 +27,7 @@ Node unpacked(Quantised node) {
     }
     return full;
 }
-// ANCHOR_END: quantised
 
-// ANCHOR: placed
 // An instance: a leaf of the top tree leads to it, and it leads to the tree of its mesh.
 struct Placed {
     mat4x3 to_world;
@@ -41,7 +38,6 @@ struct Placed {
     uint number;          // which instance of the scene
     float reach;          // the largest coordinate of its mesh, without its sign
 };
-// ANCHOR_END: placed
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Nodes { Node at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Packed { Quantised at[]; };

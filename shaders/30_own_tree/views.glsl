@@ -1,7 +1,6 @@
 // What there is to see of a walk: the edges of boxes, over the picture.
 #include "common/heat.glsl"
 
-// ANCHOR: edges
 const float EDGE = 0.0035;    // half a line's width, at a distance of 1
 
 // Whether a point of a box's surface lies on an edge: then two of its three coordinates are those of walls.
@@ -30,9 +29,7 @@ bool draws_edge(vec3 o, vec3 d, Child child, inout float t) {
     }
     return false;
 }
-// ANCHOR_END: edges
 
-// ANCHOR: depth
 // How many nodes lead to a triangle in the tree of its mesh. A walk for a point: of all boxes, those are looked into
 // that hold the triangle's first corner.
 uint depth_of(Trees trees, Met met) {
@@ -61,7 +58,6 @@ uint depth_of(Trees trees, Met met) {
     }
     return 0;
 }
-// ANCHOR_END: depth
 
 // This pixel's ray, and the nearest edge that it has met.
 vec3 pixel_direction;
@@ -70,7 +66,6 @@ vec3 edge_color;
 uint visited = 0;
 uint last;    // the number of the last node that the view of one walk shows
 
-// ANCHOR: visit
 // Called by the walk at each node. The rays of boxes are those of the pixels; in the view of one walk all
 // pixels follow the one ray, and each looks at the boxes that it passes.
 void visit(Trees trees, Node node, uint inside) {
@@ -107,7 +102,6 @@ void visit(Trees trees, Node node, uint inside) {
         }
     }
 }
-// ANCHOR_END: visit
 
 // The edges that were met, over a colour at distance t (-1 for none).
 vec3 edges_over(vec3 color, float t) {

@@ -7,7 +7,6 @@
 const uint FIRST_BITS = 28;
 const uint FIRST_MASK = (1 << FIRST_BITS) - 1;
 
-// ANCHOR: met
 // What a ray has met: nothing, or a triangle of an instance.
 struct Met {
     float t;
@@ -16,9 +15,7 @@ struct Met {
     uint boxes;           // how many nodes it took, for views
     uint triangles;       // and how many triangles
 };
-// ANCHOR_END: met
 
-// ANCHOR: triangle
 // Where the ray of a tree meets a triangle, if that is nearer than all before.
 bool is_nearer(Ray ray, Corners corners, inout float nearest) {
     float t;
@@ -36,7 +33,6 @@ bool is_nearer(Ray ray, Corners corners, inout float nearest) {
     nearest = hit ? t : nearest;
     return hit;
 }
-// ANCHOR_END: triangle
 
 uint entry_of(Child child) {
     return child.first | child.count << FIRST_BITS;
@@ -51,7 +47,6 @@ Ray ray_in(Placed placed, vec3 origin, vec3 direction) {
 // Called at each node; what a view does there is the includer's.
 void visit(Trees trees, Node node, uint inside);
 
-// ANCHOR: walk
 // The nearest triangle that a ray meets with 0 < t < tmax, or, if `any` will do, the first one found.
 Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
     Met met = Met(tmax, NOTHING, NOTHING, 0, 0);
@@ -120,4 +115,3 @@ Met walk(Trees trees, vec3 origin, vec3 direction, float tmax, const bool any) {
         // ANCHOR_END: pop
     }
 }
-// ANCHOR_END: walk

@@ -1,7 +1,6 @@
 // What makes the points of a sequence differ from pixel to pixel.
 #include "common/sequence.glsl"
 
-// ANCHOR: sample
 // Where in the pixel the ray of a frame goes through, in [0, 1)^2.
 vec2 sample_point(uvec2 pixel, uint i) {
     if (push.sequence == SEQUENCE_CENTRE) {
@@ -28,4 +27,3 @@ vec2 sample_point(uvec2 pixel, uint i) {
     }
     return vec2(to_unit(point.x), to_unit(point.y));
 }
-// ANCHOR_END: sample

@@ -13,20 +13,16 @@ hitAttributeEXT vec2 weights;
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: normal
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     vec3 view = -gl_WorldRayDirectionEXT;
     // The flat triangle decides which side the ray sees: near an outline the smooth normal may look away.
     vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
     normal = faceforward(normal, -faceforward(face, -view, face), normal);
-    // ANCHOR_END: normal
 
     vec3 base = material.base_color;
     if (material.base_texture >= 0) {

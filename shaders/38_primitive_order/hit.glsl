@@ -1,7 +1,6 @@
 // What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
 // The raygen shader decides what to do about it.
 
-// ANCHOR: hit
 struct Hit {
     vec3 position;    // on the surface, in the world
     float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
@@ -16,4 +15,3 @@ struct Hit {
     uint kind;        // a triangle, KIND_SPHERE or KIND_BOX: gl_HitKindEXT
     float place;      // of the shape in the list that was built: 0 is the first; -1 for a triangle
 };                    // 88 bytes
-// ANCHOR_END: hit

@@ -5,7 +5,6 @@
 #include "common/false_color.glsl"
 #include "common/heat.glsl"
 
-// ANCHOR: shapes
 struct Sphere {
     vec3 center;
     float radius;
@@ -43,7 +42,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sha
     uint sphere_count;
     uint box_count;
 };
-// ANCHOR_END: shapes
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

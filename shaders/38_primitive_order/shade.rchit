@@ -15,13 +15,10 @@ hitAttributeEXT vec2 weights;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    // ANCHOR: fetch
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, weights);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place(hit, instance, triangle, weights);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -38,5 +35,4 @@ void main() {
     hit.instance = gl_InstanceCustomIndexEXT;
     hit.kind = gl_HitKindEXT;
     hit.place = -1.0;
-    // ANCHOR_END: report
 }

@@ -10,7 +10,6 @@
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
 
-// ANCHOR: place
 // Computes the hit anew, from the shape and not from the ray: on the sphere or the wall as nearly as
 // rounding allows, wherever the ray came from. And how far above the surface a leaving ray must start.
 //
@@ -49,17 +48,13 @@ void place_on_shape() {
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
     hit.height = ROUNDING * dot(abs(hit.face), straying);
 }
-// ANCHOR_END: place
 
 // The nearest hit is a sphere or a box: the intersection shader has left its normal.
 void main() {
-    // ANCHOR: fetch
     bool sphere = gl_HitKindEXT == KIND_SPHERE;
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
     uint material = sphere ? sphere_of(gl_PrimitiveID).material : box_of(gl_PrimitiveID).material;
-    // ANCHOR_END: fetch
-    // ANCHOR: report
     place_on_shape();
     hit.t = gl_HitTEXT;
     // A shape has one normal, and is as round as it looks.
@@ -72,5 +67,4 @@ void main() {
     hit.kind = gl_HitKindEXT;
     uint count = sphere ? push.shapes.sphere_count : push.shapes.box_count;
     hit.place = float(gl_PrimitiveID) / float(count);
-    // ANCHOR_END: report
 }

@@ -1,7 +1,6 @@
 // The tree that halves the list, walked for a count: what the device's own walk does cannot be asked.
 #include "common/box.glsl"
 
-// ANCHOR: walk
 // How many boxes a ray is tested against, as far as `end`.
 uint boxes_tested(vec3 o, vec3 d, float end) {
     uint tested = 0;
@@ -16,7 +15,6 @@ uint boxes_tested(vec3 o, vec3 d, float end) {
     }
     return tested;
 }
-// ANCHOR_END: walk
 
 // From dark blue over red to yellow and white: each step of color is as many times as many tests.
 vec4 view_of_tests(vec3 origin, vec3 direction, float end) {

@@ -4,7 +4,6 @@
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 
-// ANCHOR: record
 // What a piece has of its own, at its custom index.
 struct PieceRecord {
     mat3 inverse;         // of its matrix without the translation, made in 64 bits
@@ -15,7 +14,6 @@ struct PieceRecord {
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pieces { PieceRecord at[]; };
-// ANCHOR_END: record
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;

@@ -4,16 +4,13 @@
 // where it is flat. `before` and `after` are the cosines of the ray and of its refraction to the normal, positive.
 // `ratio` is the index of refraction before the surface over that behind it.
 
-// ANCHOR: mirror
 // Across the cone the normals turn by curvature * width, and a mirror turns rays by twice that. A hollow one turns
 // them towards each other: the width goes through zero, and grows again with the other sign.
 Cone after_mirror(Cone cone, float t, float curvature) {
     float width = width_at(cone, t);
     return Cone(width, cone.spread + 2.0 * curvature * width);
 }
-// ANCHOR_END: mirror
 
-// ANCHOR: glass
 // Along the slant a refracted cone becomes wider by after / before, and spreads less by the same; across it neither
 // changes. One number has to stand for both: the root of their product, which keeps the area.
 Cone after_glass(Cone cone, float t, float curvature, float before, float after, float ratio) {
@@ -24,22 +21,18 @@ Cone after_glass(Cone cone, float t, float curvature, float before, float after,
     float turned = (after - ratio * before) / before * curvature * width;
     return Cone(wider * width, (ratio * cone.spread - turned) / wider);
 }
-// ANCHOR_END: glass
 
-// ANCHOR: beam
 // How the rays of the next pixel to the right (a) and of the next one below (b) differ from the ray: where they
 // begin, and in their directions.
 struct Beam {
     Axes origin;
     Axes direction;
 };
-// ANCHOR_END: beam
 
 float away_from_zero(float cosine) {
     return cosine < 0.0 ? min(cosine, -GRAZING) : max(cosine, GRAZING);
 }
 
-// ANCHOR: met
 // Where a neighbour meets the plane of a hit, as a step from the hit.
 vec3 met(vec3 origin, vec3 step, float t, vec3 direction, vec3 normal) {
     vec3 away = origin + t * step;
@@ -50,7 +43,6 @@ Axes met(Beam beam, float t, vec3 direction, vec3 normal) {
     return Axes(met(beam.origin.a, beam.direction.a, t, direction, normal),
                 met(beam.origin.b, beam.direction.b, t, direction, normal));
 }
-// ANCHOR_END: met
 
 // ANCHOR: differentials
 // The derivatives of mirrored and of refracted directions (Igehy, "Tracing Ray Differentials", 1999). A step along
@@ -69,7 +61,6 @@ vec3 refracted_step(vec3 at, vec3 step, vec3 direction, vec3 normal, float curva
 }
 // ANCHOR_END: differentials
 
-// ANCHOR: principal
 // Two steps that lean towards each other bound a narrow ellipse, and neither is its axis. Turned by an angle into
 // each other they are perpendicular, and bound the same one. Twice the angle has the tangent lean / longer; of the
 // two angles, this is the one of at most 45 degrees, and `into` is its tangent.
@@ -86,4 +77,3 @@ Axes principal(Axes axes) {
     float cosine = inversesqrt(1.0 + into * into);
     return Axes(cosine * (axes.a + into * axes.b), cosine * (axes.b - into * axes.a));
 }
-// ANCHOR_END: principal

@@ -21,7 +21,6 @@ bool looks_on() {
     return SHOW == SHOW_PICTURE || SHOW == SHOW_COLOR || SHOW == SHOW_LEVEL;
 }
 
-// ANCHOR: mirror
 void mirror(inout Ray ray, inout Seen seen, vec3 normal, float curvature) {
     vec3 from = ray.direction;
 #ifdef DIFFERENTIALS
@@ -35,9 +34,7 @@ void mirror(inout Ray ray, inout Seen seen, vec3 normal, float curvature) {
     ray.direction = mirrored(from, normal, seen.hit.face);
     ray.origin = seen.hit.position + seen.hit.height * seen.hit.face;
 }
-// ANCHOR_END: mirror
 
-// ANCHOR: glass
 void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, float to) {
     vec3 from = ray.direction;
     vec3 on = refracted(from, normal, ray.index, to);
@@ -57,9 +54,7 @@ void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, 
     ray.origin = seen.hit.position - seen.hit.height * seen.hit.face;
     ray.index = to;
 }
-// ANCHOR_END: glass
 
-// ANCHOR: sent
 // Whether a mirror or glass sends the ray on, and how. One ray goes one way: what has a colour of its own keeps it.
 bool sent_on(inout Ray ray, inout Seen seen) {
     if (seen.hit.t < 0.0 || !looks_on()) {
@@ -82,4 +77,3 @@ bool sent_on(inout Ray ray, inout Seen seen) {
     }
     return true;
 }
-// ANCHOR_END: sent

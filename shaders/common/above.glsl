@@ -32,7 +32,6 @@ mat3 absolute(mat3 m) {
     return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
 }
 
-// ANCHOR: lift
 // From the flat triangle to the round surface that its normals pretend: the mean of the point's
 // projections onto the planes through the corners, across their normals, where those lie above it.
 // A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
@@ -56,9 +55,7 @@ vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weig
     }
     return mat3(to_world) * lift;
 }
-// ANCHOR_END: lift
 
-// ANCHOR: place
 // Fills position, face, height and lift of a hit: of a ray in direction `ray`, on a triangle of an instance that
 // `to_world` places. What is `const` needs no copy, which could cost registers.
 void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, const mat4x3 to_world,
@@ -93,4 +90,3 @@ void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, 
     hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);
     hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);
 }
-// ANCHOR_END: place

@@ -4,7 +4,6 @@
 #include "sphere_light.glsl"
 #include "triangle_light.glsl"
 
-// ANCHOR: aim
 Aim aim_at(Emitter emitter, vec3 from, vec2 u) {
     return emitter.radius > 0.0 ? aim_at_sphere(emitter, from, u) : aim_at_triangle(emitter, from, u);
 }
@@ -14,4 +13,3 @@ float angle_of(Emitter emitter, vec3 from, vec3 direction, float t) {
     return emitter.radius > 0.0 ? angle_of_sphere(emitter, from)
                                 : angle_of_triangle(emitter, from, t * direction);
 }
-// ANCHOR_END: aim

@@ -2,7 +2,6 @@
 //
 // Places in an aperture: a disk or a regular polygon, of radius 1.
 
-// ANCHOR: disk
 // A square becomes a disk, ring by ring: what is uniform stays uniform, and neighbours stay neighbours
 // (Shirley and Chiu 1997).
 vec2 disk_point(vec2 u) {
@@ -15,7 +14,6 @@ vec2 disk_point(vec2 u) {
     vec2 turned = radius * vec2(cos(angle), sin(angle));
     return is_wide ? turned : turned.yx;
 }
-// ANCHOR_END: disk
 
 // ANCHOR: blades
 // A corner of the unit polygon. The angle is from -pi to pi: beyond, Vulkan says nothing of a sine's error.

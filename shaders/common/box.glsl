@@ -10,7 +10,6 @@ const uint BOX_DIVISION = 1;
 
 const float LARGEST = 3.4028235e38;
 
-// ANCHOR: reciprocal
 // One division an axis, and minimum and maximum for all decisions (Kay and Kajiya 1986). Along an axis
 // 1 / 0 is infinite, and in the plane of a wall 0 · infinity is not a number.
 bool box_reciprocal(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 faces[2]) {
@@ -28,9 +27,7 @@ bool box_reciprocal(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 fa
     faces[1][last] = sign(d[last]);
     return t.x <= t.y;
 }
-// ANCHOR_END: reciprocal
 
-// ANCHOR: division
 // A true division: t is off by no more than Vulkan allows for a difference and a quotient, 1 + 2.5 ULP,
 // and its sign is right. Where d = 0, the origin is in the slab or it is not. The sign of d
 // decides which wall is entered and which is left (after Majercik et al., JCGT 7:3, 2018).
@@ -61,4 +58,3 @@ bool box_division(vec3 o, vec3 d, vec3 low, vec3 high, out vec2 t, out vec3 face
     }
     return t.x <= t.y;
 }
-// ANCHOR_END: division

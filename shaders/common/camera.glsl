@@ -9,10 +9,8 @@ struct CameraBasis {
     vec3 forward;
 };
 
-// ANCHOR: direction
 // The direction through a point of the picture, in pixels from its top left corner.
 vec3 ray_direction(CameraBasis camera, vec2 point, uvec2 size) {
     vec2 screen = 2.0 * point / vec2(size) - 1.0;
     return normalize(camera.forward + screen.x * camera.right - screen.y * camera.up);
 }
-// ANCHOR_END: direction

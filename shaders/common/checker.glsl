@@ -2,7 +2,6 @@
 //
 // A checker board, averaged over what a pixel sees of it.
 
-// ANCHOR: checker
 // How much of a box is light. `middle` and `width` of the box are in squares; the square between 0 and
 // 1 in both is light. A stripe pattern of +1 and -1 has the triangle wave for its integral; a checker
 // board is the product of two such patterns, and so is its mean over a box.
@@ -16,4 +15,3 @@ float checker_light(vec2 middle, vec2 width) {
     vec2 mean = clamp(2.0 * (from - to) / width, vec2(-1.0), vec2(1.0));
     return 0.5 + 0.5 * mean.x * mean.y;
 }
-// ANCHOR_END: checker

@@ -3,7 +3,6 @@
 // Where a ray crosses a plane, undivided, so that two crossings are compared exactly.
 #include "common/two_float.glsl"
 
-// ANCHOR: crossing
 // Where a ray crosses the plane of a wall: at t = distance / speed, which is left undivided.
 struct Crossing {
     vec2 distance;   // from the origin to the wall, along the axis: the difference of two floats, exactly
@@ -20,4 +19,3 @@ bool before(Crossing a, Crossing b) {
     sum_add_product(sum, b.distance, -scaled(a.speed, -size));
     return sum_total(sum).x < 0.0;
 }
-// ANCHOR_END: crossing

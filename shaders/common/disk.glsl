@@ -3,15 +3,12 @@
 // A light with a size: a disk that shines, and points of it.
 #include "common/light.glsl"
 
-// ANCHOR: light
 struct DiskLight {
     Light light;     // its middle
     float radius;    // 0 for a mere point
     uint samples;    // shadow rays a hit, where the radius is not 0
 };
-// ANCHOR_END: light
 
-// ANCHOR: disk
 // Point i of n on the unit disk: a sunflower's spiral, started by two random numbers. Each point alone
 // is uniform on the disk, and all together leave no gaps (Vogel 1979).
 vec2 disk_point(uint i, uint n, vec2 start) {
@@ -20,9 +17,7 @@ vec2 disk_point(uint i, uint n, vec2 start) {
     float angle = 6.283185 * (fract(0.618033989 * float(i) + start.y + 0.5) - 0.5);
     return radius * vec2(cos(angle), sin(angle));
 }
-// ANCHOR_END: disk
 
-// ANCHOR: towards
 // From a point to a point of the disk, which faces the one that looks at it.
 vec3 towards_disk(DiskLight disk, vec3 from, vec2 on_disk) {
     vec3 axis = towards_light(disk.light, from);
@@ -34,4 +29,3 @@ vec3 towards_disk(DiskLight disk, vec3 from, vec2 on_disk) {
     vec3 up = normalize(cross(axis, right));
     return axis + disk.radius * (on_disk.x * right + on_disk.y * up);
 }
-// ANCHOR_END: towards

@@ -2,7 +2,6 @@
 //
 // What shines: spheres, and triangles of meshes; and the table by which one of them is chosen.
 
-// ANCHOR: emitter
 struct Emitter {
     vec3 corner;          // a triangle's first; a sphere's centre
     float radius;         // a sphere's; 0 for a triangle
@@ -13,7 +12,6 @@ struct Emitter {
     float height;         // a ray that ends so far above it, and `slack` times its length, does not meet it
     float slack;
 };
-// ANCHOR_END: emitter
 
 // Where a shadow ray goes.
 struct Aim {

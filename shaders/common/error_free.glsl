@@ -8,7 +8,6 @@
 #define FUSED 0
 #endif
 
-// ANCHOR: rounding
 // Vulkan lets a device round up or down, unless a shader demands the nearest. GLSL has no word for that
 // mode, so it is SPIR-V's. The host defines this macro where the device offers the mode; elsewhere
 // the errors below are off by roundings of their own.
@@ -16,7 +15,6 @@
 #extension GL_EXT_spirv_intrinsics : require
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4467], 4462, 32);
 #endif
-// ANCHOR_END: rounding
 
 // ANCHOR: exact
 // a + b is sum.x + sum.y, exactly (Knuth).
@@ -56,7 +54,6 @@ vec2 quick_two_sum(float a, float b) {
     return vec2(sum, error);
 }
 
-// ANCHOR: compensated
 // start + a·b, where the error of each product and of each sum is kept, and added at the end.
 // (Ogita, Rump and Oishi 2005, algorithm Dot2.)
 float dot_compensated(vec2 start, vec3 a, vec3 b) {
@@ -71,4 +68,3 @@ float dot_compensated(vec2 start, vec3 a, vec3 b) {
     precise float result = sum + error;
     return result;
 }
-// ANCHOR_END: compensated

@@ -11,19 +11,15 @@ const uint PIECES = 1024;
 
 layout(set = 0, binding = 3, scalar) readonly buffer Offsets { float at[PIECES + 1]; } offsets;
 
-// ANCHOR: tent
 float tent(float u) {
     return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u);
 }
-// ANCHOR_END: tent
 
-// ANCHOR: table
 float blackman_harris(float u) {
     float place = u * PIECES;
     uint piece = uint(place);
     return mix(offsets.at[piece], offsets.at[piece + 1], place - piece);
 }
-// ANCHOR_END: table
 
 vec2 filter_offset(vec2 u) {
     if (push.pixel_filter == FILTER_TENT) {

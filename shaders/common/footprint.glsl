@@ -22,7 +22,6 @@ struct Axes {
 // A ray along the surface would see it without end. The longest filter gives up long before.
 const float GRAZING = 1e-4;
 
-// ANCHOR: ellipse
 // Where the cone cuts the plane. Near the hit it is as good as a cylinder, and the cut is an ellipse: as wide as the
 // cone, and as long as the ray is slanting.
 Axes ellipse(float width, vec3 direction, vec3 face) {
@@ -35,9 +34,7 @@ Axes ellipse(float width, vec3 direction, vec3 face) {
     along = normalize(along);
     return Axes(width / max(abs(cosine), GRAZING) * along, width * cross(face, along));
 }
-// ANCHOR_END: ellipse
 
-// ANCHOR: differentials
 // Where the rays of the next pixel to the right and of the next one below would meet the plane (Igehy, "Tracing Ray
 // Differentials", 1999). `right` and `down` are how far apart the rays are at distance 1.
 Axes differentials(float t, vec3 direction, vec3 face, vec3 right, vec3 down) {
@@ -46,7 +43,6 @@ Axes differentials(float t, vec3 direction, vec3 face, vec3 right, vec3 down) {
     return Axes(t * (right - dot(right, face) / cosine * direction),
                 t * (down - dot(down, face) / cosine * direction));
 }
-// ANCHOR_END: differentials
 
 // How the texture coordinates change on a triangle: their gradients in the world.
 struct Mapping {
@@ -54,7 +50,6 @@ struct Mapping {
     vec3 v;
 };
 
-// ANCHOR: mapping
 // `e1` and `e2` are the triangle's edges from its first corner, `s1` and `s2` the same on the texture.
 Mapping mapping_of(vec3 e1, vec3 e2, vec2 s1, vec2 s2) {
     // In units of the longer edge, so that no square is too large or too small.
@@ -71,7 +66,6 @@ Mapping mapping_of(vec3 e1, vec3 e2, vec2 s1, vec2 s2) {
     vec3 second = cross(normal, a) / (squared * size);
     return Mapping(s1.x * first + s2.x * second, s1.y * first + s2.y * second);
 }
-// ANCHOR_END: mapping
 
 // A step on the triangle, as a step on the texture.
 vec2 on_texture(Mapping mapping, vec3 along) {

@@ -25,7 +25,6 @@ struct Split {
     float through;
 };
 
-// ANCHOR: fresnel
 // Fresnel's equations, for light that is not polarised, from a medium of index `from` into one of index
 // `to`; `cosine` is the ray's to the normal.
 //
@@ -50,17 +49,13 @@ Split fresnel_exact(float cosine, float from, float to) {
         2.0 * q * p / (sum * sum) * (1.0 + relative * relative)
     );
 }
-// ANCHOR_END: fresnel
 
-// ANCHOR: thin
 // Between the two sides of a sheet light goes to and fro: R + T²R + T²R³ + … = 2R / (1 + R) comes back.
 Split of_sheet(Split side) {
     float all = 1.0 + side.reflected;
     return Split(2.0 * side.reflected / all, side.through / all);
 }
-// ANCHOR_END: thin
 
-// ANCHOR: refracted
 // Where a ray goes on that is not totally reflected. Along the surface index·direction stays as it is, and
 // along the normal -q becomes -p.
 vec3 refracted(vec3 direction, vec3 normal, float from, float to) {
@@ -69,4 +64,3 @@ vec3 refracted(vec3 direction, vec3 normal, float from, float to) {
     float sum = q + sqrt(max(squares + q * q, 0.0));
     return normalize(from * direction - squares / sum * normal);
 }
-// ANCHOR_END: refracted

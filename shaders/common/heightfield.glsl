@@ -73,7 +73,6 @@ float height_above(HeightfieldShape shape, vec3 o, vec3 d, float t) {
 }
 // ANCHOR_END: shape
 
-// ANCHOR: relaxed
 // A fixed part of the height, until that is small beside t. Where the ground comes up faster than the
 // step allows for, the ray is through; where it comes slowly, the march ends too early or not at all,
 // and what it has then is called a hit.
@@ -89,7 +88,6 @@ HeightfieldHit heightfield_relaxed(HeightfieldShape shape, vec3 o, vec3 d, float
     }
     return HeightfieldHit(t > tmin && t < tmax, t, steps);
 }
-// ANCHOR_END: relaxed
 
 // ANCHOR: lipschitz
 // How fast a ray can come down on the ground, per unit of t: the ground rises by its steepest slope at
@@ -161,7 +159,6 @@ HeightfieldHit crossing_between(
 }
 // ANCHOR_END: crossing
 
-// ANCHOR: bisected
 // Lipschitz steps until the ground is passed, which only a blind step can do; then the crossing (Hart,
 // The Visual Computer 12, 1996). The march ends at a change of sign or at tmax, and nowhere else.
 HeightfieldHit heightfield_bisected(HeightfieldShape shape, vec3 o, vec3 d, float tmin, float tmax) {
@@ -191,9 +188,7 @@ HeightfieldHit heightfield_bisected(HeightfieldShape shape, vec3 o, vec3 d, floa
     }
     return HeightfieldHit(false, t, steps);
 }
-// ANCHOR_END: bisected
 
-// ANCHOR: over_relaxed
 // Longer steps, as if the ground were less steep (Keinert and others, Smart Tools and Applications in
 // Graphics 2014). From the new place, too, some of the way back is free for sure; if the two free parts
 // leave a gap, or the ground is passed, the step was too long: it is taken back for the safe one.
@@ -231,7 +226,6 @@ HeightfieldHit heightfield_over_relaxed(HeightfieldShape shape, vec3 o, vec3 d, 
     }
     return HeightfieldHit(false, t, steps);
 }
-// ANCHOR_END: over_relaxed
 
 HeightfieldHit heightfield_by(
     uint rung, HeightfieldShape shape, vec3 o, vec3 d, float tmin, float tmax) {

@@ -5,13 +5,11 @@
 const uint LIGHT_DIRECTIONAL = 0;
 const uint LIGHT_POINT = 1;
 
-// ANCHOR: light
 struct Light {
     vec3 place;      // directional: the unit vector towards it; point: its position
     uint kind;
     vec3 strength;   // directional: radiance; point: intensity, which is what arrives at distance 1
 };
-// ANCHOR_END: light
 
 // ANCHOR: towards
 // From a point to the light, which is at t = 1 along it. A directional light is at no distance: the way there
@@ -26,7 +24,6 @@ float light_end(Light light) {
 }
 // ANCHOR_END: towards
 
-// ANCHOR: arriving
 // What arrives at a surface that faces the light: a point light's strength falls with the square of
 // the distance.
 vec3 arriving_light(Light light, vec3 from) {
@@ -36,4 +33,3 @@ vec3 arriving_light(Light light, vec3 from) {
     vec3 axis = light.place - from;
     return light.strength / dot(axis, axis);
 }
-// ANCHOR_END: arriving

@@ -20,18 +20,14 @@ Start shadow_start(Hit hit) {
 }
 // ANCHOR_END: start
 
-// ANCHOR: visibility
 // 1 if light arrives from a direction, else 0: it comes from t = `end` along `to_light`.
 float visibility(Start start, vec3 to_light, float end) {
     // A light below the surface is hidden by the surface itself: that needs no ray.
     return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
 }
-// ANCHOR_END: visibility
 
-// ANCHOR: light
 // What a surface sends to the eye, in direction `view`, of the light that arrives at it from a direction.
 vec3 lit_by(vec3 arriving, vec3 to_light, Hit hit, MaterialRecord material, vec3 view) {
     return arriving * reflect_light(hit.color, material.specular, material.shininess, hit.normal, view,
         normalize(to_light));
 }
-// ANCHOR_END: light

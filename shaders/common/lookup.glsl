@@ -5,15 +5,12 @@
 // As many lookups as one takes along a footprint.
 const float MOST = 16.0;
 
-// ANCHOR: level
 // The level whose texels are so many texels of level 0 wide. What is no number gives level 0: no comparison with it
 // holds.
 float level_of(float texels) {
     return texels > 1.0 ? log2(min(texels, 1e9)) : 0.0;
 }
-// ANCHOR_END: level
 
-// ANCHOR: cone
 // One number for the whole footprint: how many texels of level 0 the cone is wide, on a surface that slants away
 // (Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems, 2019).
 // The mapping stretches areas; lengths by the root of that.
@@ -24,7 +21,6 @@ float texels_of_cone(float width, float cosine, Mapping mapping, vec2 size) {
     float stretch = most * sqrt(area * size.x * size.y);
     return width / max(abs(cosine), GRAZING) * stretch;
 }
-// ANCHOR_END: cone
 
 // Lookups in a row.
 struct Row {
@@ -33,7 +29,6 @@ struct Row {
     float level;
 };
 
-// ANCHOR: row
 // Lookups along the longer axis of a footprint, each as wide as the shorter one.
 Row row_of(vec2 a, vec2 b, vec2 size) {
     float length_a = length(a * size);
@@ -52,9 +47,7 @@ Row row_of(vec2 a, vec2 b, vec2 size) {
     vec2 between = count > 1.0 ? (is_a ? a : b) / count : vec2(0.0);
     return Row(between, int(count), level_of(max(longer / count, shorter)));
 }
-// ANCHOR_END: row
 
-// ANCHOR: read
 // The mean of the lookups.
 vec3 texture_along(int index, vec2 uv, Row row) {
     vec3 sum = vec3(0.0);
@@ -64,4 +57,3 @@ vec3 texture_along(int index, vec2 uv, Row row) {
     }
     return sum / float(row.count);
 }
-// ANCHOR_END: read

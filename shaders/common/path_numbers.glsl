@@ -9,7 +9,6 @@ const uint DIMENSION_CHOICE = 2;
 const uint DIMENSION_BOUNCE = 3;
 const uint DIMENSION_ROULETTE = 4;
 
-// ANCHOR: numbers
 // Each pair is a point of the unit square of its own, two dimensions of the many that a path has.
 vec2 numbers(uvec2 pixel, uint sample_index, uint bounce, uint dimension, uint seed) {
     uvec4 key = hash(uvec4(pixel.x | pixel.y << 16u, bounce, dimension, seed));
@@ -17,4 +16,3 @@ vec2 numbers(uvec2 pixel, uint sample_index, uint bounce, uint dimension, uint s
     uvec2 point = sobol(owen(sample_index, key.z));
     return vec2(to_unit(owen(point.x, key.x)), to_unit(owen(point.y, key.y)));
 }
-// ANCHOR_END: numbers

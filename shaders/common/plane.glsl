@@ -21,7 +21,6 @@ struct Plane {
     float rest;      // D·|N| - N·anchor: how far the rounding moved it off the plane, times |N|
 };
 
-// ANCHOR: pov
 // As the plane is given: {<A,B,C>, D}. How high the origin is above the plane is the difference of two
 // numbers that both grow with the distance from the world's origin.
 bool plane_pov(Plane plane, vec3 o, vec3 d, out float t) {
@@ -31,9 +30,7 @@ bool plane_pov(Plane plane, vec3 o, vec3 d, out float t) {
     t = slope == 0.0 ? 0.0 : quotient;
     return slope != 0.0;
 }
-// ANCHOR_END: pov
 
-// ANCHOR: point
 // By a point of the plane. Near the ray's origin, it makes the subtraction exact: what would cancel has been
 // subtracted by the host, in 64 bits.
 bool plane_point(Plane plane, vec3 o, vec3 d, out float t) {
@@ -44,18 +41,14 @@ bool plane_point(Plane plane, vec3 o, vec3 d, out float t) {
     t = slope == 0.0 ? 0.0 : quotient;
     return slope != 0.0;
 }
-// ANCHOR_END: point
 
-// ANCHOR: cut_off
 // The same, but a ray that is nearly parallel is taken for parallel: a common guard against dividing by
 // a small number. There is nothing to guard against, and the horizon is lost.
 bool plane_cut_off(Plane plane, vec3 o, vec3 d, out float t) {
     float sine = dot(normalize(d), normalize(plane.normal));
     return plane_point(plane, o, d, t) && abs(sine) >= 1e-3;
 }
-// ANCHOR_END: cut_off
 
-// ANCHOR: compensated
 // As the plane is given, with sums as good as if they had twice the bits.
 bool plane_compensated(Plane plane, vec3 o, vec3 d, out float t) {
     precise float height = dot_compensated(plane.distance, -o, plane.normal);
@@ -64,7 +57,6 @@ bool plane_compensated(Plane plane, vec3 o, vec3 d, out float t) {
     t = slope == 0.0 ? 0.0 : quotient;
     return slope != 0.0;
 }
-// ANCHOR_END: compensated
 
 bool plane_by(uint rung, Plane plane, vec3 o, vec3 d, out float t) {
     switch (rung) {

@@ -49,7 +49,6 @@ struct Surface {
     vec2 uv;
 };
 
-// ANCHOR: surface
 // Interpolates the vertices of a triangle; `weights` are the hit attributes, the second and third
 // barycentric coordinates.
 Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
@@ -66,4 +65,3 @@ Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
     surface.uv = w.x * a.uv + w.y * b.uv + w.z * c.uv;
     return surface;
 }
-// ANCHOR_END: surface

@@ -33,11 +33,9 @@ uvec2 halton(uint i) {
 }
 // ANCHOR_END: halton
 
-// ANCHOR: r2
 // Multiples of 1/g and 1/g^2, where g = 1.3247... solves g^3 = g + 1. The product drops whole turns.
 uvec2 r2(uint i) {
     return i * uvec2(3242174889u, 2447445414u);
 }
-// ANCHOR_END: r2
 
 #include "common/sobol.glsl"

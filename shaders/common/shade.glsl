@@ -21,7 +21,6 @@ vec3 ambient(vec3 normal) {
     return mix(vec3(0.16, 0.14, 0.12), vec3(0.42, 0.47, 0.55), 0.5 + 0.5 * normal.y);
 }
 
-// ANCHOR: reflect
 // The cosine 1 - s, raised to the power n. Not by pow(), which is undefined for 0 to the power 0, and
 // whose log2 may be off by 2^-21 near 1: a ninth of the highlight where n is 320,000. There, ln(1 - s) is
 // -2·artanh(s / (2 - s)), and five terms of that are off by less than 2^-18 of it.
@@ -48,4 +47,3 @@ vec3 reflect_light(vec3 base, vec3 specular, float shininess, vec3 normal, vec3 
     return (base + specular * highlight * (shininess + 8.0) / 8.0) * lambert / 3.14159265;
 }
 // ANCHOR_END: brightness
-// ANCHOR_END: reflect

@@ -3,7 +3,6 @@
 // Sobol's points of the unit square, and Owen's scrambling of them: whole numbers of 2^-32.
 #include "common/random.glsl"
 
-// ANCHOR: sobol
 // The second coordinate adds, without carry, one column of Pascal's triangle modulo 2 for each bit of i.
 uvec2 sobol(uint i) {
     uint second = 0;
@@ -14,9 +13,7 @@ uvec2 sobol(uint i) {
     }
     return uvec2(bitfieldReverse(i), second);
 }
-// ANCHOR_END: sobol
 
-// ANCHOR: owen
 // Flips each binary digit or not, by a hash of the digits before it (Burley 2020, after Laine and
 // Karras 2011). Carries only go upwards, so with the bits reversed a digit depends on those before it;
 // and each factor is even, so that none depends on itself. The key is reversed too: its first bits
@@ -29,4 +26,3 @@ uint owen(uint x, uint key) {
     x ^= x * 0x8d22f6e6u;
     return bitfieldReverse(x);
 }
-// ANCHOR_END: owen

@@ -4,7 +4,6 @@
 #include "common/lighting.glsl"
 #include "common/disk.glsl"
 
-// ANCHOR: part
 // From 0 to 1. One ray tells if the disk is a mere point; else several rays go to points of it, which begin
 // at the random numbers `first`.
 float visible_part(DiskLight disk, Start start, vec2 first) {
@@ -17,4 +16,3 @@ float visible_part(DiskLight disk, Start start, vec2 first) {
     }
     return seen / float(count);
 }
-// ANCHOR_END: part

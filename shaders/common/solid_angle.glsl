@@ -42,7 +42,6 @@ vec2 turned(float angle) {
     return t;
 }
 
-// ANCHOR: direction
 // u.x cuts off, from the corner a, the part u.x of the solid angle `whole`: by a point e on the edge from a to
 // c. u.y chooses a point between b and e (Arvo, SIGGRAPH 1995). Where e is, the formula above says, if it is
 // asked for a, b and e: in the tangent of half the way from a to e it is linear.
@@ -67,4 +66,3 @@ vec3 direction_to(vec3 a, vec3 across, vec3 along, float whole, vec2 u) {
     on *= sqrt(w * (2.0 - w)) * inversesqrt(max(dot(on, on), 1e-37));
     return normalize((1.0 - w) * to_b + on);
 }
-// ANCHOR_END: direction

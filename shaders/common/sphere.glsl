@@ -12,7 +12,6 @@ const uint SPHERE_STABLE = 2;
 const uint SPHERE_HOST_C = 3;
 const uint SPHERE_OFFERED = 4;
 
-// ANCHOR: textbook
 // a·t² + 2b·t + c = 0, as it stands in the textbook. The discriminant is the difference of two numbers
 // that both grow with the square of the distance: what is left of it far away is rounding.
 bool sphere_textbook(vec3 f, vec3 d, float r, out vec2 t) {
@@ -29,9 +28,7 @@ bool sphere_textbook(vec3 f, vec3 d, float r, out vec2 t) {
     t = both;
     return true;
 }
-// ANCHOR_END: textbook
 
-// ANCHOR: projection
 // To the foot of the perpendicular from the centre, and half a chord to either side (as in Embree).
 // No term is larger than the distance between centre and ray, which is at most r for a hit.
 bool sphere_projection(vec3 f, vec3 d, float r, out vec2 t) {
@@ -48,9 +45,7 @@ bool sphere_projection(vec3 f, vec3 d, float r, out vec2 t) {
     t = both;
     return true;
 }
-// ANCHOR_END: projection
 
-// ANCHOR: stable
 // The discriminant from the foot of the perpendicular; then the root whose terms have the same sign,
 // and the other one from the product of the roots, c / a: no subtraction cancels but that in c.
 // (Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, chapter 7.)
@@ -72,9 +67,7 @@ bool sphere_stable(vec3 f, vec3 d, float r, out vec2 t) {
     }
     return true;
 }
-// ANCHOR_END: stable
 
-// ANCHOR: host_c
 // All rays of a camera begin at one point, so c = |f|² - r² is one number a sphere. The host computes
 // it in 64 bits, and makes there the subtraction that would cancel here.
 bool sphere_host_c(vec3 f, vec3 d, float c, out vec2 t) {
@@ -92,13 +85,10 @@ bool sphere_host_c(vec3 f, vec3 d, float c, out vec2 t) {
     }
     return true;
 }
-// ANCHOR_END: host_c
 
-// ANCHOR: offered
 // Not a sphere: a hit wherever the ray passes the centre, so that it shows which spheres the device
 // offers to the shader at all.
 bool sphere_offered(vec3 f, vec3 d, out vec2 t) {
     t = vec2(-dot(f, d) / dot(d, d));
     return true;
 }
-// ANCHOR_END: offered

@@ -28,7 +28,6 @@ float angle_of_sphere(Emitter emitter, vec3 from) {
     return distance > emitter.radius ? 6.283185307 * cone(emitter.radius, distance) : 12.566370614;
 }
 
-// ANCHOR: inside
 // From inside every direction meets the sphere: `d` is one, and the centre is at `to_center`.
 Aim aim_from_inside(Emitter emitter, vec3 to_center, vec3 d) {
     float middle = dot(to_center, d);
@@ -39,9 +38,7 @@ Aim aim_from_inside(Emitter emitter, vec3 to_center, vec3 d) {
     vec3 inward = normalize(to_center - t * d);
     return Aim(d, 12.566370614, t * d + (emitter.height + emitter.slack * t) * inward);
 }
-// ANCHOR_END: inside
 
-// ANCHOR: sphere
 Aim aim_at_sphere(Emitter emitter, vec3 from, vec2 u) {
     vec3 to_center = emitter.corner - from;
     float distance = length(to_center);
@@ -67,4 +64,3 @@ Aim aim_at_sphere(Emitter emitter, vec3 from, vec2 u) {
     vec3 to = t * direction + (emitter.height + emitter.slack * t) * outward;
     return Aim(direction, 6.283185307 * whole, to);
 }
-// ANCHOR_END: sphere

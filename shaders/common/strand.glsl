@@ -2,7 +2,6 @@
 //
 // Strands: chains of swept spheres.
 
-// ANCHOR: strands
 struct Node {
     vec3 center;
     float radius;
@@ -16,7 +15,6 @@ struct Segment {
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Nodes { Node at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Segments { Segment at[]; };
-// ANCHOR_END: strands
 
 // What the intersection shader tells the closest hit shader.
 struct Crossing {
@@ -29,7 +27,6 @@ Crossing crossing_of(vec3 outward, float s, vec3 d) {
     return Crossing(dot(outward, outward) > 0.0 ? outward : -normalize(d), s);
 }
 
-// ANCHOR: point
 // The hit computed anew, from the shape and not from the ray: on the ball that touches the surface there, at its
 // end along the normal. `own` is by how much it may be wrong, in roundings.
 //
@@ -45,4 +42,3 @@ vec3 strand_point(Node a, Node b, Crossing crossing, out vec3 own, out float rad
     radius = of_ball;
     return point;
 }
-// ANCHOR_END: point

@@ -11,7 +11,6 @@ bool is_addable(float value) {
     return (floatBitsToUint(value) >> 23 & 0xffu) < TOO_LARGE;
 }
 
-// ANCHOR: add
 // Adds a float by its bits: nothing is computed in floats, and only what is below 2^-64 is rounded.
 void add_to_sum(inout uvec4 sum, float value) {
     uint bits = floatBitsToUint(value);
@@ -44,4 +43,3 @@ void add_to_sum(inout uvec4 sum, float value) {
         carry = first + second;
     }
 }
-// ANCHOR_END: add

@@ -24,13 +24,11 @@ vec3 scattered(MaterialRecord material, vec3 color, float to_eye, float to_light
 }
 // ANCHOR_END: polish
 
-// ANCHOR: highlight
 // What a highlight keeps of the strength that 05 gives it, so that it never reflects more light than there is.
 float kept_of_highlight(float shininess) {
     return (shininess + 2.0) * (shininess + 4.0)
         / ((shininess + 8.0) * (shininess + exp2(-0.5 * shininess)));
 }
-// ANCHOR_END: highlight
 
 // ANCHOR: cosine
 // A direction above a surface: one is as likely as its cosine to the normal. It stands above a point that is

@@ -18,7 +18,6 @@ const uint SWEPT_TEXTBOOK = 0;
 const uint SWEPT_STABLE = 1;
 const uint SWEPT_TWO_FLOAT = 2;
 
-// ANCHOR: root
 // Where a line goes through the surface.
 struct Root {
     float t;
@@ -33,7 +32,6 @@ vec3 body_normal(vec3 across, vec3 u, float delta) {
     float cosine = sqrt(max(uu - delta * delta, 0.0) / uu);
     return cosine * normalize(across) - (delta / uu) * u;
 }
-// ANCHOR_END: root
 
 // ANCHOR: textbook
 // The roots of the quadratic a·t² + 2b·t + c, or of the line 2b·t + c; none where they are not real.
@@ -80,7 +78,6 @@ bool swept_textbook(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin
 }
 // ANCHOR_END: textbook
 
-// ANCHOR: unit
 // The power of two by which a length becomes one from 1 to 2. A product with it rounds nothing; of a power of
 // two it is the inverse.
 float unit_of(float size) {
@@ -90,7 +87,6 @@ float unit_of(float size) {
 float largest(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
-// ANCHOR_END: unit
 
 // ANCHOR: foot
 // A line as seen from a point: the foot of the perpendicular onto it, and where it lies. The second step takes
@@ -117,7 +113,6 @@ float half_chord(Foot foot, vec3 d, float r) {
 }
 // ANCHOR_END: foot
 
-// ANCHOR: stable
 // The end spheres are computed first, from their own centre and radius alone. So two segments that share an
 // end compute its sphere alike, to the bit.
 bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, out Root first) {
@@ -208,4 +203,3 @@ bool swept_stable(vec3 o, vec3 d, vec3 a, vec3 b, float r, float q, float tmin, 
     }
     return false;
 }
-// ANCHOR_END: stable

@@ -11,7 +11,6 @@ const uint TRIANGLE_MOELLER = 0;
 const uint TRIANGLE_WOOP = 1;
 const uint TRIANGLE_TWO_FLOAT = 2;
 
-// ANCHOR: moeller
 // Cramer's rule for the hit's weights (Moeller and Trumbore, JGT 2:1, 1997). The weight at an edge is
 // reckoned from the other two edges, which the neighbour does not have: rays slip through between them.
 bool triangle_moeller(vec3 a, vec3 b, vec3 c, vec3 o, vec3 d, out float t) {
@@ -32,9 +31,7 @@ bool triangle_moeller(vec3 a, vec3 b, vec3 c, vec3 o, vec3 d, out float t) {
     t = distance;
     return u >= 0.0 && v >= 0.0 && both <= 1.0;
 }
-// ANCHOR_END: moeller
 
-// ANCHOR: permuted
 // The axis along which the ray goes farthest becomes z: what will be divided by is never small.
 uint longest_axis(vec3 d) {
     vec3 size = abs(d);
@@ -59,9 +56,7 @@ TwoFloat3 permuted(TwoFloat3 v, uint axis) {
 bool same_side(float u, float v, float w) {
     return !((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0));
 }
-// ANCHOR_END: permuted
 
-// ANCHOR: woop
 // On which side of an edge the ray passes: twice the area that it spans with the edge, seen along the
 // ray. Where the products are equal when rounded, what rounding left decides.
 float edge_side(vec2 from, vec2 to) {
@@ -103,9 +98,7 @@ bool triangle_woop(vec3 a, vec3 b, vec3 c, vec3 o, vec3 d, out float t) {
     t = distance;
     return true;
 }
-// ANCHOR_END: woop
 
-// ANCHOR: two_float
 // The same, with more bits than the corners have: what is not exact is the place of a corner, by one
 // part in 2^48. Then t is from the plane of the triangle; the normal is on the ray's side.
 bool triangle_two_float(
@@ -157,4 +150,3 @@ bool triangle_two_float(
     normal = slope.x > 0.0 ? -normal : normal;
     return true;
 }
-// ANCHOR_END: two_float

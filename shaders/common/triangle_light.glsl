@@ -3,15 +3,12 @@
 // Directions to a triangle: to points that are uniform on it, or uniform in the solid angle that it fills.
 #include "common/solid_angle.glsl"
 
-// ANCHOR: least
 // A triangle whose edges are shorter than this part of its distance is sampled by area. Its height above the point is
 // the same everywhere, so that a point's weight goes by the cube of the distance alone, and that differs by less than
 // a tenth. A direction, off by some 2^-22, would stray by more than 2^-16 of the width. A small solid angle would be no
 // reason: that of a near triangle seen edge on is small too, and its distance differs by any factor.
 const float LARGEST_BY_AREA = 1.0 / 64.0;
-// ANCHOR_END: least
 
-// ANCHOR: area
 // The solid angle that one point of the triangle stands for, if all are equally likely: area, cosine there,
 // distance squared.
 float angle_by_area(Emitter emitter, vec3 to) {
@@ -24,7 +21,6 @@ vec3 point_by_area(Emitter emitter, vec3 to_corner, vec2 u) {
     float root = sqrt(u.x);
     return to_corner + root * ((1.0 - u.y) * emitter.across + u.y * emitter.along);
 }
-// ANCHOR_END: area
 
 // The solid angle if directions are chosen by it, else 0. A chapter that compares the two ways defines
 // `ALL_BY_AREA`: whether points are uniform on every triangle.
@@ -44,7 +40,6 @@ float angle_of_triangle(Emitter emitter, vec3 from, vec3 to) {
     return whole > 0.0 ? whole : angle_by_area(emitter, to);
 }
 
-// ANCHOR: triangle
 Aim aim_at_triangle(Emitter emitter, vec3 from, vec2 u) {
     vec3 to_corner = emitter.corner - from;
     vec3 normal = cross(emitter.across, emitter.along);
@@ -64,4 +59,3 @@ Aim aim_at_triangle(Emitter emitter, vec3 from, vec2 u) {
     aim.to += (emitter.height + emitter.slack * length(aim.to)) * normal;
     return aim;
 }
-// ANCHOR_END: triangle

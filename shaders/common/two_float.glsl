@@ -12,7 +12,6 @@
 
 #include "common/error_free.glsl"
 
-// ANCHOR: scaling
 // Powers of two change no bit of a number but its exponent: a way out of the reach of overflow.
 
 // 2^e for -126 <= e <= 127.
@@ -44,9 +43,7 @@ int exponent_of(float a) {
 int exponent_of(vec3 a) {
     return exponent_of(max(max(abs(a.x), abs(a.y)), abs(a.z)));
 }
-// ANCHOR_END: scaling
 
-// ANCHOR: sum
 // A sum of many terms: what rounding leaves of the first float goes to the second, and what it leaves
 // there to the third. The same terms with opposite signs, in the same order, give the opposite sum.
 void sum_add(inout vec3 sum, float term) {
@@ -83,9 +80,7 @@ vec2 sum_total(vec3 sum) {
     precise float low = total.y + lower.y;
     return quick_two_sum(total.x, low);
 }
-// ANCHOR_END: sum
 
-// ANCHOR: arithmetic
 vec2 ff_add(vec2 a, vec2 b) {
     vec2 high = two_sum(a.x, b.x);
     vec2 low = two_sum(a.y, b.y);
@@ -148,9 +143,7 @@ bool ff_less(vec2 a, vec2 b) {
 bool ff_within(vec2 t, float tmin, float tmax) {
     return ff_less(vec2(tmin, 0.0), t) && !ff_less(vec2(tmax, 0.0), t);
 }
-// ANCHOR_END: arithmetic
 
-// ANCHOR: vectors
 struct TwoFloat3 {
     vec2 x;
     vec2 y;
@@ -244,4 +237,3 @@ vec3 ff_normalize(TwoFloat3 a) {
     }
     return vec3(ff_div(a.x, size).x, ff_div(a.y, size).x, ff_div(a.z, size).x);
 }
-// ANCHOR_END: vectors

@@ -93,7 +93,7 @@ fn files_lines_and_anchors_that_are_not_there_are_named_with_file_and_line() {
         (
             "an anchor of a source file that is not there",
             |f| f.replace("docs/01_one.md", "one.rgen#only` shows", "one.rgen#lonely` shows"),
-            "docs/01_one.md:25: 'shaders/01_one/one.rgen' has no anchor 'lonely'",
+            "docs/01_one.md:25: 'shaders/01_one/one.rgen' has no part 'lonely'",
             "; correct it",
         ),
         (

@@ -20,7 +20,6 @@ impl Lighting {
         Self { sun, lamp: PointLight::default(), kind: LightKind::Directional }
     }
 
-    // ANCHOR: controls
     /// Declares what may be set.
     pub fn controls(&mut self, c: &mut Controls) {
         c.choice("light", &mut self.kind);
@@ -32,7 +31,6 @@ impl Lighting {
         c.sun(&mut self.sun);
         c.vector("lamp position", &mut self.lamp.position, -100.0..=100.0);
     }
-    // ANCHOR_END: controls
 
     /// The light that shines, for shaders.
     pub fn shader(&self) -> Light {

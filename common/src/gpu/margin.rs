@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3};
 
 use super::order::Bounds;
 
-// ANCHOR: margin
 /// How much larger on each side a box has to be lest a test of it lose a ray, if rays begin at most `reach`
 /// from it, along each axis.
 ///
@@ -42,7 +41,6 @@ pub fn padded((low, high): Bounds, reach: f32) -> [Vec3; 2] {
     let margin = DVec3::splat(margin(reach).into()) + 0.5f64.powi(23) * coordinate;
     [down(low.as_dvec3() - margin), -down(-(high.as_dvec3() + margin))]
 }
-// ANCHOR_END: margin
 
 /// Rounded to f32, but never up.
 fn down(v: DVec3) -> Vec3 {

@@ -66,7 +66,6 @@ impl Default for Board {
 }
 
 impl Board {
-    // ANCHOR: phase
     /// The board where a scene's placement puts it, on this plane. Which side of it is the inside
     /// changes no square.
     ///
@@ -83,5 +82,4 @@ impl Board {
         let anchor = (anchor - 2.0 * (anchor / 2.0).floor()).as_vec2();
         Self { square: square as f32, u: u.as_vec3(), v: v.as_vec3(), anchor, ..*self }
     }
-    // ANCHOR_END: phase
 }

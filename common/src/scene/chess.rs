@@ -44,7 +44,6 @@ impl Scene {
         Ok(Self { model, instances, camera })
     }
 
-    // ANCHOR: metal
     /// The chess set with kings and queens of metal, White's of gold and Black's of silver, from low down.
     ///
     /// What metals reflect, in linear RGB: Akenine-Möller et al., Real-Time Rendering, 4th ed., table 9.2.
@@ -71,7 +70,6 @@ impl Scene {
         scene.camera = Camera::new(DVec3::new(-8.2, 2.9, 5.2), DVec3::new(-0.2, 0.35, 0.8), 32.0);
         Ok(scene)
     }
-    // ANCHOR_END: metal
 }
 
 /// As `place_pieces`, of a position that is not to be trusted.

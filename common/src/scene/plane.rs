@@ -66,7 +66,6 @@ impl HalfSpace {
 }
 
 impl Plane {
-    // ANCHOR: prepare
     /// The plane N·p = D·|N| for shaders whose camera is at `eye`.
     ///
     /// N is scaled by a power of two, which rounds nothing, so that its square is no 0 and not infinite.
@@ -84,5 +83,4 @@ impl Plane {
             rest: (distance - normal.dot(anchor.as_dvec3())) as f32,
         }
     }
-    // ANCHOR_END: prepare
 }

@@ -1,6 +1,6 @@
 //! What stands between the markers of a generated block.
 
-use manuscript::anchor::{anchors, part};
+use manuscript::anchor::{part, parts};
 use manuscript::diff::{self, FileDiff, Line, Parts, Side};
 use manuscript::fault::Fault;
 use manuscript::page::{Block, Kind, Page};
@@ -106,16 +106,16 @@ fn read(project: &Project, file: &str) -> Result<String, Wrong> {
         .ok_or_else(|| Wrong::new(format!("there is no text file '{file}'"), "correct the marker"))
 }
 
-/// The lines of an anchor.
+/// The lines of an item or anchor.
 fn lines(file: &str, text: &str, name: &str) -> Result<std::ops::Range<usize>, Wrong> {
-    let found = anchors(file, text).map_err(Wrong::Source)?;
+    let found = parts(file, text).map_err(Wrong::Source)?;
     if let Some(anchor) = found.iter().find(|anchor| anchor.name == name) {
         return Ok(anchor.lines.clone());
     }
     let names: Vec<&str> = found.iter().map(|anchor| &*anchor.name).collect();
     let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-    let remedy = format!("name one of its anchors ({there}) or add // ANCHOR: {name} to it");
-    Err(Wrong::new(format!("{file} has no anchor '{name}'"), remedy))
+    let remedy = format!("name one of its parts ({there}) or add // ANCHOR: {name} to it");
+    Err(Wrong::new(format!("{file} has no part '{name}'"), remedy))
 }
 
 fn snippet(project: &Project, source: &str) -> Result<String, Wrong> {

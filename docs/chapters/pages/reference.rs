@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use manuscript::anchor::anchors;
+use manuscript::anchor::parts;
 use manuscript::fault::Fault;
 use manuscript::link::local;
 use manuscript::page::Page;
@@ -144,9 +144,9 @@ impl<'a> Files<'a> {
                     .then(|| format!("'{path}' has no line {line}, but {count}"))
             }
             Place::Anchor(anchor) => {
-                let found = anchors(path, &text()).unwrap_or_default();
+                let found = parts(path, &text()).unwrap_or_default();
                 let missing = !found.iter().any(|found| found.name == anchor);
-                missing.then(|| format!("'{path}' has no anchor '{anchor}'"))
+                missing.then(|| format!("'{path}' has no part '{anchor}'"))
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Shaders of the chapters as WebGL 2 takes them: in GLSL ES 3.00.
 //!
 //! A figure's shader includes files of `shaders/`, whole or cut at an anchor:
-//! `#include "common/sphere.glsl#stable"`. What that language says otherwise stands in [`HEAD`], [`LACKS`]
+//! `#include "common/sphere.glsl#sphere_stable"`. What that language says otherwise stands in [`HEAD`], [`LACKS`]
 //! and [`Translator`]. What fits none of them is a fault with its file and line.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use manuscript::anchor::anchors;
+use manuscript::anchor::parts;
 use manuscript::fault::Fault;
 use manuscript::shader::spliced;
 
@@ -103,7 +103,7 @@ impl Source {
 fn cut(read: &dyn Fn(&str) -> Option<String>, path: &str) -> Option<String> {
     let Some((file, name)) = path.split_once('#') else { return read(path) };
     let text = read(file)?;
-    let anchor = anchors(file, &text).ok()?.into_iter().find(|anchor| anchor.name == name)?;
+    let anchor = parts(file, &text).ok()?.into_iter().find(|anchor| anchor.name == name)?;
     let kept = |(index, line)| if anchor.lines.contains(&index) { line } else { "" };
     Some(text.lines().enumerate().map(kept).collect::<Vec<_>>().join("\n"))
 }

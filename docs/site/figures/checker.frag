@@ -1,7 +1,7 @@
 // What a pixel sees of a checker board in the plane y = 0: filtered, at its middle, and by many rays.
 #include "common/camera.glsl"
 #include "common/plane.glsl"
-#include "common/checker.glsl#checker"
+#include "common/checker.glsl#checker_light"
 #include "12_infinite_plane/board.glsl#footprint"
 
 uniform vec3 eye;

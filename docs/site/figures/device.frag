@@ -1,12 +1,12 @@
 // A pixel asks one rung for one ray, or some operations for one set of operands.
-#include "common/sphere.glsl#textbook"
-#include "common/sphere.glsl#stable"
+#include "common/sphere.glsl#sphere_textbook"
+#include "common/sphere.glsl#sphere_stable"
 #include "common/two_float.glsl"
 #include "24_accuracy/sphere_two_float.glsl#roots"
-#include "24_accuracy/sphere_two_float.glsl#two_float"
+#include "24_accuracy/sphere_two_float.glsl#sphere_two_float"
 const float LARGEST = 3.4028234e38;
-#include "common/box.glsl#reciprocal"
-#include "common/box.glsl#division"
+#include "common/box.glsl#box_reciprocal"
+#include "common/box.glsl#box_division"
 #include "24_accuracy/box_two_float.glsl"
 
 uniform uvec4 given[128];   // two for each pixel, in bits: ray or operands

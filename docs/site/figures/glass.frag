@@ -1,6 +1,6 @@
 // A ray that divides at each surface of a body of glass. Pixel n holds ray n: 2n and 2n + 1 are what ray n becomes at
 // the surface that it meets, reflected and refracted. Or, for the chart, what is reflected at each angle.
-#include "common/sphere.glsl#stable"
+#include "common/sphere.glsl#sphere_stable"
 #include "common/glass.glsl"
 
 const float FAR = 1000.0;

@@ -24,11 +24,11 @@ float heard(HeightfieldShape shape, vec3 o, vec3 d, float t) {
 
 #define height_above heard
 const uint MARCH_LIMIT = 10000u;
-#include "common/heightfield.glsl#relaxed"
+#include "common/heightfield.glsl#heightfield_relaxed"
 #include "common/heightfield.glsl#lipschitz"
 #include "common/heightfield.glsl#crossing"
-#include "common/heightfield.glsl#bisected"
-#include "common/heightfield.glsl#over_relaxed"
+#include "common/heightfield.glsl#heightfield_bisected"
+#include "common/heightfield.glsl#heightfield_over_relaxed"
 
 // t and height of the question, how many there are in all, and the t of the hit: 0 for a miss.
 out uvec4 answer;

@@ -1,10 +1,10 @@
 // The ray of a pixel, and where it meets the sphere of radius 1 around the origin by one rung.
 #include "common/camera.glsl"
-#include "common/sphere.glsl#textbook"
-#include "common/sphere.glsl#stable"
+#include "common/sphere.glsl#sphere_textbook"
+#include "common/sphere.glsl#sphere_stable"
 #include "common/two_float.glsl"
 #include "24_accuracy/sphere_two_float.glsl#roots"
-#include "24_accuracy/sphere_two_float.glsl#two_float"
+#include "24_accuracy/sphere_two_float.glsl#sphere_two_float"
 
 uniform vec3 eye;
 uniform vec3 right;

@@ -7,7 +7,6 @@ use crate::{Face, Solid};
 /// Half the side of a cube that no solid may reach.
 const FAR: f64 = 1e6;
 
-// ANCHOR: solid
 /// Adds the faces of a solid to `faces` and returns it with the corners of the box around it.
 ///
 /// # Errors
@@ -51,7 +50,6 @@ pub(super) fn solid(
     let at = |corner: DVec3| (center.as_dvec3() + corner).as_vec3();
     Ok((solid, (at(low - room), at(high + room))))
 }
-// ANCHOR_END: solid
 
 /// Where three walls meet that no other wall cuts off.
 fn corners(walls: &[(DVec3, f64)]) -> Vec<DVec3> {

@@ -9,7 +9,6 @@
 // Choices are made by mix(), not by branches: drivers inline all of this, thousands of times, and take
 // long for many blocks.
 
-// ANCHOR: how
 // Whether the entry point declares RoundingModeRTE, SignedZeroInfNanPreserve and DenormPreserve, the
 // macros WORST_NEAREST, WORST_PRESERVES and WORST_DENORMALS say. `how` is a number of the operation's
 // place in the code, or 0 where all places are alike.
@@ -68,7 +67,6 @@ float worst_undefined(const float x, const uint hash) {
     return worst_any(x, hash);
 #endif
 }
-// ANCHOR_END: how
 
 // ANCHOR: rounded
 // The next float beyond x, seen from zero, or the one before.
@@ -116,7 +114,6 @@ float worst_off(const double x, const double bound, const uint hash) {
 }
 // ANCHOR_END: rounded
 
-// ANCHOR: arithmetic
 // OpFAdd, OpFSub, OpFMul: correctly rounded. A sum in 64 bits is not always exact; what is then left out
 // is too little to make a wrong float of one of the two. What was flushed as a result needs not be
 // flushed as an operand.
@@ -198,9 +195,7 @@ float worst_convert(const uint x, const uint how) {
 float worst_convert(const double x, const uint how) {
     return worst_rounded(x, worst_hash(x, x, how));
 }
-// ANCHOR_END: arithmetic
 
-// ANCHOR: comparisons
 // The correct result, of numbers; of others any.
 bool worst_answer(const bool correct, const float a, const float b, const uint how) {
 #if WORST_PRESERVES
@@ -286,9 +281,7 @@ float worst_fract(const float x, const uint how) { return worst_sub(x, floor(wor
 float worst_step(const float edge, const float x, const uint how) {
     return worst_less(x, edge, how) ? 0.0 : 1.0;
 }
-// ANCHOR_END: comparisons
 
-// ANCHOR: functions
 // inversesqrt: 2 ULP. Of 0 and below it is undefined.
 float worst_inversesqrt(const float a, const uint how) {
     float x = worst_flushed(a, how);
@@ -455,7 +448,6 @@ float worst_smoothstep(const float edge0, const float edge1, const float x, cons
     t = worst_clamp(t, 0.0, 1.0, how);
     return worst_mul(worst_mul(t, t, how), worst_sub(3.0, worst_mul(2.0, t, how), how), how);
 }
-// ANCHOR_END: functions
 
 // Vectors, component by component.
 #define WORST_EACH_1(R, T, F) \
@@ -522,7 +514,6 @@ WORST_EACH_1(vec, vec, worst_asin)
 WORST_EACH_1(vec, vec, worst_acos)
 WORST_EACH_1(vec, vec, worst_atan)
 
-// ANCHOR: vectors
 // OpVectorTimesScalar: correctly rounded.
 vec2 worst_mul(const vec2 a, const float b, const uint how) { return worst_mul(a, vec2(b), how); }
 vec3 worst_mul(const vec3 a, const float b, const uint how) { return worst_mul(a, vec3(b), how); }
@@ -604,9 +595,7 @@ vec3 worst_cross(const vec3 a, const vec3 b, const uint how) {
 WORST_GEOMETRY(vec2)
 WORST_GEOMETRY(vec3)
 WORST_GEOMETRY(vec4)
-// ANCHOR_END: vectors
 
-// ANCHOR: double
 // "The precision of double-precision instructions is at least that of single precision": no more than
 // 24 bits of a double can be trusted.
 double worst_truncated(const double x, const double ulps, const uint hash) {
@@ -675,9 +664,7 @@ dvec3 worst_contracted(const dvec3 a, const dvec3 b, const dvec3 c, const uint h
 dvec3 worst_contracted(const dvec3 a, const double b, const dvec3 c, const uint how) {
     return worst_add(worst_mul(a, b, how), c, how);
 }
-// ANCHOR_END: double
 
-// ANCHOR: triangles
 // Of the device's own triangle test the specification promises no figure. The one in the field that
 // states its error, that of Woop, Benthin and Wald (JCGT 2:1, 2013), computes t as a quotient of two sums
 // of three products: 16 ULP is above what it shows, and is taken here. The weights are quotients of one
@@ -709,4 +696,3 @@ vec2 worst_weights(const vec2 weights, const uint how) {
     return mix(weights, worst_query_weights(weights, how), bvec2(is_triangle));
 }
 #endif
-// ANCHOR_END: triangles

@@ -69,7 +69,6 @@ impl OpacityMicromap {
     }
 
     fn build(gpu: &Gpu, name: &str, input: &MicromapData) -> Result<Self> {
-        // ANCHOR: build
         let geometry = vk::AccelerationStructureGeometryKHR {
             p_next: std::ptr::from_ref(input).cast(),
             geometry_type: micromap::GEOMETRY_TYPE,
@@ -97,7 +96,6 @@ impl OpacityMicromap {
         let info = info
             .dst_acceleration_structure(micromap.handle)
             .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
-        // ANCHOR_END: build
         gpu.submit(|cmd| {
             // Nor has it ranges.
             let ranges = [std::ptr::null()];
@@ -124,12 +122,10 @@ impl OpacityMicromap {
         let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let (_buffer, address) = aligned(gpu, name, size, OFFSET_ALIGNMENT, usage)?;
-        // ANCHOR: create
         let info = CreateInfo2 { address, size, ty: micromap::TYPE, ..CreateInfo2::default() };
         let mut handle = vk::AccelerationStructureKHR::null();
         // SAFETY: the buffer has room there and lives as long as the structure.
         unsafe { create(device, &raw const info, std::ptr::null(), &raw mut handle) }.result()?;
-        // ANCHOR_END: create
         gpu.name_object(handle, name);
         gpu.count(|statistics| statistics.acceleration_structure_bytes += size);
         Ok(Self { handle, size, _buffer, gpu: gpu.clone() })
