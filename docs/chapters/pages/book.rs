@@ -189,19 +189,20 @@ impl<'a> Book<'a> {
         Ok(faults)
     }
 
-    /// Numbers that are perhaps measured and not bound, on pages that have changed since the last commit.
+    /// Numbers that are perhaps measured and not bound, in lines that were edited since the last commit.
     pub fn warnings(&self) -> Vec<Fault> {
-        let changed = change::files(&self.programs.project.root);
-        let pages = self.pages.iter().filter(|page| changed.contains(&page.path));
+        let edited = change::lines(&self.programs.project.root);
         let warning = |page: &Page| {
-            let numbers = binding::unbound(page);
+            let lines = edited.get(&page.path)?;
+            let mut numbers = binding::unbound(page);
+            numbers.retain(|(line, _)| lines.contains(line));
             let (line, _) = numbers.first()?;
             let list: Vec<&str> = numbers.iter().map(|(_, number)| &**number).collect();
             let what = format!("bound to no measurement: {}", list.join(", "));
             let remedy = "a measured one is written NUMBER<!-- MEASUREMENT.VALUE -->";
             Some(Fault::new(&*page.path, *line, what, remedy))
         };
-        pages.filter_map(warning).collect()
+        self.pages.iter().filter_map(warning).collect()
     }
 
     fn ask_programs(&self) -> Result<()> {

@@ -1,6 +1,6 @@
 //! Files that have changed since a commit, as git tells.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
@@ -18,7 +18,7 @@ pub fn text(root: &Path, arguments: &[&str]) -> String {
 
 /// The files that differ from the last commit; in a clean tree, from the commit before, or the one that
 /// [`SINCE`] names.
-pub fn files(root: &Path) -> Vec<String> {
+fn files(root: &Path) -> Vec<String> {
     let list = |text: String| text.lines().map(str::to_owned).collect::<Vec<_>>();
     let mut found = list(text(root, &["diff", "--name-only", "HEAD"]));
     found.extend(list(text(root, &["ls-files", "--others", "--exclude-standard"])));
@@ -26,6 +26,26 @@ pub fn files(root: &Path) -> Vec<String> {
         let since = std::env::var(SINCE).ok().filter(|since| !since.is_empty());
         let since = since.unwrap_or_else(|| "HEAD~1".to_owned());
         found = list(text(root, &["diff", "--name-only", &since, "HEAD"]));
+    }
+    found
+}
+
+/// The lines of each file that were edited since the last commit, from 1.
+pub fn lines(root: &Path) -> BTreeMap<String, BTreeSet<usize>> {
+    let diff = text(root, &["diff", "--unified=0", "--no-prefix", "HEAD"]);
+    let (mut found, mut file) = (BTreeMap::<_, BTreeSet<usize>>::new(), String::new());
+    for line in diff.lines() {
+        if let Some(name) = line.strip_prefix("+++ ") {
+            file = name.to_owned();
+        } else if let Some(place) = line.strip_prefix("@@ ") {
+            let place = place.split(" +").nth(1).and_then(|rest| rest.split(' ').next());
+            let (first, count) =
+                place.and_then(|p| p.split_once(',')).unwrap_or((place.unwrap_or(""), "1"));
+            let (Ok(first), Ok(count)) = (first.parse::<usize>(), count.parse::<usize>()) else {
+                continue;
+            };
+            found.entry(file.clone()).or_default().extend(first..first + count);
+        }
     }
     found
 }
