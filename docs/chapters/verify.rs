@@ -27,6 +27,9 @@ use crate::values::measurement::{self, Measurement};
 use crate::values::record::{Record, Records, renew};
 use crate::values::{budget, given};
 
+/// The most edited chapters whose pictures a quick run compares.
+const FEW: usize = 6;
+
 /// One thing that a command gave.
 enum Item<'a> {
     Picture(&'a Picture),
@@ -63,6 +66,11 @@ pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
     items.extend(tour::is_shown(project).then_some(Item::Tour));
     if changed {
         let edited = change::chapters(project);
+        if edited.len() > FEW {
+            let what =
+                "chapters have changed, too many for a quick run; run: cargo chapters verify";
+            return print(&format!("{} {what}\n", edited.len()));
+        }
         items.retain(|item| matches!(item, Item::Picture(one) if edited.contains(one.chapter())));
     }
     let named = |name: &String| {

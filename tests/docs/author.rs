@@ -13,7 +13,7 @@ fn wrong_markers_and_anchors_are_named_with_file_and_line() {
                 f.replace("samples/01_one/main.rs", "ANCHOR_END: call", "ANCHOR_END: tell");
             },
             "docs/01_one.md:13: samples/01_one/main.rs has no part 'call'",
-            "; name one of its anchors (tell) or add // ANCHOR: call to it",
+            " or add // ANCHOR: call to it",
         ),
         (
             "an anchor not closed",
