@@ -60,8 +60,8 @@ pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
         bail!("{fault}");
     }
     let mistakes = Mistake::whole(project)?;
-    let measurements = measurement::all(&book.pages).0;
     let (stored, _) = Record::all(project);
+    let measurements = measurement::all(&book.pages, &stored).0;
     let mut items = all(&pictures, &mistakes, &measurements, &stored);
     items.extend(tour::is_shown(project).then_some(Item::Tour));
     if changed {

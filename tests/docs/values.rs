@@ -187,18 +187,15 @@ fn what_only_an_author_can_correct_is_named() {
             ],
         ),
         (
-            "values that no page measures",
-            |f| f.replace(PAGE, "<!-- measure rows -->\n", "<!-- measure lines -->\n"),
-            &[
-                (
-                    "docs/02_basic.md:8: the measurement 02_basic/lines is missing",
-                    "; run: cargo chapters measure 02_basic/lines",
-                ),
-                (
-                    "docs/values/02_basic.json:1: no page makes the measurement 02_basic/rows",
-                    "; delete it there, or add <!-- measure rows --> to the page",
-                ),
-            ],
+            "a measurement of the file alone, not yet made",
+            |f| {
+                f.replace(
+                    FILE,
+                    "{\n  \"rows\"",
+                    "{\n  \"lines\": { \"command\": \"cargo test x\" },\n  \"rows\"",
+                )
+            },
+            &[("docs/02_basic.md:1: 02_basic/lines is not measured yet", "measure 02_basic/lines")],
         ),
         (
             "values of no page",
@@ -301,14 +298,17 @@ fn what_cannot_be_measured_is_named() {
     fixture.replace(PAGE, "basic::first", "basic::fi");
     let asked = "the measurement 02_basic/rows was made by another command";
     assert!(fixture.check().contains(asked), "{}", fixture.check());
-    fixture.replace(PAGE, "measure rows", "measure lines");
+    fixture.replace(PAGE, "measure rows", "measure rows lines");
     let outcome = with_cargo(&fixture, &["measure", "02_basic/lines"], "");
     let line = "docs/02_basic.md:8: 02_basic/lines cannot be measured: its command gives no 02_basic/lines; \
                 correct the command or the test";
     assert!(outcome.out.lines().any(|told| told == line), "{}", outcome.out);
     let outcome = with_cargo(&fixture, &["measure", "rows"], "");
     assert_eq!(outcome.code, 2);
-    assert_eq!(outcome.err, "error: nothing measures 'rows'; there is 02_basic/lines\n");
+    assert_eq!(
+        outcome.err,
+        "error: nothing measures 'rows'; there is 02_basic/lines, 02_basic/rows\n"
+    );
 }
 
 /// Asserts that `check` gives these lines and no other.

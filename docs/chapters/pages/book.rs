@@ -167,7 +167,7 @@ impl<'a> Book<'a> {
     pub fn measure(&self, names: &[String], done: impl FnMut(&str)) -> Result<Vec<Fault>> {
         let project = self.programs.project;
         let (stored, _) = Record::all(project);
-        let (measurements, mut faults) = measurement::all(&self.pages);
+        let (measurements, mut faults) = measurement::all(&self.pages, &stored);
         let names: Vec<&str> = names
             .iter()
             .map(|name| project.chapter(name).map_or(name.as_str(), |chapter| &chapter.name))

@@ -1,7 +1,7 @@
 //! Measurements: commands on pages that give values, and running them.
 //!
 //! `<!-- measure NAME -->` stands above a shell block with the command; a name for each command, or several
-//! for one. Where the page need not show it: `<!-- measure NAME: COMMAND -->`. What it gives tells
+//! for one. A command that the page need not show stands in the file of its stored values. What it gives tells
 //! [`super::given`].
 
 use std::collections::BTreeMap;
@@ -30,8 +30,9 @@ pub struct Measurement {
     pub command: String,
 }
 
-/// Every measurement that a page makes, and what is wrong with their markers.
-pub fn all(pages: &[Page]) -> (Vec<Measurement>, Vec<Fault>) {
+/// Every measurement of the pages, and what is wrong with their markers. One whose command no page shows has it in
+/// the file of the stored values alone.
+pub fn all(pages: &[Page], stored: &Records) -> (Vec<Measurement>, Vec<Fault>) {
     let (mut measurements, mut faults) = (BTreeMap::<String, Measurement>::new(), Vec::new());
     for page in pages {
         let (found, wrong) = of(page);
@@ -45,6 +46,13 @@ pub fn all(pages: &[Page]) -> (Vec<Measurement>, Vec<Fault>) {
                 measurements.insert(name.clone(), measurement);
             }
         }
+    }
+    for (name, Record { command, .. }) in stored {
+        let page = name.split('/').next().unwrap_or_default();
+        let page = pages.iter().find(|known| known.stem() == page).map(|page| page.path.clone());
+        let Some(page) = page.filter(|_| !measurements.contains_key(name)) else { continue };
+        let hidden = Measurement { page, line: 1, name: name.clone(), command: command.clone() };
+        measurements.insert(name.clone(), hidden);
     }
     (measurements.into_values().collect(), faults)
 }
@@ -62,12 +70,9 @@ fn of(page: &Page) -> (Vec<Measurement>, Vec<Fault>) {
             Event::Html(html) | Event::InlineHtml(html)
                 if html.trim().starts_with("<!-- measure ") =>
             {
-                let says = html.trim().trim_start_matches("<!-- measure ").trim_end_matches("-->");
-                let (names, command) =
-                    says.split_once(':').map_or((says, None), |(n, c)| (n, Some(c)));
+                let names = html.trim().trim_start_matches("<!-- measure ").trim_end_matches("-->");
                 open = Some((line, names.split_whitespace().map(str::to_owned).collect()));
-                let Some(command) = command else { continue };
-                vec![command.trim().to_owned()]
+                continue;
             }
             Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(word))) if &*word == "sh" => {
                 in_block = true;
@@ -129,21 +134,15 @@ impl Measurement {
             Some(stored) if stored.command != self.command => {
                 format!("the measurement {name} was made by another command")
             }
+            Some(stored) if stored.date.is_empty() => format!("{name} is not measured yet"),
             Some(_) => return None,
         };
         Some(Fault::new(&*self.page, self.line, what, record::renew(name)))
     }
 }
 
-/// Stored values, and pages of them, that no page measures.
-pub fn strays(project: &Project, measurements: &[Measurement], stored: &Records) -> Vec<Fault> {
-    let made = |name: &&String| measurements.iter().any(|measurement| measurement.name == **name);
-    let stray = |name: &String| {
-        let (page, own) = name.split_once('/').unwrap_or((name, ""));
-        let what = format!("no page makes the measurement {name}");
-        let remedy = format!("delete it there, or add <!-- measure {own} --> to the page");
-        Fault::new(record::file(page), 1, what, remedy)
-    };
+/// Stored values of no page.
+pub fn strays(project: &Project) -> Vec<Fault> {
     let pages = project.pages();
     let stem = |file: &str| {
         let name = file.rsplit('/').next().unwrap_or_default();
@@ -151,9 +150,7 @@ pub fn strays(project: &Project, measurements: &[Measurement], stored: &Records)
     };
     let is_page = |file: &String| pages.iter().any(|page| stem(page) == stem(file));
     let lost = project.files(record::FOLDER).into_iter().filter(|file| !is_page(file));
-    let lost =
-        lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it"));
-    stored.keys().filter(|name| !made(name)).map(stray).chain(lost).collect()
+    lost.map(|file| Fault::new(file, 1, "stray file: no page has its name", "delete it")).collect()
 }
 
 /// Runs the commands of measurements, each once, and writes what they gave.
@@ -207,17 +204,13 @@ mod tests {
     #[test]
     fn a_marker_names_the_commands_below_it() {
         let text = "<!-- measure a b -->\n```sh\ncargo test --test samples \\\n  x\n# two\ncargo run\n```\n\n\
-                    Text.\n<!-- measure c: cargo test y -->\n\n<!-- measure d -->\n\nText.\n";
+                    <!-- measure d -->\n\nText.\n";
         let (found, faults) = of(&Page::parse("docs/05_p.md", text));
         let found: Vec<(usize, &str, &str)> =
             found.iter().map(|m| (m.line, &*m.name, &*m.command)).collect();
-        let expected = [
-            (1, "05_p/a", "cargo test --test samples x"),
-            (1, "05_p/b", "cargo run"),
-            (10, "05_p/c", "cargo test y"),
-        ];
+        let expected = [(1, "05_p/a", "cargo test --test samples x"), (1, "05_p/b", "cargo run")];
         assert_eq!(found, expected);
         let [fault] = &faults[..] else { panic!("{faults:?}") };
-        assert!(fault.to_string().starts_with("docs/05_p.md:12: no command follows"), "{fault}");
+        assert!(fault.to_string().starts_with("docs/05_p.md:9: no command follows"), "{fault}");
     }
 }

@@ -36,14 +36,14 @@ use record::Record;
 /// Bound numbers that are not as stored, and measurements that are missing or were made by another command.
 pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let (stored, mut faults) = Record::all(project);
-    let (measurements, wrong) = measurement::all(pages);
+    let (measurements, wrong) = measurement::all(pages, &stored);
     faults.extend(wrong);
     // A file that is damaged has been reported as that, and nothing on its page can be compared.
     let damaged: Vec<String> = faults.iter().map(|fault| fault.file.clone()).collect();
     let is_readable = |stem: &str| !damaged.contains(&record::file(stem));
     let readable = measurements.iter().filter(|m| is_readable(m.page_name()));
     faults.extend(readable.filter_map(|m| m.fault(stored.get(&m.name))));
-    faults.extend(measurement::strays(project, &measurements, &stored));
+    faults.extend(measurement::strays(project));
     let readable = pages.iter().filter(|page| is_readable(page.stem()));
     faults.extend(readable.flat_map(|page| binding::check(page, &stored)));
     faults.extend(table::strays(project, pages));

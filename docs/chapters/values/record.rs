@@ -26,14 +26,19 @@ pub struct Record {
     /// The command that made it.
     pub command: String,
     /// True for times: they differ from run to run.
+    #[serde(default)]
     pub timed: bool,
     /// The device's name, or [`HOST`].
+    #[serde(default)]
     pub device: String,
     /// The driver, in its maker's words.
+    #[serde(default)]
     pub driver: String,
-    /// The day, as `2026-11-22`.
+    /// The day, as `2026-11-22`; empty before the first measurement.
+    #[serde(default)]
     pub date: String,
     /// The numbers, by name, in the order in which the command gave them.
+    #[serde(default)]
     pub values: Map<String, Value>,
 }
 
