@@ -141,8 +141,9 @@ fn the_box_of_half_a_turn_holds_its_arc() {
         std::fs::read_to_string(path).unwrap()
     };
     let sweep = shader("sweep.comp");
-    let (_, own) = sweep.split_once("// ANCHOR: box\n").unwrap();
-    let (own, _) = own.split_once("// ANCHOR_END: box").unwrap();
+    let (_, own) = sweep.split_once("\nBounds swept(").unwrap();
+    let (own, _) = own.split_once("\n}\n").unwrap();
+    let own = format!("\nBounds swept({own}\n}}\n");
     assert_eq!(own.matches("sweep.margin").count(), 1);
     let own = own.replace("sweep.margin", "0.0");
     let quaternion = |[x, y, z, w]: [f32; 4]| format!("vec4({x:?}, {y:?}, {z:?}, {w:?})");
