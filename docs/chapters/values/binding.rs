@@ -142,7 +142,7 @@ pub fn unbound(page: &Page) -> Vec<(usize, String)> {
     };
     let is_free = |number: &Number| {
         let rest = &text[number.span.end..];
-        !COMMENT.find(rest).is_some_and(|comment| comment.start() == 0)
+        COMMENT.find(rest).is_none_or(|comment| comment.start() != 0)
     };
     let long = numbers.filter(|number| is_long(number) && is_free(number));
     long.map(|number| (line_of(&text, number.span.start), number.written)).collect()
