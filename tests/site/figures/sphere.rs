@@ -3,7 +3,6 @@
 use reference::Ray;
 use reference::sphere::Sphere;
 use reference::ulp::ulp_error;
-use serde_json::Value;
 
 use super::{found, shown, stored};
 use crate::browser::Browser;
