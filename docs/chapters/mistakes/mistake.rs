@@ -72,6 +72,8 @@ pub struct Mistake {
     /// What Vulkan leaves undefined here, if anything: a GPU may stop, or its system, so the mistake is tried on a
     /// software driver alone.
     pub undefined: Option<String>,
+    /// What it reads that nobody wrote, if anything: its picture differs from run to run.
+    pub unwritten: Option<String>,
     /// Why the picture is wrong.
     pub cause: String,
     /// What shows it.
@@ -130,6 +132,7 @@ impl Mistake {
         })?;
         let validation = Some(patch.field("Validation")?.value).filter(|text| text != "nothing");
         let undefined = patch.field_if_any("Undefined")?.map(|field| field.value);
+        let unwritten = patch.field_if_any("Unwritten")?.map(|field| field.value);
         if outcome == Outcome::Crashes && undefined.is_none() {
             let what = "a crash is of what Vulkan leaves undefined".to_owned();
             return Err(wrong(line, what, "write `Undefined: WHAT`"));
@@ -149,6 +152,7 @@ impl Mistake {
             outcome,
             validation,
             undefined,
+            unwritten,
             cause,
             find,
             cure,
