@@ -33,6 +33,7 @@ impl Breath {
         let mut found = Self::default();
         let mut section = (1, 0, false);
         let (mut fence, mut apart, mut in_table) = (None::<bool>, false, false);
+        let mut in_comment = false;
         let lines = page.lines.iter().enumerate();
         let list = |index| {
             let mut lists = page.blocks.iter().filter(|block| block.kind == Kind::Exercises);
@@ -48,6 +49,10 @@ impl Breath {
                 };
                 continue;
             }
+            if in_comment || fence.is_none() && text.starts_with("<!--") {
+                in_comment = !text.contains("-->");
+                continue;
+            }
             let is_row = fence.is_none() && text.starts_with('|');
             found.tables += usize::from(is_row && !in_table && !apart);
             in_table = is_row;
@@ -59,7 +64,7 @@ impl Breath {
             }
             section.2 |= is_row || fence.is_none() && text.contains("![");
             let counted = match fence {
-                _ if apart || is_row || text.starts_with("<!--") => 0,
+                _ if apart || is_row => 0,
                 Some(true) => text.split_once("//").map_or(0, |(_, comment)| words(comment)),
                 Some(false) => 0,
                 None => words(text),

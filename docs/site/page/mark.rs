@@ -39,7 +39,7 @@ impl Composer<'_> {
                 String::new()
             }
             "slider" | "touch" => {
-                let rest = rest.trim().to_owned();
+                let rest = rest.split_whitespace().collect::<Vec<_>>().join(" ");
                 let above = if word == "slider" { Above::Slider } else { Above::Figure };
                 self.above = Some((index, above(rest)));
                 String::new()
