@@ -3,15 +3,16 @@
 //!
 //! - [`app`]: a program: arguments, controls, window, headless run, picture
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
-//! - [`scene`]: camera, light, mesh, material, OBJ files, chess, upload
-//! - [`files`], [`output`], [`usage`]: files written whole; what a program says; the error that means "wrong
+//! - [`model`]: OBJ, MTL and PNG files, read within limits and with warnings
+//! - [`scene`]: what is rendered: camera, light, mesh, material, chess, upload
+//! - [`files`], [`output`], [`UsageError`]: files written whole; what a program says; the error that means "wrong
 //!   arguments"
-//! - [`home`]: the crate that a program belongs to
+//! - [`paths`]: the crate that a program belongs to
 //! - [`workers`]: work that is shared among the processors
 //!
-//! Arrows point one way: samples → instruments → app → gpu; `scene` uses `gpu` only to upload. The crate
-//! `instruments` watches runs, and nothing here knows it: it meets a run in [`app::Watch`], and a device in
-//! [`gpu::Emulation`]. The crate `reference`, what the GPU is held to, knows none of them.
+//! Arrows point one way: samples → instruments → app → gpu; `model` → `scene`; `scene` uses `gpu` only to upload. The crate
+//! `instruments` watches runs, and nothing here knows it: it meets a run in [`app::RunHooks`], and a device in
+//! [`gpu::DriverShim`]. The crate `reference`, what the GPU is held to, knows none of them.
 //! A helper enters only once a chapter has shown it raw.
 
 // The code here says `common`, as the samples do.
@@ -23,13 +24,15 @@ use device as _;
 pub mod app;
 pub mod files;
 pub mod gpu;
-pub mod home;
+pub mod model;
 pub mod output;
+pub mod paths;
 pub mod prelude;
 pub mod scene;
-pub mod usage;
+mod usage_error;
 pub mod workers;
 
 pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
+pub use usage_error::UsageError;
 // The crates whose types are in the signatures of this one: a program needs no versions of its own.
 pub use {anyhow, ash, bytemuck, glam};

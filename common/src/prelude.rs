@@ -5,8 +5,9 @@ pub use crate::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
     HitGroup, RayTracingPipeline, Requirements, ShaderBindingTable, TextureTable, padded,
 };
+pub use crate::model::Model;
 pub use crate::scene::{
-    Camera, CameraBasis, DirectionalLight, Instance, Material, Mesh, Model, Scene, SceneAddresses,
+    Camera, CameraBasis, DirectionalLight, Instance, Material, Mesh, Scene, SceneAddresses,
     SceneOnGpu, SceneOptions, Sun, Vertex, boxes_on_gpu, build_top, input_usage, instance_on_gpu,
 };
 pub use anyhow::Result;

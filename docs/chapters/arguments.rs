@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
-use common::usage::Usage;
+use common::UsageError;
 use instruments::arithmetic::Arithmetic;
 
 use crate::exercises::command::ExerciseArguments;
@@ -215,6 +215,6 @@ pub fn parse() -> Result<Arguments> {
             let names: Vec<_> = command.get_subcommands().map(clap::Command::get_name).collect();
             format!("no command; there is {}", names.join(", "))
         });
-        Usage(format!("{line}; --help lists the commands")).into()
+        UsageError(format!("{line}; --help lists the commands")).into()
     })
 }

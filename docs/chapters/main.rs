@@ -46,13 +46,13 @@ use std::process::{self, ExitCode};
 use std::time::Duration;
 
 use anyhow::{Result, bail};
-use common::gpu::Emulation as _;
+use common::UsageError;
+use common::gpu::DriverShim as _;
 use common::output::{complain, print};
-use common::usage::Usage;
 use manuscript::diff::{self, Parts};
 use manuscript::fault::Fault;
 use manuscript::project::{Project, Unknown};
-use patience::Limit;
+use time_limit::Limit;
 
 use arguments::{Arguments, Command, parse};
 use new_chapter::NewChapter;
@@ -65,17 +65,17 @@ use start::Start;
 use survey::command::Survey;
 
 fn main() -> ExitCode {
-    instruments::guard::exit_code(|| {
+    instruments::exit::exit_code(|| {
         // Whoever asks for a chapter that is not there has given a wrong argument.
         run(&parse()?).map_err(|error| match error.downcast() {
-            Ok(Unknown(line)) => Usage(line).into(),
+            Ok(Unknown(line)) => UsageError(line).into(),
             Err(error) => error,
         })
     })
 }
 
 fn run(arguments: &Arguments) -> Result<()> {
-    instruments::guard::watch();
+    instruments::exit::watch();
     let project = Project::open(&arguments.root)?;
     match &arguments.command {
         Command::List { json } => print(&chapter_list::list(&project, *json)?),

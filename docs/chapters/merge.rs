@@ -4,10 +4,10 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
+use common::UsageError;
 use common::app::Format;
 use common::files::check_writable;
 use common::output;
-use common::usage::Usage;
 use instruments::sums::{check_complete, merge};
 
 /// Merges `files` and writes a picture if `out` is named as one, else a file of sums; returns the line that
@@ -20,7 +20,7 @@ pub fn run(out: &Path, files: &[PathBuf], whole: Option<Range<u32>>) -> Result<S
     check_writable(out)?;
     if Format::of(out).is_err() && out.extension().is_none_or(|it| it != "sums") {
         let what = "a picture is .png or .exr, and sums are .sums";
-        bail!(Usage(format!("cannot write '{}': {what}", out.display())));
+        bail!(UsageError(format!("cannot write '{}': {what}", out.display())));
     }
     refuse_to_lose(out, files)?;
     let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
@@ -51,7 +51,7 @@ fn refuse_to_lose(out: &Path, files: &[PathBuf]) -> Result<()> {
     };
     if Format::of(out).is_err() && out.exists() && !files.iter().any(same) {
         let name = out.display();
-        bail!(Usage(format!(
+        bail!(UsageError(format!(
             "'{name}' is there already: name it among the files, too, or give the output another name"
         )));
     }

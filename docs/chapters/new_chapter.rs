@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use common::UsageError;
 use common::files::{NewFolder, folder, write_all};
-use common::usage::Usage;
 use manuscript::project::{Chapter, Project};
 use manuscript::shader;
 
@@ -30,8 +30,8 @@ impl<'a> NewChapter<'a> {
         number: u32,
         name: &str,
         from: &'a Chapter,
-    ) -> Result<Self, Usage> {
-        let refuse = |what: String| Err(Usage(what));
+    ) -> Result<Self, UsageError> {
+        let refuse = |what: String| Err(UsageError(what));
         let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         if name.len() > NAME_LETTERS {
             return refuse(format!("a chapter's name has at most {NAME_LETTERS} letters"));

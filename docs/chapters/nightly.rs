@@ -12,8 +12,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
+use common::UsageError;
 use common::output::print;
-use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
 
@@ -42,7 +42,7 @@ pub fn run(project: &Project, names: &[String], list: bool) -> Result<()> {
     if let Some(name) = names.iter().find(|name| !is_known(name)) {
         let mut known: Vec<_> = groups.into_iter().map(|group| group.program).collect();
         known.push(VERIFY.to_owned());
-        return Err(Usage(format!("no group '{name}'; there is {}", known.join(", "))).into());
+        return Err(UsageError(format!("no group '{name}'; there is {}", known.join(", "))).into());
     }
     groups.retain(|group| names.is_empty() || names.contains(&group.program));
     if list {

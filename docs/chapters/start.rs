@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use common::UsageError;
 use common::files::{NewFolder, write_all};
-use common::usage::Usage;
 use manuscript::project::Project;
 
 /// Where the template lies. It is a member of the workspace, under this name.
@@ -36,7 +36,7 @@ impl<'a> Start<'a> {
     /// # Errors
     /// If the folder is in use or lies in the project, or its name is none for a crate.
     pub fn plan(project: &'a Project, folder: &Path, git: Option<&'a str>) -> Result<Self> {
-        let refuse = |what: &str| Err(Usage(format!("'{}' {what}", folder.display())).into());
+        let refuse = |what: &str| Err(UsageError(format!("'{}' {what}", folder.display())).into());
         let absolute = std::path::absolute(folder).context("the current folder is not known")?;
         let above = absolute.ancestors().find_map(|above| above.canonicalize().ok());
         if above.is_some_and(|above| above.starts_with(root(project))) {

@@ -8,9 +8,9 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use anyhow::{Result, bail};
+use common::UsageError;
 use common::files::NewFolder;
 use common::output::print;
-use common::usage::Usage;
 use common::workers;
 use indicatif::{ProgressBar, ProgressStyle};
 use manuscript::project::Project;
@@ -83,7 +83,7 @@ pub fn run(book: &Book, names: &[String], changed: bool) -> Result<()> {
     };
     let names: Vec<String> = names.iter().map(named).collect();
     if let Some(name) = names.iter().find(|name| !items.iter().any(|item| item.is(name))) {
-        return Err(Usage(format!("nothing of the book is called '{name}'")).into());
+        return Err(UsageError(format!("nothing of the book is called '{name}'")).into());
     }
     items.retain(|item| names.is_empty() || names.iter().any(|name| item.is(name)));
 

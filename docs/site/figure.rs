@@ -1,7 +1,7 @@
 //! Figures that one can touch: a script draws them, from the chapters' own shaders where there are any.
 //!
 //! `<!-- touch NAME: CONTROLS -->`, on one line or more, stands above a picture, which is shown where no script runs. NAME is
-//! `docs/site/figures/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU, and `NAME.txt` if it
+//! `docs/site/interactive/NAME.js`, with a shader `NAME.frag` beside it if it needs the GPU, and `NAME.txt` if it
 //! needs what a test has stored; [`control`] says how controls are written, and [`shader`] what becomes of the
 //! shader.
 

@@ -12,11 +12,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
+use common::UsageError;
 use common::app::{Args, Picture};
 use common::gpu::ensure_threads;
 use common::gpu::shader::compile;
 use common::output::{complain, print};
-use common::usage::Usage;
 use instruments::{Milliseconds, Report, check_files, finish};
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
 
@@ -60,7 +60,7 @@ fn run() -> Result<()> {
         (args.unordered, "has one triangle: there is nothing to order"),
     ];
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
-        return Err(Usage(format!("{NAME} {why}")).into());
+        return Err(UsageError(format!("{NAME} {why}")).into());
     }
     let messages = Messages::default();
     if args.list_devices {
@@ -268,7 +268,7 @@ fn render(
     if width.max(height) > side || pixels > u64::from(rays) {
         let name = &chosen.name;
         let most = format!("at most {side} a side and {rays} pixels");
-        return Err(Usage(format!("{width}x{height} is too large for {name}: {most}")).into());
+        return Err(UsageError(format!("{width}x{height} is too large for {name}: {most}")).into());
     }
 
     // One queue; one command buffer to build with, one to trace with.
@@ -811,11 +811,11 @@ impl<'a> Gpu<'a> {
             );
         }
         let (size, scratch) = (sizes.acceleration_structure_size, sizes.build_scratch_size);
-        use vk::BufferUsageFlags as Usage;
-        let addressed = Usage::SHADER_DEVICE_ADDRESS;
-        let storage = Usage::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
+        use vk::BufferUsageFlags as UsageError;
+        let addressed = UsageError::SHADER_DEVICE_ADDRESS;
+        let storage = UsageError::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
         let storage = self.buffer("an acceleration structure", size, storage, Place::Device, 1)?;
-        let usage = Usage::STORAGE_BUFFER | addressed;
+        let usage = UsageError::STORAGE_BUFFER | addressed;
         let space = self.buffer("scratch", scratch, usage, Place::Device, scratch_alignment)?;
         let create = vk::AccelerationStructureCreateInfoKHR::default()
             .ty(level)
@@ -992,7 +992,7 @@ fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> 
         (None, _) => true,
     };
     if let (Some(asked), false) = (asked, candidates.iter().any(matches)) {
-        return Err(Usage(format!("no device '{asked}'; there is {all}")).into());
+        return Err(UsageError(format!("no device '{asked}'; there is {all}")).into());
     }
     let rank = |candidate: &Candidate| match candidate.kind {
         vk::PhysicalDeviceType::DISCRETE_GPU => 0,

@@ -11,8 +11,9 @@ use common::gpu::{
     ShaderBindingTable, ShaderStruct, TextureTable,
     sbt::{self, Region},
 };
+use common::model::Model;
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, Instance, Model, Scene, SceneAddresses, SceneOnGpu, Sun,
+    Camera, CameraBasis, DirectionalLight, Instance, Scene, SceneAddresses, SceneOnGpu, Sun,
 };
 use common::{Controls, Frame, Sample, Setup, bytemuck};
 use glam::Vec3;

@@ -2,7 +2,8 @@
 
 use common::gpu::Address;
 use common::gpu::order::Bounds;
-use common::scene::{Camera, Instance, Material, Model};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material};
 use glam::{DVec3, Vec3};
 
 common::shader_struct! {

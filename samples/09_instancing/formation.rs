@@ -1,7 +1,8 @@
 //! The scenes of this chapter: which mesh stands where, how it is turned, and what is its own.
 
 use anyhow::{Context, Result};
-use common::scene::{Camera, Instance, Mesh, Model, Scene, Vertex};
+use common::model::Model;
+use common::scene::{Camera, Instance, Mesh, Scene, Vertex};
 use glam::{Affine3A, DVec3, Mat3, Vec2, Vec3};
 
 common::shader_enum! {

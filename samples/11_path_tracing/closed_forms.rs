@@ -1,6 +1,7 @@
 //! Scenes whose light has a closed form: a room, and two squares. 29 has them, too.
 
-use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material, Mesh, Scene, Vertex};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec3Swizzles};
 
 /// Two boxes in a box. Every surface shines with 1/2 and scatters 1/2 of what it meets: so each place sees

@@ -1,9 +1,10 @@
 //! The scenes of this chapter: what stands on the plane, above it and in it.
 
 use anyhow::Result;
+use common::model::Model;
 use common::scene::board::{Board, Checker};
 use common::scene::plane::HalfSpace;
-use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene, Sun, Vertex};
+use common::scene::{Camera, Instance, Material, Mesh, PointLight, Scene, Sun, Vertex};
 use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3, Vec3Swizzles};
 
 common::shader_enum! {

@@ -1,6 +1,6 @@
 //! What a material is made of: a pattern and its two colours, as data that a shader chooses by.
 
-use common::scene::Model;
+use common::model::Model;
 use glam::Vec3;
 
 common::shader_enum! {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail, ensure};
-use common::scene::text::{Text, quoted, shown, uncommented};
+use common::model::text::{Text, quoted, shown, uncommented};
 use glam::Vec3;
 
 use super::motion::{KINDS, Leg, Motion, Piece, SIDES, UNDER_WAY};

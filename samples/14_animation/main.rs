@@ -15,13 +15,14 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use ash::vk;
+use common::UsageError;
 use common::gpu::{
     Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
+use common::model::text;
 use common::scene::{
-    Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOptions, Sun, assets, text,
+    Camera, CameraBasis, DirectionalLight, SceneAddresses, SceneOptions, Sun, assets,
 };
-use common::usage::Usage;
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use flag::Flag;
 use glam::{DVec3, Vec3};
@@ -162,7 +163,7 @@ fn motion(setup: &Setup) -> Result<Motion> {
     let path = setup.scene().unwrap_or(&own);
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("legs")) {
         let what = "this chapter takes legs of pieces (.legs), which chess_game makes of moves";
-        return Err(Usage(format!("{}: {what}", text::shown(path))).into());
+        return Err(UsageError(format!("{}: {what}", text::shown(path))).into());
     }
     legs::open(path)
 }

@@ -3,9 +3,10 @@
 use anyhow::{Context, Result};
 use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
+use common::model::{Model, Texture};
 use common::scene::{
-    InstanceRecord, Material, Model, Scene, SceneAddresses, SceneOnGpu, SceneOptions, Texture,
-    input_usage, instance_on_gpu,
+    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
+    instance_on_gpu,
 };
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 

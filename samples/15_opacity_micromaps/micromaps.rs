@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Result, ensure};
 use common::app::Progress;
 use common::gpu::{Address, Buffer, Gpu};
-use common::scene::text::quoted;
+use common::model::text::quoted;
 use common::scene::{Scene, SceneOnGpu, input_usage};
 use common::{output, workers};
 use glam::Vec2;

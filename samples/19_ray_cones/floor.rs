@@ -1,7 +1,8 @@
 //! The chess set on a floor that reaches to the horizon, and the tiles on it.
 
 use anyhow::Result;
-use common::scene::{Camera, Instance, Material, Mesh, Scene, Texture, Vertex};
+use common::model::Texture;
+use common::scene::{Camera, Instance, Material, Mesh, Scene, Vertex};
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 
 /// How far the floor reaches from the middle of the board.

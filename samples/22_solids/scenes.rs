@@ -1,7 +1,8 @@
 //! The scenes of this chapter: solids on the board, among a few pieces or alone.
 
 use anyhow::Result;
-use common::scene::{Camera, Instance, Material, Model, Scene, Sun};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material, Scene, Sun};
 use glam::{Affine3A, DVec3, Mat3A, Quat, Vec3};
 
 use crate::fog::Fog;

@@ -15,11 +15,12 @@ mod world;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use common::UsageError;
 use common::gpu::{
     Address, Binding, Descriptor, Gpu, HitGroup, RayTracingPipeline, Requirements, TextureTable,
 };
-use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Sun, assets, text};
-use common::usage::Usage;
+use common::model::text;
+use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Sun, assets};
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use glam::{DVec3, Vec3};
 use levels::{Calls, Levels, Method, Mover, Plan};
@@ -190,7 +191,7 @@ fn motion(setup: &Setup) -> Result<Motion> {
     let path = setup.scene().unwrap_or(&own);
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("legs")) {
         let what = "this chapter takes legs of pieces (.legs), which chess_game makes of moves";
-        return Err(Usage(format!("{}: {what}", text::shown(path))).into());
+        return Err(UsageError(format!("{}: {what}", text::shown(path))).into());
     }
     legs::open(path)
 }

@@ -2,8 +2,9 @@
 
 use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu, order};
+use common::model::Model;
 use common::scene::{
-    InstanceRecord, Material, Model, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
+    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
     triangle_order,
 };
 use glam::{Affine3A, Mat3A, Vec3};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::{Result, bail};
 use common::app::Progress;
-use common::gpu::Blueprint;
+use common::gpu::PipelineDesc;
 use instruments::compile_for::{Family, programs};
 
 use crate::measurement::{Compiled, MeasuredRung, Measurement};
@@ -24,12 +24,11 @@ pub const DISAGREE: f64 = 1.5;
 /// If there is no such compiler, with what to install, or if it refuses a rung.
 pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()> {
     let mut rows: Vec<&mut MeasuredRung> =
-        rungs.iter_mut().filter(|row| row.blueprint.is_some()).collect();
-    let blueprints: Vec<&Blueprint> =
-        rows.iter().filter_map(|row| row.blueprint.as_ref()).collect();
+        rungs.iter_mut().filter(|row| row.desc.is_some()).collect();
+    let descs: Vec<&PipelineDesc> = rows.iter().filter_map(|row| row.desc.as_ref()).collect();
     let mut pipelines = Vec::new();
     for family in FAMILIES {
-        pipelines.push(programs(family, &blueprints)?);
+        pipelines.push(programs(family, &descs)?);
         progress.step();
     }
     for programs in pipelines {

@@ -96,7 +96,7 @@ pub fn run(gpu: &Gpu, path: &Path, tops: bool, report: Option<&Path>) -> Result<
         file: path.display().to_string(),
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.emulation.name().to_owned(),
+        arithmetic: gpu.driver_shim.name().to_owned(),
         fused: probe.fused,
         cases: cases.len(),
         skipped: 0,

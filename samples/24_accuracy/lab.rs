@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use common::app::{Args, Watch, check_validation};
+use common::UsageError;
+use common::app::{Args, RunHooks, check_validation};
 use common::files::{self, write_whole};
 use common::gpu::{Gpu, Requirements};
 use common::output;
-use common::usage::Usage;
 use instruments::{Instruments, Options, check_files};
 
 use crate::atlas::{self, Extent, Traversal};
@@ -135,33 +135,33 @@ impl Lab {
     }
 
     /// Refuses what goes with a picture alone.
-    fn check(&self, args: &Args, options: &Options) -> Result<(), Usage> {
+    fn check(&self, args: &Args, options: &Options) -> Result<(), UsageError> {
         if options.compare.compare.is_some() || args.list_devices || !args.sets.is_empty() {
             let line = "--cases, --measure and --atlas take no controls, and list no devices";
-            return Err(Usage(line.to_owned()));
+            return Err(UsageError(line.to_owned()));
         }
         if args.out.is_some() || args.frames_given {
             let line = "--cases, --measure and --atlas make no picture for --out or --frames";
-            return Err(Usage(line.to_owned()));
+            return Err(UsageError(line.to_owned()));
         }
         if args.scene.is_some() {
             let line = "--cases, --measure and --atlas bring their own shapes and take no --scene";
-            return Err(Usage(line.to_owned()));
+            return Err(UsageError(line.to_owned()));
         }
         if options.compile_for.compile_for.is_some() {
             let line = "--compile-for is for the picture's pipeline; --measure asks by itself about every rung";
-            return Err(Usage(line.to_owned()));
+            return Err(UsageError(line.to_owned()));
         }
         if self.cases.is_none() && options.report.report.is_some() {
             let work = if self.measure.is_some() { "--measure" } else { "--atlas" };
             let line = format!("{work} writes its report to the folder and takes no --report");
-            return Err(Usage(line));
+            return Err(UsageError(line));
         }
         if let (Some(cases), Some(report)) = (&self.cases, &options.report.report)
             && files::same(cases, report)
         {
             let line = format!("--cases and --report both name '{}'", report.display());
-            return Err(Usage(line));
+            return Err(UsageError(line));
         }
         Ok(())
     }

@@ -119,7 +119,7 @@ impl Rung {
 
     /// Whether every hard case must be right here: in the worst arithmetic, 64 bits are worth 32.
     pub fn is_held(&self, gpu: &Gpu) -> bool {
-        self.is_top && !(self.code == Code::Float64 && gpu.emulation.name() != "driver")
+        self.is_top && !(self.code == Code::Float64 && gpu.driver_shim.name() != "driver")
     }
 }
 

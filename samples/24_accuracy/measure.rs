@@ -81,7 +81,7 @@ pub fn measure(
         }
         rungs.extend(measured);
     }
-    let no_compiler = match gpu.emulation.name() != "driver" {
+    let no_compiler = match gpu.driver_shim.name() != "driver" {
         true => Some(String::from("no GPU computes as badly as it may")),
         false => compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}")),
     };
@@ -92,7 +92,7 @@ pub fn measure(
     Ok(Measurement {
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.emulation.name().to_owned(),
+        arithmetic: gpu.driver_shim.name().to_owned(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
         fused: probe.fused,
         rays,
@@ -123,7 +123,7 @@ fn errors(
         time: None,
         marches: Vec::new(),
         compiled_for: Vec::new(),
-        blueprint: None,
+        desc: None,
     };
     if measured.unavailable.is_some() {
         return Ok(measured);
@@ -138,7 +138,7 @@ fn errors(
         }
         let instrument = probe.instrument(primitive, rung, way)?;
         if way == Way::Direct {
-            measured.blueprint = Some(instrument.blueprint());
+            measured.desc = Some(instrument.desc());
         }
         for (family, batch) in families.iter().zip(batches) {
             if way == Way::Direct || family.is_traced {

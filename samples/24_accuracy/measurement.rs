@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use common::gpu::Blueprint;
+use common::gpu::PipelineDesc;
 use instruments::compare::Ratio;
 use instruments::compile_for::CompiledFor;
 use serde::Serialize;
@@ -55,7 +55,7 @@ pub struct MeasuredRung {
     pub compiled_for: Vec<Compiled>,
     /// What the direct pipeline is made from.
     #[serde(skip)]
-    pub blueprint: Option<Blueprint>,
+    pub desc: Option<PipelineDesc>,
 }
 
 /// How wrong a rung is on a family.

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use ash::vk;
 use common::gpu::{
-    Address, Binding, Blueprint, Descriptor, Gpu, HitGroup, RayTracingPipeline, ShaderBindingTable,
-    Timer, barrier,
+    Address, Binding, Descriptor, Gpu, HitGroup, PipelineDesc, RayTracingPipeline,
+    ShaderBindingTable, Timer, barrier,
 };
 use glam::Vec3;
 
@@ -72,14 +72,14 @@ pub struct Instrument {
 impl Instrument {
     /// What the pipeline is made from, for a GPU whose `fma()` rounds once, as AMD's does: it is what the
     /// laboratory would make on that GPU, where it would have asked.
-    pub fn blueprint(&self) -> Blueprint {
-        let mut blueprint = (*self.pipeline.blueprint).clone();
-        for [constant, value] in &mut blueprint.constants {
+    pub fn desc(&self) -> PipelineDesc {
+        let mut desc = (*self.pipeline.desc).clone();
+        for [constant, value] in &mut desc.constants {
             if *constant == FUSED {
                 *value = 1;
             }
         }
-        blueprint
+        desc
     }
 }
 

@@ -1,7 +1,8 @@
 //! What of a composition shines on the rest of it, as chapter 29 has it: its own files make the list.
 
 use anyhow::{Result, ensure};
-use common::scene::{Material, Model, Scene};
+use common::model::Model;
+use common::scene::{Material, Scene};
 use glam::Vec3;
 
 use crate::alias::MOST;

@@ -56,7 +56,7 @@ impl Demo {
         if let Some(Variant { pipeline, sbt, .. }) = self.pipelines.current() {
             let groups: usize = pipeline.groups.iter().sum();
             let milliseconds = pipeline.build_time.as_secs_f64() * 1e3;
-            c.note("stages", &format!("{} in {groups} groups", pipeline.blueprint.stages.len()));
+            c.note("stages", &format!("{} in {groups} groups", pipeline.desc.stages.len()));
             c.note("SBT", &format!("{} bytes", sbt.layout.size));
             c.note("compiled in", &format!("{milliseconds:.0} ms"));
         }

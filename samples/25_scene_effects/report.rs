@@ -38,9 +38,9 @@ pub fn report(demo: &Demo) -> Result<Value> {
 /// What was compiled, from the very words that the driver got.
 fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
     let Variant { key: recipe, pipeline, sbt } = variant;
-    let Pipeline { blueprint, build_time, .. } = &**pipeline;
+    let Pipeline { desc, build_time, .. } = &**pipeline;
     let groups = pipeline.groups;
-    let stages = blueprint.stages.iter().map(|Stage { path, words, .. }| {
+    let stages = desc.stages.iter().map(|Stage { path, words, .. }| {
         let contents = serde_json::to_value(Contents::of(&Reflection::of(words)?))?;
         Ok(json!({ "path": path, "words": words.len(), "module": contents }))
     });
@@ -49,7 +49,7 @@ fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
         "stages": stages.collect::<Result<Vec<_>>>()?,
         "groups": { "raygen": groups[0], "miss": groups[1], "hit": groups[2] },
         "sbt_bytes": sbt.layout.size,
-        "recursion": blueprint.recursion,
+        "recursion": desc.recursion,
         "cull_mask": recipe.mask(),
         "light_kinds": recipe.light_kinds,
         "lights": recipe.lights,

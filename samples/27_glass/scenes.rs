@@ -1,7 +1,8 @@
 //! The scenes of this chapter: two to look at, and those whose rays are known in closed form.
 
 use anyhow::{Context, Result};
-use common::scene::{Camera, Instance, Material, Mesh, Model, PointLight, Scene};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material, Mesh, PointLight, Scene};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 
 use super::bodies::{ball, bar, regular, turned};

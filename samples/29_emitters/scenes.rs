@@ -1,7 +1,8 @@
 //! The scenes of this chapter: one to look at, two that must be white, and those whose light is known.
 
 use anyhow::{Context, Result};
-use common::scene::{Camera, Instance, Material, Model, Scene};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material, Scene};
 use glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 
 use super::closed_forms::{self, square};

@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu};
+use common::model::text::quoted;
 use common::scene::Mesh;
-use common::scene::text::quoted;
 
 use crate::binned::binned_into;
 use crate::check::check_links;

@@ -187,7 +187,7 @@ impl Level {
         reach: f32,
     ) -> Result<Self> {
         // ANCHOR: order
-        let order = gpu.emulation.order(order.of(bounds));
+        let order = gpu.driver_shim.order(order.of(bounds));
         let ordered: Vec<_> = order.iter().map(|&i| bounds[i as usize]).collect();
         let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
         // ANCHOR_END: order

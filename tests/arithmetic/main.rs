@@ -71,8 +71,8 @@ fn every_error_that_is_allowed_is_made_and_none_beyond() {
     unsafe { std::env::set_var("SHADERS", shaders) };
     let open = |arithmetic: Arithmetic| {
         let requirements = Requirements::ray_tracing();
-        let emulation = std::sync::Arc::new(arithmetic);
-        Gpu::new(&GpuOptions { requirements, emulation, ..GpuOptions::default() }).unwrap()
+        let driver_shim = std::sync::Arc::new(arithmetic);
+        Gpu::new(&GpuOptions { requirements, driver_shim, ..GpuOptions::default() }).unwrap()
     };
     let gpu = open(Arithmetic::Worst);
     bounds_are_approached_and_kept(&gpu);

@@ -124,7 +124,8 @@ fn a_copy_of_the_rust_code_is_a_project_that_cargo_takes() {
     let device = "-- --device llvmpipe";
     let command = format!("--manifest-path {out}/Cargo.toml --bin 07_multi_closest_hit {device}\n");
     assert!(said.ends_with(&command), "{said}");
-    let patched = std::fs::read_to_string(format!("{out}/common/src/gpu/sbt.rs")).expect("a copy");
+    let patched =
+        std::fs::read_to_string(format!("{out}/common/src/gpu/pipeline/sbt.rs")).expect("a copy");
     assert!(patched.contains(".min().unwrap_or(0);"), "{patched}");
     // Every member of the workspace must be there. What they depend on need not be: a machine has downloaded
     // only what it builds.

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use run::{copy, figures, program, root};
+use run::{copy, expected, program, root};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -349,7 +349,7 @@ fn the_whole_survey_in_time() {
     let start = Instant::now();
     let outcome = run(&mut command);
     assert_eq!(outcome.code, 0, "{}{}", outcome.out, outcome.err);
-    figures::give_timed("devices/survey", json!({ "seconds": start.elapsed().as_secs_f64() }));
+    expected::give_timed("devices/survey", json!({ "seconds": start.elapsed().as_secs_f64() }));
 }
 
 #[cfg(target_os = "linux")]

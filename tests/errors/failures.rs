@@ -39,7 +39,7 @@ fn every_call_of_every_chapter_may_fail() {
 /// A sample in which a call fails.
 fn run(sample: &str, fault: &str) -> Output {
     let folder = tempfile::tempdir().unwrap();
-    counted(sample, &Layer::failing(fault), &folder.path().join("calls"))
+    counted(sample, &Layer::fail_nth_call(fault), &folder.path().join("calls"))
 }
 
 #[test]

@@ -5,7 +5,7 @@ use run::layer::Layer;
 /// 01 makes an instance of its own, and 02 that of all others.
 #[test]
 fn a_copy_made_twice_with_nothing_between_is_a_hazard() {
-    let layer = Layer::failing("vkCmdCopyImageToBuffer");
+    let layer = Layer::fail_nth_call("vkCmdCopyImageToBuffer");
     for name in ["01_foundation", super::SAMPLE] {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut command = layer.command(name);

@@ -230,7 +230,7 @@ fn reading_grows_with_the_file() {
     for grown in GROWN {
         add_row(&mut table, grown.name, |count| grown.spent(count));
     }
-    run::figures::give_timed("limits/growth", table.into());
+    run::expected::give_timed("limits/growth", table.into());
 }
 
 /// Adds the milliseconds and megabytes of 1,000 to 100,000 of something, above those of one, to a table;

@@ -28,7 +28,7 @@ fn calls(count: usize) -> BTreeMap<String, usize> {
     let folder = tempfile::tempdir().unwrap();
     model(folder.path(), count);
     let told = folder.path().join("calls");
-    let layer = Layer::failing("");
+    let layer = Layer::fail_nth_call("");
     let mut command = layer.command("02_basic");
     command.args(["--headless", "--size", "8x8", "--scene"]).arg(folder.path().join("model.obj"));
     let output = command.env("CALLS", &told).output().expect("the sample starts");
@@ -122,5 +122,5 @@ fn showing_grows_with_the_scene() {
     for shown in SHOWN {
         add_row(&mut table, shown.name, |count| shown.spent(count));
     }
-    run::figures::give_timed("limits/shown", table.into());
+    run::expected::give_timed("limits/shown", table.into());
 }

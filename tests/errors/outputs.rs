@@ -114,7 +114,7 @@ fn a_run_that_is_killed_leaves_nothing() {
     let mut command = sample();
     command.current_dir(&folder).args(["--frames", "4000000000", "--out", "a.png"]);
     let mut child = command.spawn().unwrap();
-    patience::wait_until_worked(&mut child, Duration::from_millis(700));
+    time_limit::wait_until_worked(&mut child, Duration::from_millis(700));
     assert!(child.try_wait().unwrap().is_none(), "it was to render for days");
     child.kill().unwrap();
     child.wait().unwrap();

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use instruments::sums::{Header, Origin, Sums};
-use patience::ASLEEP;
+use time_limit::ASLEEP;
 
 /// A program under a limit of the system's, in the words of `prlimit`.
 fn limited(limit: &str, program: &str) -> Command {

@@ -141,7 +141,7 @@ fn a_compiler_that_crashes_takes_its_own_process_alone() {
 fn a_compiler_ends_with_the_program_that_asks_it() {
     use std::time::{Duration, Instant};
 
-    use patience::{ASLEEP, Work};
+    use time_limit::{ASLEEP, Work};
 
     let doubling: String =
         (1..30).map(|i| format!("#define A{i} A{j}+A{j}\n", j = i - 1)).collect();

@@ -144,7 +144,7 @@ fn a_crash_ends_in_one_line_unless_a_backtrace_is_asked_for() {
         command.args(["--frames", "4000000000"]).env("RUST_BACKTRACE", traced);
         let mut child = command.stderr(Stdio::piped()).spawn().expect("it starts");
         // By then it renders.
-        patience::wait_until_worked(&mut child, Duration::from_secs(1));
+        time_limit::wait_until_worked(&mut child, Duration::from_secs(1));
         let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
         assert!(sent.expect("kill").success());
         child.wait_with_output().expect("it ends")

@@ -3,7 +3,7 @@
 
 use std::process::ExitCode;
 
-use common::gpu::Emulation;
+use common::gpu::DriverShim;
 use common::gpu::shader::Shader;
 use instruments::arithmetic::Arithmetic;
 use instruments::finish;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use patience::Limit;
+use time_limit::Limit;
 
 /// What no input may bring about.
 #[derive(Clone, Debug, PartialEq)]

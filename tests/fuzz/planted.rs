@@ -6,8 +6,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
-use common::scene::Model;
-use common::scene::obj::load;
+use common::model::Model;
+use common::model::obj::load;
 use fuzz::fault::{Fault, Found};
 use fuzz::format::{Format, Function, Reader};
 use fuzz::formats::object::{FORMAT, FUNCTION, read, whole};
@@ -15,7 +15,7 @@ use fuzz::formats::{nothing, texture};
 use fuzz::program::Program;
 use fuzz::session::Session;
 use fuzz::watch::Watch;
-use patience::{Limit, Work};
+use time_limit::{Limit, Work};
 
 use crate::SEED;
 

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-use patience::{GLANCE, Limit, Work};
 use tempfile::TempDir;
+use time_limit::{GLANCE, Limit, Work};
 
 use crate::fault::Fault;
 use crate::format::{Answer, Format, Reader};

@@ -9,8 +9,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use patience::{GLANCE, Limit, Work};
 use tempfile::TempDir;
+use time_limit::{GLANCE, Limit, Work};
 
 use crate::fault::Fault;
 use crate::format::{Answer, Format, Function, Reader};

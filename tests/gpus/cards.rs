@@ -64,7 +64,7 @@ fn shows_all(sample: &str) {
 #[test]
 fn a_driver_that_tells_no_figures_of_its_compiler_is_a_warning() {
     let Some(mut command) = CARD.command("02_basic") else { return };
-    let moods = Layer::moods("no-figures");
+    let moods = Layer::display_faults("no-figures");
     command.envs(moods.environment()).args(TINY).arg("--compiler-figures");
     let output = command.output().expect("it starts");
     assert!(output.status.success(), "{}", said(&output));

@@ -92,7 +92,7 @@ pub fn runs(narrow: &Layer, sample: &str, arguments: &[&str]) -> serde_json::Val
 
 #[test]
 fn every_sample_runs_on_the_narrowest_device() {
-    let narrow = Layer::narrow("");
+    let narrow = Layer::minimum_limits("");
     for sample in run::chapters() {
         if let Some((_, lacks)) = UNSUITABLE.iter().find(|(name, _)| *name == sample) {
             let mut command = narrow.command(&sample);
@@ -113,7 +113,7 @@ fn every_sample_runs_on_the_narrowest_device() {
 
 #[test]
 fn whatever_else_a_sample_shows_runs_there_too() {
-    let narrow = Layer::narrow("");
+    let narrow = Layer::minimum_limits("");
     for (sample, settings) in ALSO {
         runs(&narrow, sample, settings);
     }
@@ -121,7 +121,7 @@ fn whatever_else_a_sample_shows_runs_there_too() {
 
 #[test]
 fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
-    let narrow = Layer::narrow("");
+    let narrow = Layer::minimum_limits("");
     for (sample, arguments, limit, words) in REFUSED {
         let mut command = narrow.command(sample);
         command.args(["--headless", "--validate"]).args(arguments);
@@ -133,7 +133,7 @@ fn what_asks_for_more_than_is_promised_is_refused_in_one_line() {
 #[test]
 fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
     for (feature, without) in FEATURES {
-        let narrow = Layer::narrow(&format!("without={feature}"));
+        let narrow = Layer::minimum_limits(&format!("without={feature}"));
         for sample in run::chapters() {
             let mut list = narrow.command(&sample);
             let list = quiet(&sample, list.arg("--list-devices").output().expect("it starts"));
@@ -146,7 +146,7 @@ fn a_feature_that_is_missing_refuses_a_device_when_devices_are_chosen() {
 /// The laboratory needs no more than the others, and says of a rung what it lacks.
 #[test]
 fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
-    let narrow = Layer::narrow("");
+    let narrow = Layer::minimum_limits("");
     let folder = tempfile::tempdir().unwrap();
     let mut command = narrow.command("24_accuracy");
     command.args(["--headless", "--validate", "--only", "sphere", "--rays", "8", "--rounds", "1"]);
@@ -161,7 +161,7 @@ fn the_laboratory_asks_the_rungs_that_the_narrowest_device_can_do() {
 /// So does its atlas of a row; and it needs no more than the promised limits for all others.
 #[test]
 fn the_atlas_asks_what_the_narrowest_device_can_do() {
-    let narrow = Layer::narrow("");
+    let narrow = Layer::minimum_limits("");
     let folder = tempfile::tempdir().unwrap();
     let draw = |arguments: &[&str]| {
         let mut command = narrow.command("24_accuracy");
@@ -183,7 +183,7 @@ fn the_atlas_asks_what_the_narrowest_device_can_do() {
 
 #[test]
 fn a_card_without_graphics_traces_without_a_window() {
-    let narrow = Layer::narrow("compute-only");
+    let narrow = Layer::minimum_limits("compute-only");
     for sample in ["01_foundation", "02_basic"] {
         runs(&narrow, sample, &[]);
     }
@@ -193,7 +193,7 @@ fn a_card_without_graphics_traces_without_a_window() {
 #[test]
 fn a_card_without_graphics_is_refused_by_what_draws() {
     let lacks = |sample: &str, faults: &str, what: &str| {
-        let narrow = Layer::narrow(faults);
+        let narrow = Layer::minimum_limits(faults);
         let mut list = narrow.command(sample);
         quiet(sample, list.arg("--list-devices").output().expect("it starts")).contains(what)
     };
@@ -221,7 +221,7 @@ fn counted_and_told(
 ) -> ([u32; 4], serde_json::Value) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("told");
-    let narrow = Layer::narrow(&format!("{faults},tell={}", file.display()));
+    let narrow = Layer::minimum_limits(&format!("{faults},tell={}", file.display()));
     let report = runs(&narrow, sample, arguments);
     let told = std::fs::read_to_string(&file).expect("the layer tells");
     let numbers: Vec<u32> = told.split(' ').map(|number| number.parse().unwrap()).collect();
@@ -264,7 +264,7 @@ fn the_foundation_s_uploads_lie_in_the_device_where_the_host_can_write_there() {
 #[test]
 fn a_list_of_hits_that_has_no_room_is_refused_with_what_would_fit() {
     let refused = |faults: &str, size: &str, words: [&str; 2]| {
-        let narrow = Layer::narrow(faults);
+        let narrow = Layer::minimum_limits(faults);
         let mut command = narrow.command("03_any_hit");
         let mode = ["--set", "mode=all hits"];
         let output = command.args(["--headless", "--validate", "--size", size]).args(mode).output();
@@ -300,13 +300,17 @@ fn a_scene_has_more_textures_than_a_device_may_bind_in_the_common_way() {
     std::fs::write(folder.path().join("a.obj"), model).unwrap();
     std::fs::write(folder.path().join("a.mtl"), materials).unwrap();
     let model = folder.path().join("a.obj");
-    runs(&Layer::narrow(""), "02_basic", &["--scene", model.to_str().expect("a plain path")]);
+    runs(
+        &Layer::minimum_limits(""),
+        "02_basic",
+        &["--scene", model.to_str().expect("a plain path")],
+    );
 }
 
 /// The tests below call Vulkan themselves, and the layer comes by the environment of a whole process: each
 /// is run again in a child with `--ignored`.
 pub fn in_child(test: &str, faults: &str) {
-    let narrow = Layer::narrow(faults);
+    let narrow = Layer::minimum_limits(faults);
     let this = std::env::current_exe().expect("a running program has a file");
     let output = std::process::Command::new(this)
         .args(["--exact", test, "--ignored", "--nocapture"])

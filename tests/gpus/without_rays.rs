@@ -27,7 +27,7 @@ common::shader_struct! {
 
 #[test]
 fn what_traces_is_refused_by_the_extensions_that_it_lacks_and_what_computes_runs() {
-    let narrow = Layer::narrow(FAULTS);
+    let narrow = Layer::minimum_limits(FAULTS);
     let extensions = ["VK_KHR_acceleration_structure", "VK_KHR_ray_tracing_pipeline"];
     for sample in run::chapters() {
         if WITHOUT.contains(&sample.as_str()) {

@@ -1,6 +1,6 @@
 //! The hard cases: every top rung is right on all of them, and the simplest rungs fail.
 
-use run::figures;
+use run::expected;
 use serde_json::{Value, json};
 
 use crate::cases;
@@ -47,7 +47,7 @@ fn every_top_rung_is_right_on_every_hard_case() {
 
 /// Holds what the pages say of the cases.
 fn hold(report: &Value) {
-    figures::hold_exact("README/hard_cases", json!({ "cases": report["cases"] }));
+    expected::hold_exact("README/hard_cases", json!({ "cases": report["cases"] }));
     let (mut table, mut rungs) = (Table::new(), 0);
     for (shape, rows) in ladders(report) {
         table.insert(format!("{shape}.cases"), rows[0]["cases"].clone());
@@ -56,10 +56,10 @@ fn hold(report: &Value) {
             rungs += 1;
         }
     }
-    figures::hold("24_accuracy/hard_cases", table.into());
+    expected::hold("24_accuracy/hard_cases", table.into());
     let cases = &report["cases"];
-    figures::hold_exact("24_accuracy/ladders", json!({ "rungs": rungs, "cases": cases }));
-    figures::hold("24_accuracy/traced", traced(report).into());
+    expected::hold_exact("24_accuracy/ladders", json!({ "rungs": rungs, "cases": cases }));
+    expected::hold("24_accuracy/traced", traced(report).into());
 }
 
 /// Whether a row tells of its rung, which is asked directly; the device's own triangles can only be traced.
@@ -101,7 +101,7 @@ fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
     let step = large.next_up() - large;
     let off = f64::from(rounded) / exact - 1.0;
     let found = json!({ "exact": exact, "step": step, "rounded": rounded, "off": off });
-    figures::hold_exact("24_accuracy/by_hand", found);
+    expected::hold_exact("24_accuracy/by_hand", found);
 
     let report = cases(file);
     let answers = report["answers"].as_array().unwrap();
@@ -117,7 +117,7 @@ fn one_subtraction_decides_a_case_that_is_followed_by_hand() {
         table.insert(rung.to_owned(), answer(rung)["t"].clone());
         table.insert(format!("{rung}.ulp"), answer(rung)["ulp"].clone());
     }
-    figures::hold("24_accuracy/planet", table.into());
+    expected::hold("24_accuracy/planet", table.into());
     let ulp = |rung: &str| number(&answer(rung)["ulp"]);
     assert!(ulp("S0") > 1e5 && ulp("S2") > 1e5, "the page says that the shader's c is noise");
     assert!(ulp("S0h") <= 1.0 && ulp("S4") <= 1.0, "and that two rungs are right all the same");

@@ -1,7 +1,7 @@
 //! The tables of the pages, from a report of the laboratory. A row's figures are called by its head on the
 //! page, with hyphens: `S0-textbook.home`.
 
-use run::figures;
+use run::expected;
 use serde_json::{Map, Value};
 
 use crate::bars::Row;
@@ -39,23 +39,23 @@ pub fn hold_errors(report: &Value) {
         }
         match shape {
             "secondary origin" => {
-                figures::hold("24_accuracy/departures", departures(ladder).into())
+                expected::hold("24_accuracy/departures", departures(ladder).into())
             }
             _ => {
                 let name = format!("24_accuracy/{shape}_errors");
-                figures::hold(&name, errors(ladder).into());
+                expected::hold(&name, errors(ladder).into());
             }
         }
     }
     rungs.insert("planet.gain".to_owned(), gain(report).into());
-    figures::hold("24_accuracy/rungs", rungs.into());
+    expected::hold("24_accuracy/rungs", rungs.into());
     let mut forms = Table::new();
     for form in report["forms"].as_array().expect("forms") {
         let head = head(&[text(form, "name")]);
         let keys = ["lost", "depth", "p99", "bytes"];
         forms.extend(keys.map(|key| (format!("{head}.{key}"), form[key].clone())));
     }
-    figures::hold("24_accuracy/forms", forms.into());
+    expected::hold("24_accuracy/forms", forms.into());
 }
 
 /// A rung at home, and on the family that is hardest for it: where most rays are wrong, then where p99 is
@@ -106,7 +106,7 @@ fn gain(report: &Value) -> f64 {
 
 /// Whether the page's figures are of this device.
 fn is_of_page(report: &Value) -> bool {
-    figures::stored("24_accuracy/rungs")["device"] == report["device"]
+    expected::stored("24_accuracy/rungs")["device"] == report["device"]
 }
 
 /// The tables of both pages name a rung's hardest family, or none where it has half an ULP everywhere.
@@ -183,7 +183,7 @@ pub fn hold_estimates(report: &Value) {
         table.insert(format!("{kind}.most"), most.into());
     }
     let generations = "RDNA2, RDNA3, RDNA4";
-    figures::hold_compiled("24_accuracy/estimates", compiler, generations, table.into());
+    expected::hold_compiled("24_accuracy/estimates", compiler, generations, table.into());
 }
 
 /// The least and the most that rungs of two floats, and of 64 bits, cost.

@@ -1,6 +1,6 @@
 //! What every rung costs: the times of the pages, and their plots.
 
-use run::figures;
+use run::expected;
 use serde_json::{Value, json};
 
 use crate::tables::{Table, head, ladders, span, text};
@@ -19,7 +19,7 @@ fn every_rung_is_timed() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let report = std::fs::read_to_string(folder.path().join("accuracy.json")).expect("it is there");
     let report: Value = serde_json::from_str(&report).expect("JSON");
-    figures::give_timed("24_accuracy/times", times(&report).into());
+    expected::give_timed("24_accuracy/times", times(&report).into());
     if std::env::var_os("FIGURES").is_some() {
         for (plot, page) in [("accuracy", "24_measured"), ("accuracy_compiled", "24_compiled")] {
             let to = run::root().join(format!("docs/images/{page}.png"));

@@ -3,7 +3,7 @@
 use common::app::Picture;
 use serde_json::Value;
 
-use run::{bits, command, figures, golden, refused, render};
+use run::{bits, command, expected, golden, refused, render};
 
 const NAME: &str = "24_accuracy";
 const SIZE: &str = "96x60";
@@ -27,7 +27,7 @@ fn the_picture_is_the_golden_one_and_repeats() {
     assert_eq!(bits(&first), bits(&second));
     // Tolerance set by llvmpipe (Mesa 25.0.7), which made the golden. The picture is one of the errors of a
     // rung that has many, and each is the rounding of this driver's own compiler.
-    if figures::are_of_this_driver("24_accuracy/box_errors") {
+    if expected::are_of_this_driver("24_accuracy/box_errors") {
         golden(NAME, &first, 0.002);
     }
 }

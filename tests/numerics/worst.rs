@@ -1,7 +1,7 @@
 //! The hard cases and the random families in the worst arithmetic that conforms: each top rung is held to
 //! the bar that it has on the driver itself.
 
-use run::figures;
+use run::expected;
 use serde_json::{Value, json};
 
 use crate::bars::{Row, report};
@@ -130,7 +130,7 @@ fn the_hard_cases_of_every_rung_in_each_arithmetic() {
             }
         }
     }
-    figures::hold("arithmetic/hard_cases", table.into());
+    expected::hold("arithmetic/hard_cases", table.into());
 
     let answers = reports[1]["answers"].as_array().unwrap().iter();
     let smallest =
@@ -144,7 +144,7 @@ fn the_hard_cases_of_every_rung_in_each_arithmetic() {
     let off = |rung: &&str| of(rung)["ulp"].as_f64();
     let off = ["S0h", "S1", "S2", "S3"].iter().filter_map(off).fold(0.0, f64::max);
     let misses = ["S0h", "S1", "S2", "S3"].iter().filter(|rung| of(rung)["hit"] == false).count();
-    figures::hold("arithmetic/smallest", json!({ "off": off, "misses": misses }));
+    expected::hold("arithmetic/smallest", json!({ "off": off, "misses": misses }));
 }
 
 /// The page's table: of each ladder the largest p99 and the largest error of its families.
@@ -187,7 +187,7 @@ fn random_rays_in_each_arithmetic() {
             }
         }
     }
-    figures::hold("arithmetic/random_rays", table.into());
+    expected::hold("arithmetic/random_rays", table.into());
     let found = json!({ "departures": departures as u64, "wrong": wrong as u64 });
-    figures::hold("arithmetic/faults", found);
+    expected::hold("arithmetic/faults", found);
 }

@@ -8,7 +8,7 @@ mod shapes;
 
 use std::sync::Arc;
 
-use ash::vk::BufferUsageFlags as Usage;
+use ash::vk::BufferUsageFlags as UsageError;
 use common::gpu::{Buffer, Gpu, GpuOptions, Requirements};
 use common::scene::{Mesh, Vertex, input_usage};
 use glam::{Vec2, Vec3};
@@ -17,8 +17,8 @@ use own_tree::{Child, Corners, DeviceBuilder, DeviceTree, Node, Scratch, Triangl
 use shapes::Shape;
 
 fn gpu(validate: bool, arithmetic: Arithmetic) -> Gpu {
-    let (requirements, emulation) = (Requirements::ray_tracing(), Arc::new(arithmetic));
-    Gpu::new(&GpuOptions { requirements, validate, emulation, ..GpuOptions::default() }).unwrap()
+    let (requirements, driver_shim) = (Requirements::ray_tracing(), Arc::new(arithmetic));
+    Gpu::new(&GpuOptions { requirements, validate, driver_shim, ..GpuOptions::default() }).unwrap()
 }
 
 /// Without validation, which would be timed.
@@ -36,7 +36,7 @@ pub struct Uploaded {
 impl Uploaded {
     fn new(gpu: &Gpu, shape: &Shape) -> Self {
         let vertices: Vec<Vertex> = shape.vertices.iter().map(|at| vertex(*at)).collect();
-        let usage = Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS;
+        let usage = UsageError::STORAGE_BUFFER | UsageError::SHADER_DEVICE_ADDRESS;
         Self::upload(gpu, &vertices, &shape.triangles, usage)
     }
 
@@ -45,7 +45,7 @@ impl Uploaded {
         Self::upload(gpu, &mesh.vertices, &mesh.triangles, input_usage())
     }
 
-    fn upload(gpu: &Gpu, vertices: &[Vertex], triangles: &[[u32; 3]], usage: Usage) -> Self {
+    fn upload(gpu: &Gpu, vertices: &[Vertex], triangles: &[[u32; 3]], usage: UsageError) -> Self {
         Self {
             vertices: Buffer::with_data(gpu, "vertices", vertices, usage).unwrap(),
             triangles: Buffer::with_data(gpu, "triangles", triangles, usage).unwrap(),

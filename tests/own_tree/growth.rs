@@ -9,7 +9,7 @@ use common::scene::{Scene, Vertex};
 use own_tree::{
     Bounds, Builder, Corners, DeviceBuilder, DeviceTree, Scratch, binned, cost, refit, reinserted,
 };
-use run::figures;
+use run::expected;
 use serde_json::{Map, Value};
 
 use crate::device::{Uploaded, gpu_to_be_timed};
@@ -99,7 +99,7 @@ fn from_a_thousand_triangles_to_a_million() {
             give(name, milliseconds.into());
         }
     }
-    figures::give_timed("30_own_tree/growth", figures.into());
+    expected::give_timed("30_own_tree/growth", figures.into());
 }
 
 /// A landscape is twisted, by so many turns for each unit from its middle.
@@ -128,7 +128,7 @@ fn a_tree_that_is_refitted_gets_worse() {
         figures.insert(name.to_owned(), ratio.into());
         ratios.push(ratio);
     }
-    figures::hold_exact("30_own_tree/refitted", figures.into());
+    expected::hold_exact("30_own_tree/refitted", figures.into());
     assert!((ratios[0] - 1.0).abs() < 1e-9);
     assert!(ratios.windows(2).all(|pair| pair[0] < pair[1]), "{ratios:?}");
     assert!(ratios[3] > 1.5, "{ratios:?}");

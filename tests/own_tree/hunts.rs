@@ -2,12 +2,13 @@
 //! the origin. Every triangle in turn, with the same test, says what there is to find.
 
 use common::glam::{DVec3, Vec2};
-use common::scene::{Camera, Instance, Material, Mesh, Model, Scene, Vertex};
+use common::model::Model;
+use common::scene::{Camera, Instance, Material, Mesh, Scene, Vertex};
 use instruments::arithmetic::Arithmetic;
 use own_tree::Builder;
 use reference::random::Random;
 
-use run::figures;
+use run::expected;
 use serde_json::Map;
 
 use crate::rig::{
@@ -220,5 +221,5 @@ fn the_table_of_what_is_lost() {
             figures.insert(format!("{}.doubled", triangles[index / 5]), count.doubled.into());
         }
     }
-    figures::hold("30_own_tree/lost", figures.into());
+    expected::hold("30_own_tree/lost", figures.into());
 }

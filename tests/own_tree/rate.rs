@@ -7,7 +7,7 @@ use common::scene::{Camera, Instance, Scene};
 use own_tree::Builder;
 use reference::Ray;
 use reference::random::Random;
-use run::figures;
+use run::expected;
 use run::primary_hits::reference;
 use serde_json::{Map, Value, json};
 
@@ -189,7 +189,7 @@ fn walks_beside_queries() {
     compare("chess", &Scene::chess().expect("the chess set"), &mut figures);
     compare("landscape", &landscape(708), &mut figures);
     compare("balls", &balls(), &mut figures);
-    figures::give_timed("30_own_tree/rate", figures.into());
+    expected::give_timed("30_own_tree/rate", figures.into());
 }
 
 /// What each way to test boxes and triangles costs in time: primary rays and bounces on the chess set.
@@ -220,7 +220,7 @@ fn the_time_of_each_rung() {
     let [_, ratio, _] = quartiles((0..ROUNDS).map(ratio).collect());
     figures.insert("quantised".to_owned(), ratio.into());
     println!("36 bytes: {ratio:.2}");
-    figures::give_timed("30_own_tree/rungs", figures.into());
+    expected::give_timed("30_own_tree/rungs", figures.into());
 }
 
 /// Bytes of nodes and of corners, for each triangle of the chess set.
@@ -232,7 +232,7 @@ fn memory_is_what_the_page_says() {
     let [nodes, corners, _] = rig.own.trees.bytes;
     let each = |bytes: usize| bytes as f64 / triangles as f64;
     let quantised = nodes / 64 * 36;
-    figures::hold(
+    expected::hold(
         "30_own_tree/memory",
         json!({ "triangles": triangles, "nodes": each(nodes), "quantised": each(quantised),
                 "corners": each(corners), "stack": rig.own.trees.stack }),

@@ -117,11 +117,15 @@ impl Rig {
     }
 
     fn make(scene: &Scene, builder: Builder, beside: bool, arithmetic: Arithmetic) -> Self {
-        let emulation = Arc::new(arithmetic);
+        let driver_shim = Arc::new(arithmetic);
         let device = |requirements| {
-            let emulation = emulation.clone();
-            let options =
-                GpuOptions { requirements, validate: !beside, emulation, ..GpuOptions::default() };
+            let driver_shim = driver_shim.clone();
+            let options = GpuOptions {
+                requirements,
+                validate: !beside,
+                driver_shim,
+                ..GpuOptions::default()
+            };
             Gpu::new(&options)
         };
         let requirements = || Requirements::ray_tracing().textures();

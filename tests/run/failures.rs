@@ -66,7 +66,7 @@ pub fn each_is_answered(
     let run = |fault: &str| {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("calls");
-        let output = run(&Layer::failing(fault), &file);
+        let output = run(&Layer::fail_nth_call(fault), &file);
         (output, Layer::calls(&file))
     };
     let (whole, calls) = run("");

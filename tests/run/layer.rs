@@ -20,17 +20,29 @@ pub struct Layer {
 
 impl Layer {
     /// The narrowest device: all is hidden that Vulkan need not offer. `faults` is what else is wrong with
-    /// it, in the words of `tests/gpus/narrow`.
-    pub fn narrow(faults: &str) -> Self {
+    /// it, in the words of `tests/layer/minimum_limits`.
+    pub fn minimum_limits(faults: &str) -> Self {
         // Validation holds the program to what it sees, without being asked.
-        let layers = format!("VK_LAYER_KHRONOS_validation:{}", narrow::NAME);
-        Self::new("narrow", narrow::NAME, layers, false, vec![("NARROW", faults.into())])
+        let layers = format!("VK_LAYER_KHRONOS_validation:{}", minimum_limits::NAME);
+        Self::new(
+            "minimum_limits",
+            minimum_limits::NAME,
+            layers,
+            false,
+            vec![("MINIMUM_LIMITS", faults.into())],
+        )
     }
 
-    /// A display or a card with a mood of its own, in the words of `tests/window/moods`.
-    pub fn moods(words: &str) -> Self {
-        let layers = format!("VK_LAYER_KHRONOS_validation:{}", moods::NAME);
-        Self::new("moods", moods::NAME, layers, false, vec![("MOODS", words.into())])
+    /// A display or a card with a mood of its own, in the words of `tests/layer/display_faults`.
+    pub fn display_faults(words: &str) -> Self {
+        let layers = format!("VK_LAYER_KHRONOS_validation:{}", display_faults::NAME);
+        Self::new(
+            "display_faults",
+            display_faults::NAME,
+            layers,
+            false,
+            vec![("DISPLAY_FAULTS", words.into())],
+        )
     }
 
     /// A device with opacity micromaps, in the words of `tests/samples/opacity_micromaps/layer`. The validation
@@ -40,12 +52,18 @@ impl Layer {
         Self::new("micromaps", micromaps::NAME, layers, false, vec![("MICROMAPS", words.into())])
     }
 
-    /// A call that fails: `fault` names it in the words of `tests/errors/failing`; empty for none.
-    pub fn failing(fault: &str) -> Self {
+    /// A call that fails: `fault` names it in the words of `tests/layer/fail_nth_call`; empty for none.
+    pub fn fail_nth_call(fault: &str) -> Self {
         // Mesa's own layer, which sorts devices, crashes of some failures.
         let alone = ("NODEVICE_SELECT", "1".into());
         let variables = vec![("FAIL", fault.into()), alone];
-        Self::new("failing", failing::NAME, failing::NAME.to_owned(), true, variables)
+        Self::new(
+            "fail_nth_call",
+            fail_nth_call::NAME,
+            fail_nth_call::NAME.to_owned(),
+            true,
+            variables,
+        )
     }
 
     /// How often a program under a failing layer called each function, from the file that it was told to leave,

@@ -220,7 +220,7 @@ impl Tally {
 
 impl Tally {
     /// All of it as figures for a page.
-    pub fn figures(&self) -> Value {
+    pub fn values(&self) -> Value {
         let Self { rays, close, self_hits, lost, slivers, sliver: [length, width, moved], .. } =
             self;
         json!({ "rays": rays, "self_hits": self_hits, "lost": lost, "close": close,

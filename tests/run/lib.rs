@@ -3,8 +3,8 @@
 #[cfg(target_os = "linux")]
 pub mod cards;
 pub mod equality;
+pub mod expected;
 pub mod failures;
-pub mod figures;
 pub mod layer;
 pub mod leaving;
 pub mod plot;

@@ -69,7 +69,7 @@ impl Tally {
     }
 
     /// All of it as figures for a page.
-    pub fn figures(&self) -> Value {
+    pub fn values(&self) -> Value {
         let Self { agree, ties, grazes, wrong, .. } = self;
         let [half, most, worst] = self.errors();
         json!({ "agree": agree, "ties": ties, "edges": grazes, "wrong": wrong,

@@ -22,14 +22,15 @@ mod position;
 mod turned;
 
 use common::app::Picture;
-use common::scene::{self, Camera, Model, Scene, assets, obj};
+use common::model::{Model, obj};
+use common::scene::{self, Camera, Scene, assets};
 use glam::{Affine3A, DVec3, Vec3};
 use motion::{KINDS, Motion};
 use reference::Ray;
 use reference::hit::Hit;
 use reference::ulp::ulp_error;
 use run::primary_hits::{answer, rays, reference};
-use run::{bits, figures, golden, render, same_answers, same_colors};
+use run::{bits, expected, golden, render, same_answers, same_colors};
 use serde_json::json;
 use turned::TABLE;
 
@@ -172,7 +173,7 @@ fn everything_is_where_its_formula_says() {
         assert!(at_edges < 60 && of_flag > 60, "{frame}: {right} {of_flag} {at_edges}");
     }
     let hundred_millionths = (1e8 * largest).ceil();
-    figures::hold("14_animation/cloth", json!({ "largest": hundred_millionths / 1e8 }));
+    expected::hold("14_animation/cloth", json!({ "largest": hundred_millionths / 1e8 }));
 }
 
 /// Whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a candidate

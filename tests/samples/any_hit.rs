@@ -1,12 +1,13 @@
 //! 03_any_hit: cut-outs, transparency that no order can change, and the list of every hit.
 
 use common::app::Picture;
-use common::scene::{Model, Scene, Texture};
+use common::model::{Model, Texture};
+use common::scene::Scene;
 use reference::Ray;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{figures, golden, render, same_answers};
+use run::{expected, golden, render, same_answers};
 
 const NAME: &str = "03_any_hit";
 const SIZE: &str = "240x150";
@@ -46,7 +47,7 @@ fn the_picture_is_the_golden_one() {
 fn the_screen_is_few_triangles() {
     let model = Scene::chess().unwrap().model;
     let screen = model.meshes.iter().find(|mesh| mesh.name == "screen").unwrap();
-    figures::hold_exact("03_any_hit/screen", json!({ "triangles": screen.triangles.len() }));
+    expected::hold_exact("03_any_hit/screen", json!({ "triangles": screen.triangles.len() }));
 }
 
 #[test]
@@ -110,7 +111,7 @@ fn transparency_at_random_does_not_depend_on_the_order() {
     assert_eq!(others, 0, "pixels that differ though their distances do");
     // The feet of the pieces lie in the plane of the board: those ties are there, and no more.
     assert!(ties < pixels / 50, "{ties} ties");
-    figures::hold("03_any_hit/ties", json!({ "ties": ties, "pixels": pixels }));
+    expected::hold("03_any_hit/ties", json!({ "ties": ties, "pixels": pixels }));
 }
 
 #[test]
@@ -121,7 +122,7 @@ fn the_naive_way_does_depend_on_the_order() {
     println!("{others} pixels differ");
     // The order of the candidates is the driver's choice. Mesa 25.0.7 keeps that of the build; with 26.2.6
     // both builds answer the same.
-    if figures::are_of_this_driver("03_any_hit/ties") {
+    if expected::are_of_this_driver("03_any_hit/ties") {
         assert!(others > ordered.pixels.len() / 100, "only {others} pixels differ");
     }
 }

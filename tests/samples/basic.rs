@@ -4,7 +4,7 @@ use common::scene::Scene;
 use serde_json::json;
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{bits, figures, golden, render};
+use run::{bits, expected, golden, render};
 
 const SIZE: &str = "240x150";
 
@@ -28,7 +28,7 @@ fn every_hit_agrees_with_the_reference() {
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     println!("{tally}");
-    figures::hold("02_basic/hits", tally.figures());
+    expected::hold("02_basic/hits", tally.values());
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
     // Edges are thin: where more than one ray in five hundred needs an excuse, something is wrong.
     assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
@@ -39,7 +39,7 @@ fn every_hit_agrees_with_the_reference() {
 #[test]
 fn pieces_are_instances_of_few_meshes() {
     let scene = Scene::chess().unwrap();
-    figures::hold_exact("02_basic/scene", json!({ "instances": scene.instances.len() }));
+    expected::hold_exact("02_basic/scene", json!({ "instances": scene.instances.len() }));
     assert_eq!(scene.model.meshes.len(), 11);
 }
 
@@ -55,5 +55,5 @@ fn the_order_of_the_triangles_in_time() {
     ratios.sort_by(f64::total_cmp);
     let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);
     println!("{ratio:.2}, middle half {low:.2} to {high:.2}");
-    figures::give_timed("02_basic/order", json!({ "ratio": ratio, "low": low, "high": high }));
+    expected::give_timed("02_basic/order", json!({ "ratio": ratio, "low": low, "high": high }));
 }

@@ -5,7 +5,7 @@ mod patterns;
 use common::app::Picture;
 use common::scene::Scene;
 
-use run::{compiled_for, figures, golden, render, same_colors};
+use run::{compiled_for, expected, golden, render, same_colors};
 use serde_json::Map;
 
 const NAME: &str = "13_callable_shader";
@@ -80,7 +80,7 @@ fn whole_cells_keep_the_digits_that_a_sum_of_floats_loses() {
         table.insert(far.to_string(), error.into());
         assert!(error >= least && error < most, "{far}: {error}");
     }
-    figures::hold_exact("13_callable_shader/cells", table.into());
+    expected::hold_exact("13_callable_shader/cells", table.into());
 }
 
 #[test]

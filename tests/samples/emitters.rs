@@ -9,7 +9,7 @@ use common::app::Picture;
 use instruments::sums::merge;
 use serde_json::{Map, json};
 
-use run::{bits, command, compiled_for, figures, golden, render, same_colors};
+use run::{bits, command, compiled_for, expected, golden, render, same_colors};
 
 const NAME: &str = "29_emitters";
 /// The relative error of one rounding to f32.
@@ -84,7 +84,7 @@ fn three_estimators_make_one_picture() {
         held.insert(format!("{name}.off"), json!((estimate.mean / whole).abs()));
         held.insert(format!("{name}.confidence"), json!(estimate.confidence / whole));
     }
-    figures::hold("29_emitters/one_picture", held.into());
+    expected::hold("29_emitters/one_picture", held.into());
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn fireflies_are_those_of_chance_and_of_area() {
     }
     // A white surface beside an emitter of 1 is 1/2 at most; by area, one point may count for any multiple.
     assert!(brightest[1] > 2.0 && brightest[2] < 1.01 && brightest[3] < 1.01, "{brightest:?}");
-    figures::hold("29_emitters/fireflies", held.into());
+    expected::hold("29_emitters/fireflies", held.into());
 }
 
 #[test]

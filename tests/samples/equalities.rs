@@ -7,7 +7,7 @@
 
 use common::app::Picture;
 use run::equality::{flipped, ties};
-use run::{Near, bits, command, figures, flip, render, render_by};
+use run::{Near, bits, command, expected, flip, render, render_by};
 
 const SIZE: &str = "96x60";
 /// A model that two chapters show alike.
@@ -159,7 +159,7 @@ fn at_a_shared_edge_either_triangle_answers() {
         println!("from {height}: {ties} ties");
         assert_eq!(others, 0, "from {height}, of {ties} ties");
         // Mesa 25.0.7 keeps the order of the build; with 26.2.6 both builds answer the same.
-        if figures::are_of_this_driver("03_any_hit/ties") {
+        if expected::are_of_this_driver("03_any_hit/ties") {
             assert!(bits(&one) != bits(&other) && ties > 10, "from {height}: {ties} ties");
         }
     }

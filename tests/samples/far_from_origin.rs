@@ -3,7 +3,7 @@
 use common::app::Picture;
 use glam::{DVec3, Vec3};
 use reference::transform::U;
-use run::{figures, golden, render, same_colors};
+use run::{expected, golden, render, same_colors};
 use serde_json::{Map, json};
 
 use super::instancing::normals::by_the_inverses;
@@ -76,7 +76,7 @@ fn far_away_only_camera_relative_coordinates_keep_the_picture() {
     }
     table.insert("relative.triangles".to_owned(), json!(most[0]));
     table.insert("relative.shadows".to_owned(), json!(most[1]));
-    figures::hold("39_far_from_origin/coordinates", table.into());
+    expected::hold("39_far_from_origin/coordinates", table.into());
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn both_coordinates_side_by_side_are_the_two_pictures() {
 fn normals_are_as_good_far_away() {
     let (far, viewed) = specimens(1e6);
     let table = by_the_inverses(&viewed, &["coordinates=world", &far]);
-    figures::hold("39_far_from_origin/normals", table.into());
+    expected::hold("39_far_from_origin/normals", table.into());
 }
 
 /// The ray's origin in the space of each piece that was seen: error by rung, in parts of the bound of
@@ -140,5 +140,5 @@ fn the_difference_first_keeps_the_object_space_origin() {
             }
         }
     }
-    figures::hold("39_far_from_origin/object_ray", table.into());
+    expected::hold("39_far_from_origin/object_ray", table.into());
 }

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use serde_json::json;
 
-use run::{bits, command, figures, golden, refused, render};
+use run::{bits, command, expected, golden, refused, render};
 
 const NAME: &str = "01_foundation";
 const SIZE: &str = "240x150";
@@ -51,7 +51,7 @@ fn every_pixel_agrees_with_the_ray_and_the_triangle_in_double_precision() {
         println!("{size}: {hits} hits, {misses} misses, largest error {worst:e}");
         if size == SIZE {
             let found = json!({ "hits": hits, "misses": misses, "error": worst });
-            figures::hold("01_foundation/pixels", found);
+            expected::hold("01_foundation/pixels", found);
         }
     }
 }
@@ -83,7 +83,7 @@ fn the_report_holds_the_same_story() {
     };
     let limits =
         json!({ "handle": told("handle"), "record": told("record"), "region": told("region") });
-    figures::hold("01_foundation/limits", limits);
+    expected::hold("01_foundation/limits", limits);
     assert_eq!(report["groups"], 3);
     assert_eq!(report["stages"].as_array().unwrap().len(), 3);
     assert!(report["acceleration_structure_bytes"].as_u64().unwrap() > 0);

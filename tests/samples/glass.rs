@@ -7,7 +7,7 @@ pub mod equations;
 use common::app::Picture;
 use serde_json::{Map, json};
 
-use run::{bits, compiled_for, figures, flip, golden, render};
+use run::{bits, compiled_for, expected, flip, golden, render};
 
 const NAME: &str = "27_glass";
 /// The relative error of one rounding to f32.
@@ -28,7 +28,7 @@ fn mean(picture: &Picture) -> f64 {
 
 /// How far a picture of so many frames may be from the golden one.
 fn tolerance(own: &Picture, frames: u32, sets: &[&str]) -> f32 {
-    if figures::are_of_this_driver("27_glass/left_out") {
+    if expected::are_of_this_driver("27_glass/left_out") {
         return 0.002; // set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit
     }
     // Where another driver rounds otherwise, one path of a hundred goes elsewhere at each of some twenty walls
@@ -67,7 +67,7 @@ fn clear_glass_cannot_be_seen_in_a_white_sky() {
         // Half as many are left of them for each doubling of the depth: one in a thousand at 16.
         assert!(lost[i] <= 4.0, "{} paths are lost from {eye}", lost[i]);
     }
-    figures::hold(
+    expected::hold(
         "27_glass/furnace",
         json!({ "paths": 4 * 96 * 60, "outside": lost[0], "inside": lost[1] }),
     );
@@ -102,9 +102,9 @@ fn what_depth_leaves_out() {
     // A path that is as long, and as bright as the clamp lets it be, is rare: none here with Mesa 25.0.7, two
     // with 26.2.6, whose paths are others. If two are usual, one run in 4,000 has more than eight.
     let bright_path = 20.0 / f64::from(96 * 60 * 16) / all;
-    let paths = if figures::are_of_this_driver("27_glass/left_out") { 0.0 } else { 8.0 };
+    let paths = if expected::are_of_this_driver("27_glass/left_out") { 0.0 } else { 8.0 };
     assert!(last < 1e-3 + paths * bright_path, "depth 32 leaves out {last}");
-    figures::hold("27_glass/left_out", table.into());
+    expected::hold("27_glass/left_out", table.into());
 }
 
 /// The brightest pixel falls, and so does the light.
@@ -122,7 +122,7 @@ fn a_clamp_takes_fireflies_and_light() {
         table.insert(format!("brightest_{clamp}"), json!(brightest));
         table.insert(format!("mean_{clamp}"), json!(light));
     }
-    figures::hold("27_glass/fireflies", table.into());
+    expected::hold("27_glass/fireflies", table.into());
 }
 
 #[test]

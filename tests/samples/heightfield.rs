@@ -28,7 +28,7 @@ use judged::{Exact, Verdict};
 use marched::{Alone, March, Marched, RUNGS};
 
 use run::plot::{Shown, draw_panels};
-use run::{figures, golden, render};
+use run::{expected, golden, render};
 use serde_json::{Map, json};
 
 const NAME: &str = "21_heightfield";
@@ -80,7 +80,7 @@ fn each_rung_in_each_view() {
         for (rung, marched) in RUNGS.iter().zip(&marched) {
             let row = marched.row();
             println!("| {view} | {rung} | {row} |");
-            rows.extend(row.figures(&format!("{view}.{rung}")));
+            rows.extend(row.values(&format!("{view}.{rung}")));
         }
         let [relaxed, lipschitz, over_relaxed, bisected] = &marched;
         let hits = relaxed.hits();
@@ -141,9 +141,9 @@ fn each_rung_in_each_view() {
         );
         assert!(count > 100 && (to > 15.0 || bisected < 0.75 * relaxed));
     }
-    figures::hold("21_heightfield/rungs", rows.into());
-    figures::hold("21_heightfield/views", views.into());
-    figures::hold("21_heightfield/angles", angles.into());
+    expected::hold("21_heightfield/rungs", rows.into());
+    expected::hold("21_heightfield/views", views.into());
+    expected::hold("21_heightfield/angles", angles.into());
 }
 
 /// The bounds of the page that follow from the formula of the land alone.
@@ -157,7 +157,7 @@ fn the_land_is_as_steep_and_as_exact_as_the_page_says() {
         "steep.slope": slope(STEEP),
         "error": HILLS.error(reach),
     });
-    figures::hold_exact("21_heightfield/land", values);
+    expected::hold_exact("21_heightfield/land", values);
     for landscape in [HILLS, STEEP] {
         // Half the bound at least is reached somewhere, and it is never passed.
         let field = judged::exact(landscape);
@@ -238,7 +238,7 @@ fn on_flat_ground_the_relaxed_rung_gives_up_and_calls_it_a_hit() {
     }
     let (found, ground) = example.expect("a ray at 0.2 degrees");
     println!("at 0.2 degrees: a hit at {found:.1}, the ground is at {ground:.1}");
-    figures::hold("21_heightfield/gave_up", json!({ "found": found, "ground": ground }));
+    expected::hold("21_heightfield/gave_up", json!({ "found": found, "ground": ground }));
     println!("{gave_up} rays gave up after 300 steps, {early} stopped early");
     assert!(gave_up > 100 && early == 625, "{gave_up} {early}");
 }

@@ -15,7 +15,7 @@ use reference::{Ray, Surface};
 use serde_json::{Map, json};
 
 use run::primary_hits::{rays, reference};
-use run::{bits, command, figures, golden, render, render_by, same_colors, shaders_with};
+use run::{bits, command, expected, golden, render, render_by, same_colors, shaders_with};
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
@@ -233,8 +233,8 @@ fn each_rung_is_as_good_as_it_promises() {
             }
         }
     }
-    figures::hold("12_infinite_plane/errors", table.into());
-    figures::hold("12_infinite_plane/rays", json!({ "hits": hits }));
+    expected::hold("12_infinite_plane/errors", table.into());
+    expected::hold("12_infinite_plane/rays", json!({ "hits": hits }));
     println!("{hits} hits, {grazing} below 1e-5, {lost} cut off; pov at {worst_pov:.2} of its bar");
     assert!(grazing > 50 && lost > 50, "{grazing} {lost}");
     anchored.sort_by(f64::total_cmp);

@@ -13,7 +13,7 @@ use reference::scene::Scene as Exact;
 use reference::transform::Transform;
 
 use run::primary_hits::{Tally, answer, judge, rays, reference};
-use run::{Near, Run, command, figures, flat_shaders, golden, render, render_by, same_hits};
+use run::{Near, Run, command, expected, flat_shaders, golden, render, render_by, same_hits};
 use serde_json::{Map, Value, json};
 
 #[allow(dead_code)]
@@ -223,7 +223,7 @@ fn copies_look_the_same_and_take_the_memory() {
         .map(|name| (number(&more, name) - number(&instances, name)) as f64 / pieces as f64);
     println!("bytes a piece, top level, record, instance: {per_piece:.1?}");
     let [top_level, record, _] = per_piece;
-    figures::hold("09_instancing/piece", json!({ "top_level": top_level, "record": record }));
+    expected::hold("09_instancing/piece", json!({ "top_level": top_level, "record": record }));
     assert!(per_piece.iter().sum::<f64>() < 500.0, "{per_piece:?}");
 }
 
@@ -252,8 +252,8 @@ fn copies_of_a_thousand_squares_take_what_the_page_says() {
     let pieces = own(&copies, "pieces");
     let each = (parts[0][1] + parts[1][1]) / pieces;
     println!("{pieces} pieces, {each} bytes for a copy");
-    figures::hold("09_instancing/memory", table.into());
-    figures::hold("09_instancing/copies", json!({ "pieces": pieces, "each": each }));
+    expected::hold("09_instancing/memory", table.into());
+    expected::hold("09_instancing/copies", json!({ "pieces": pieces, "each": each }));
     // The table's rows add up to less than all. The rest is what a frame needs, alike in both columns.
     let rest = [0, 1].map(|i| all[i] - parts.iter().map(|pair| pair[i]).sum::<u64>());
     assert!(rest.iter().all(|&bytes| bytes < 16 << 20) && all[1] > 30 * all[0], "{rest:?}");

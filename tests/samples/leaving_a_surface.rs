@@ -12,7 +12,7 @@ use serde_json::{Map, json};
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
 use run::{
-    command, figures, flat_shaders, golden, render, render_by, replace_line, same_answers,
+    command, expected, flat_shaders, golden, render, render_by, replace_line, same_answers,
     shaders_with,
 };
 use tempfile::TempDir;
@@ -228,17 +228,17 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
             all += tally.rays;
             slivers += tally.slivers;
             if tally.slivers > 0 {
-                let found = tally.figures();
+                let found = tally.values();
                 gaps.insert(format!("{number}.gaps"), found["moved"].clone());
                 if number == 1 {
-                    figures::hold("26_leaving_a_surface/sliver", found);
+                    expected::hold("26_leaving_a_surface/sliver", found);
                 }
             }
         }
     }
     println!("{all} rays, {slivers} on slivers moved past an edge");
-    figures::hold("26_leaving_a_surface/gaps", gaps.into());
-    figures::hold("26_leaving_a_surface/million", json!({ "rays": all, "slivers": slivers }));
+    expected::hold("26_leaving_a_surface/gaps", gaps.into());
+    expected::hold("26_leaving_a_surface/million", json!({ "rays": all, "slivers": slivers }));
     // A bound that were too large would have many more.
     assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
 }
@@ -289,7 +289,7 @@ fn the_least_step_that_never_fails() {
             table.insert(format!("{}.{number}", rule.0), serves.into());
         }
     }
-    figures::hold("26_leaving_a_surface/least", table.into());
+    expected::hold("26_leaving_a_surface/least", table.into());
 }
 
 #[test]
@@ -307,6 +307,6 @@ fn a_smaller_step_ends_in_self_hits() {
             all = tally.rays;
         }
     }
-    figures::hold("26_leaving_a_surface/steps", table.into());
-    figures::hold("26_leaving_a_surface/reflected", json!({ "rays": all }));
+    expected::hold("26_leaving_a_surface/steps", table.into());
+    expected::hold("26_leaving_a_surface/reflected", json!({ "rays": all }));
 }

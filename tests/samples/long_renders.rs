@@ -170,7 +170,7 @@ fn a_task_that_is_asked_to_stop_before_its_first_sample_does_not_wait_for_it() {
         task.args(["--size", "1000x1000", "--samples", "0..4", "--save", "part"]);
         task.current_dir(&parts.folder).stderr(std::process::Stdio::piped());
         let mut child = task.spawn().expect("the sample starts");
-        patience::wait_until_worked(&mut child, Duration::from_secs(wait));
+        time_limit::wait_until_worked(&mut child, Duration::from_secs(wait));
         let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         assert!(kill.expect("kill").success());
         let output = child.wait_with_output().unwrap();

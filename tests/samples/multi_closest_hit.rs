@@ -7,7 +7,7 @@ use common::scene::{Instance, Scene};
 use serde_json::{Value, json};
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{Run, bits, command, figures, golden, refusal, render, root};
+use run::{Run, bits, command, expected, golden, refusal, render, root};
 
 const NAME: &str = "07_multi_closest_hit";
 const SIZE: &str = "240x150";
@@ -130,7 +130,7 @@ fn the_printed_table_is_the_layout_for_the_device_s_limits() {
     limits.ray_tracing_pipeline.max_shader_group_stride = 4096;
     let scene = Scene::chess().unwrap();
     let records = scene.instances.len() * RAY_TYPES as usize;
-    figures::hold_exact("07_multi_closest_hit/table", json!({ "records": records }));
+    expected::hold_exact("07_multi_closest_hit/table", json!({ "records": records }));
     // The ray generation shader's record holds the first pixel of a band.
     let layout = sbt::layout(&limits, [1, 1, records, 0], [8, 0, 24, 0]).unwrap();
     let address = report["chapter"]["address"].as_u64().unwrap();

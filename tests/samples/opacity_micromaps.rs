@@ -10,7 +10,7 @@ use reference::random::Random;
 use reference::rational::rational;
 use serde_json::{Map, Value, json};
 
-use run::{bits, figures, golden, refused, render, root, same_answers, same_colors};
+use run::{bits, expected, golden, refused, render, root, same_answers, same_colors};
 
 #[allow(dead_code)]
 #[path = "../../samples/15_opacity_micromaps/alpha.rs"]
@@ -108,7 +108,7 @@ fn four_samples_give_another_picture() {
         held.insert((*level).into(), wrong.into());
     }
     held.insert("pixels".into(), parent.pixels.len().into());
-    figures::hold("15_opacity_micromaps/samples", Value::Object(held));
+    expected::hold("15_opacity_micromaps/samples", Value::Object(held));
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn fewer_calls_read_the_texture_the_finer_the_level() {
     }
     assert_eq!(held["none"], 1.0);
     assert!(before < 0.4 * calls, "{before} of {calls}");
-    figures::hold("15_opacity_micromaps/reads", held);
+    expected::hold("15_opacity_micromaps/reads", held);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn states_by_level() {
     }
     let report = &render(NAME, "8x8", &["--set", "level=6"]).report["chapter"];
     assert_eq!([&report["bytes"], &report["unknown"]], [&held["6.bytes"], &held["6.unknown"]]);
-    figures::hold_exact("15_opacity_micromaps/states", Value::Object(held));
+    expected::hold_exact("15_opacity_micromaps/states", Value::Object(held));
 }
 
 /// What the specification's function answers for the middles of the 64 micro-triangles of level 3: row by row
@@ -389,7 +389,7 @@ fn no_state_by_the_bound_is_wrong_at_any_level() {
     }
     println!("{held}");
     assert!(held["samples.wrong"].as_u64() > Some(0));
-    figures::hold_exact("15_opacity_micromaps/rules", held);
+    expected::hold_exact("15_opacity_micromaps/rules", held);
 }
 
 /// What the bound allows for roundings, in exact arithmetic: the search ends in a micro-triangle that the hit is

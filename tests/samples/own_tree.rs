@@ -4,7 +4,7 @@ use common::app::Picture;
 use common::scene::Scene;
 
 use run::primary_hits::{answer, judge, rays, reference};
-use run::{command, figures, golden, refusal, refused, render, shaders_with};
+use run::{command, expected, golden, refusal, refused, render, shaders_with};
 use serde_json::json;
 
 const NAME: &str = "30_own_tree";
@@ -33,7 +33,7 @@ fn every_hit_agrees_with_the_reference() {
     let answers = hits.pixels.iter().map(answer);
     let tally = judge(&reference(&scene), rays(&scene.camera, &directions).zip(answers));
     println!("{tally}");
-    figures::hold("30_own_tree/hits", tally.figures());
+    expected::hold("30_own_tree/hits", tally.values());
     assert_eq!(tally.wrong, 0, "{:?}", tally.first_wrong);
     assert!(tally.ties + tally.grazes < hits.pixels.len() / 500, "{tally}");
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
@@ -49,7 +49,7 @@ fn it_is_the_picture_of_16() {
     let far = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 1.0 / 255.0);
     let count = of_16.pixels.iter().zip(&own.pixels).filter(|&pair| far(pair)).count();
     println!("{count} pixels differ by more than a step of 8 bits");
-    figures::hold("30_own_tree/query", json!({ "pixels": own.pixels.len(), "differ": count }));
+    expected::hold("30_own_tree/query", json!({ "pixels": own.pixels.len(), "differ": count }));
     assert!(count < own.pixels.len() / 1000, "{count}");
 }
 

@@ -10,7 +10,7 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
 use serde_json::{Map, Value, json};
 
 use run::primary_hits::{answer, rays};
-use run::{figures, golden, render, same_answers, same_colors};
+use run::{expected, golden, render, same_answers, same_colors};
 
 const NAME: &str = "10_position_fetch";
 
@@ -54,7 +54,7 @@ fn positions_cost_no_memory_of_ours() {
     let vertices: usize = meshes.iter().map(|mesh| mesh.vertices.len()).sum();
     let saved = bytes("buffer") - bytes("acceleration structure");
     println!("{vertices} vertices: {saved} bytes less");
-    figures::hold("10_position_fetch/memory", json!({ "vertices": vertices, "saved": saved }));
+    expected::hold("10_position_fetch/memory", json!({ "vertices": vertices, "saved": saved }));
     // Twelve bytes a vertex, less an address a mesh and what alignment takes.
     let most = 12 * vertices as i64;
     assert!(saved <= most && saved > most - 4096, "{saved} of {most}");
@@ -187,7 +187,7 @@ fn from_afar_a_point_by_corners_stays_on_its_triangle_and_one_along_the_ray_does
         assert!(along_the_ray[1].0 > distance / 100.0, "{distance}: {along_the_ray:?}");
         assert!(along_the_ray[0].1 < 16.0 * distance, "{distance}: {along_the_ray:?}");
     }
-    figures::hold("10_position_fetch/afar", table.into());
+    expected::hold("10_position_fetch/afar", table.into());
 }
 
 #[test]
@@ -214,5 +214,5 @@ fn a_point_by_corners_suffers_from_a_large_triangle_and_one_along_the_ray_does_n
         assert!(by_corners[1].1 < 1e-6, "{size}: {by_corners:?}");
         assert!(along_the_ray[0].0 < 1.0, "{size}: {along_the_ray:?}");
     }
-    figures::hold("10_position_fetch/large", table.into());
+    expected::hold("10_position_fetch/large", table.into());
 }

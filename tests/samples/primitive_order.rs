@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
 
 use run::primary_hits::{answer, rays};
-use run::{bits, figures, golden, render, same_colors, same_hits};
+use run::{bits, expected, golden, render, same_colors, same_hits};
 
 #[allow(dead_code)]
 #[path = "../../samples/38_primitive_order/order.rs"]
@@ -244,7 +244,7 @@ fn better_orders_are_expected_to_test_fewer_boxes() {
     assert!(of("Morton") > of("Hilbert") && of("Hilbert") > of("halves"));
     // The ball comes in the order of a random generator.
     assert!((of("given") / of("chance") - 1.0).abs() < 0.1);
-    figures::hold_exact("38_primitive_order/expected", Value::Object(held));
+    expected::hold_exact("38_primitive_order/expected", Value::Object(held));
 }
 
 #[test]
@@ -272,5 +272,5 @@ fn the_view_counts_what_the_tree_costs_each_ray() {
         println!("{set}: {mean:.1} tests a ray");
         held.insert(word(order).replace(' ', "-"), mean.into());
     }
-    figures::hold("38_primitive_order/tests", Value::Object(held));
+    expected::hold("38_primitive_order/tests", Value::Object(held));
 }

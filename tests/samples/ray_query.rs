@@ -3,7 +3,7 @@
 use common::app::Picture;
 use common::gpu::{ComputePipeline, Gpu, GpuOptions, Requirements};
 
-use run::{figures, golden, has_worst_arithmetic, render, same_answers, same_colors};
+use run::{expected, golden, has_worst_arithmetic, render, same_answers, same_colors};
 use serde_json::json;
 
 const NAME: &str = "16_ray_query";
@@ -118,5 +118,5 @@ fn the_time_of_a_frame() {
     ratios.sort_by(f64::total_cmp);
     let [low, ratio, high] = [5, 10, 15].map(|at| ratios[at]);
     println!("{ratio:.2}, middle half {low:.2} to {high:.2}");
-    figures::give_timed("16_ray_query/time", json!({ "ratio": ratio, "low": low, "high": high }));
+    expected::give_timed("16_ray_query/time", json!({ "ratio": ratio, "low": low, "high": high }));
 }

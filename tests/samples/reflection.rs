@@ -14,7 +14,7 @@ use serde_json::json;
 use run::leaving::{Leaving, Tally};
 use run::primary_hits::{answer, rays, reference};
 use run::{
-    bits, command, figures, golden, refused, render, render_by, same_answers, same_colors,
+    bits, command, expected, golden, refused, render, render_by, same_answers, same_colors,
     shaders_with,
 };
 
@@ -191,9 +191,9 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     }
     let both =
         json!({ "rays": mirrored.rays + shadows.rays, "lost": mirrored.lost + shadows.lost });
-    figures::hold("06_reflection/mirrored", mirrored.figures());
-    figures::hold("06_reflection/shadows", shadows.figures());
-    figures::hold("06_reflection/both", both);
+    expected::hold("06_reflection/mirrored", mirrored.values());
+    expected::hold("06_reflection/shadows", shadows.values());
+    expected::hold("06_reflection/both", both);
     for tally in [mirrored, shadows] {
         println!("{tally}");
         // The height of a sliver is larger than what the reference allows; 26 has a smaller one.

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use self::points::{Scrambling, Sequence, sample_point};
 use crate::jitter_camera::{error, offsets};
-use run::{bits, figures, golden, render, same_colors};
+use run::{bits, expected, golden, render, same_colors};
 
 const NAME: &str = "37_sequences";
 const SIZE: &str = "240x150";
@@ -185,5 +185,5 @@ fn keys_that_are_not_reversed_relate_the_first_points_of_neighbours() {
     let all = near.iter().flat_map(|&place| [0, 1].map(|axis| correlation(axis, place).abs()));
     let most = all.fold(0.0, f64::max);
     println!("{most:.2}");
-    figures::hold_exact("37_sequences/neighbours", json!({ "correlation": most }));
+    expected::hold_exact("37_sequences/neighbours", json!({ "correlation": most }));
 }

@@ -10,7 +10,7 @@ use reference::Ray;
 use serde_json::json;
 
 use crate::shadow_rays::{hold_answers, hold_origins, is_on_a_square, picture_by};
-use run::{figures, golden, render, same_answers, same_colors, shaders_with};
+use run::{expected, golden, render, same_answers, same_colors, shaders_with};
 
 const NAME: &str = "05_shadow_miss";
 const SIZE: &str = "240x150";
@@ -36,7 +36,7 @@ fn to_sun(origin: Vec3) -> Ray {
 fn every_shadow_ray_gets_the_reference_s_answer() {
     hold_answers(NAME, to_sun, false);
     let found = hold_answers(NAME, to_sun, true);
-    figures::hold(
+    expected::hold(
         "05_shadow_miss/rays",
         json!({ "surfaces": found.surfaces, "lit": found.lit, "edges": found.edges,
                 "turned_away": found.turned_away }),
@@ -46,7 +46,7 @@ fn every_shadow_ray_gets_the_reference_s_answer() {
 #[test]
 fn shadows_are_those_of_the_exact_hit_points() {
     let found = hold_origins(NAME, to_sun);
-    figures::hold(
+    expected::hold(
         "05_shadow_miss/origins",
         json!({ "differ": found.differ, "surfaces": found.surfaces, "height": found.height,
                 "height_on_slivers": found.height_on_slivers, "moved": found.moved }),

@@ -14,7 +14,7 @@ use reference::ulp::ulp_error;
 use serde_json::{Map, Value, json};
 
 use run::primary_hits::{answer, rays};
-use run::{bits, figures, golden, has_worst_arithmetic, render};
+use run::{bits, expected, golden, has_worst_arithmetic, render};
 
 #[allow(dead_code)]
 #[path = "../../samples/18_swept_spheres/scenes.rs"]
@@ -102,7 +102,7 @@ fn all_rungs_by_the_driver() {
     }
     rays_go_through_tips(&gpu);
     if cases::seed().is_none() {
-        figures::hold("18_swept_spheres/rungs", Value::Object(held));
+        expected::hold("18_swept_spheres/rungs", Value::Object(held));
     }
 }
 
@@ -383,5 +383,5 @@ fn triangles_leave_out_a_rim() {
         before = part;
         held.insert(format!("{sides}"), json!(part));
     }
-    figures::hold("18_swept_spheres/rim", Value::Object(held));
+    expected::hold("18_swept_spheres/rim", Value::Object(held));
 }

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::shadow_rays::{picture_by, seen};
 use run::primary_hits::reference;
-use run::{copy_of_shaders, figures, flat_shaders, golden, render, same_answers, same_colors};
+use run::{copy_of_shaders, expected, flat_shaders, golden, render, same_answers, same_colors};
 
 const NAME: &str = "36_two_normals";
 const SIZE: &str = "240x150";
@@ -49,7 +49,7 @@ fn lifting_the_origin_changes_only_what_turns_away_from_the_light() {
     }
     let all = flat.len();
     println!("{lifted} of {all} lifted by up to {highest:.1e}; {lit} became lit, {dark} dark");
-    figures::hold(
+    expected::hold(
         "36_two_normals/lift",
         json!({ "surfaces": all, "lifted": lifted, "height": highest, "lit": lit, "dark": dark }),
     );

@@ -4,7 +4,7 @@ use std::fs;
 
 use common::app::Picture;
 
-use run::{bits, figures, golden, render};
+use run::{bits, expected, golden, render};
 use serde_json::Map;
 
 const NAME: &str = "20_wireframe";
@@ -109,7 +109,7 @@ fn its_width_does_not_depend_on_size_distance_or_slant() {
         let rounding = 2.0 * 61.0 * distance / f64::from(1 << 24);
         assert!((measured - 3.0).abs() < 1e-3 + rounding, "from {distance}: {measured}");
     }
-    figures::hold("20_wireframe/widths", table.into());
+    expected::hold("20_wireframe/widths", table.into());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use common::gpu::ShaderEnum;
 use effects::Effect;
-use run::{compiled_for, figures};
+use run::{compiled_for, expected};
 use serde_json::{Map, Value};
 
 use super::{NAME, SCENES};
@@ -125,7 +125,7 @@ fn table() {
     }
     held.insert("four_times".to_owned(), four_times.into());
     held.insert("scenes".to_owned(), SCENES.len().into());
-    figures::hold_compiled("25_scene_effects/compiled", compiler, "RDNA3", held.into());
+    expected::hold_compiled("25_scene_effects/compiled", compiler, "RDNA3", held.into());
     // The pipeline does not depend on the scene, so one row is enough.
     for (scene, ..) in SCENES {
         let other = compiled(scene, "everything", "navi31").unwrap();

@@ -4,7 +4,7 @@ use reference::random::Random;
 use serde_json::json;
 
 use super::{NAME, differing, generated};
-use run::{command, figures, render_by, shaders_with};
+use run::{command, expected, render_by, shaders_with};
 
 /// Where `lit_by` begins, and the point that a pipeline without shadows does not compute.
 const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.position));\n";
@@ -30,7 +30,7 @@ fn lighting_the_start_of_a_shadow_ray_changes_bits() {
         if !differ.is_empty() {
             let (pixels, all) = (differ.len(), own.pixels.len());
             let found = json!({ "pixels": pixels, "all": all, "largest": largest });
-            return figures::hold("25_scene_effects/lifted", found);
+            return expected::hold("25_scene_effects/lifted", found);
         }
     }
     panic!("no scene of the sixteen shows it");

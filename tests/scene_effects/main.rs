@@ -17,7 +17,7 @@ use effects::{Effect, Effects, findings, needed};
 use reference::random::Random;
 use serde_json::{Value, json};
 
-use run::{Run, bits, figures, golden, render, root, same_colors};
+use run::{Run, bits, expected, golden, render, root, same_colors};
 
 const NAME: &str = "25_scene_effects";
 
@@ -230,7 +230,7 @@ fn every_scene_has_its_stages_and_looks_the_same_with_all_of_them() {
         assert!(whys.iter().all(|why| !why.is_empty()));
         if name == "fretwork" {
             let meshes: u32 = whys[0].split(' ').next().unwrap().parse().unwrap();
-            figures::hold("25_scene_effects/fretwork", json!({ "meshes": meshes }));
+            expected::hold("25_scene_effects/fretwork", json!({ "meshes": meshes }));
         }
         println!("{name}: same to the bit");
     }

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::{NAME, SCENES};
 use run::plot::{Axis, Chart, Series, draw};
-use run::{command, figures};
+use run::{command, expected};
 
 /// A report of a run without validation, which would be timed as well. The driver's cache is off, so that
 /// each pipeline is compiled.
@@ -67,7 +67,7 @@ fn pipelines() {
         table.extend(sizes(name).map(|(of, size)| (key(name, of), size)));
     }
     println!("{}", json!(table));
-    figures::hold("25_scene_effects/pipelines", table.into());
+    expected::hold("25_scene_effects/pipelines", table.into());
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn costs() {
         table.insert(key(name, "ratio"), effect["time_without"].clone());
     }
     println!("{}", json!(table));
-    figures::give_timed("25_scene_effects/costs", table.into());
+    expected::give_timed("25_scene_effects/costs", table.into());
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn scenes() {
         table.extend(row.map(|(of, value)| (key(name, of), value.into())));
     }
     table.insert("twice".to_owned(), twice.into());
-    figures::give_timed("25_scene_effects/times", table.into());
+    expected::give_timed("25_scene_effects/times", table.into());
 }
 
 /// The columns of the page's table of scenes: the names, and the numbers of four columns.

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
 use common::gpu::shader::{Shader, StageText};
-use common::gpu::{ADDRESS_ALIGNMENT, Emulation, Reflection};
+use common::gpu::{ADDRESS_ALIGNMENT, DriverShim, Reflection};
 use instruments::arithmetic::Arithmetic;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Decoration, ExecutionModel, Op, StorageClass};

@@ -81,7 +81,7 @@ fn every_fault_is_named_with_its_line() {
         ("<!-- touch a -->\n\nNo picture.", "no picture follows the mark 'touch'"),
         (
             "<!-- touch b -->\n![A](images/a.svg)",
-            "there is no figure 'b': docs/site/figures/b.js does",
+            "there is no figure 'b': docs/site/interactive/b.js does",
         ),
         ("<!-- slider b: x | y -->\n![A](images/a.svg)", "the slider takes 'docs/images/b.png'"),
         (

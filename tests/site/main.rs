@@ -10,9 +10,9 @@ mod chromium;
 mod drawing;
 mod faults;
 #[cfg(unix)]
-mod figures;
-#[cfg(unix)]
 mod firefox;
+#[cfg(unix)]
+mod interactive;
 #[cfg(unix)]
 mod lost;
 mod pages;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 /// How long an answer may take on a machine with much else to do.
-pub const PATIENCE: Duration = patience::ASLEEP;
+pub const PATIENCE: Duration = time_limit::ASLEEP;
 
 /// What carries the messages.
 pub trait Wire {

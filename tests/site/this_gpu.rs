@@ -15,11 +15,11 @@ use serde_json::{Map, Value, json};
 
 use crate::browser::Browser;
 use crate::faults;
-use crate::figures::{found, root, shown, stored};
+use crate::interactive::{found, root, shown, stored};
 use crate::reading::address;
 
 const PAGE: &str = "this-gpu.html";
-const STORED: &str = "docs/site/figures/device.txt";
+const STORED: &str = "docs/site/interactive/device.txt";
 const RUNGS: [(&str, usize); 6] = [
     ("sphere textbook", 0),
     ("sphere stable", 0),

@@ -9,8 +9,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
-use patience::ASLEEP;
 use tempfile::TempDir;
+use time_limit::ASLEEP;
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::xproto::{
     self, AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt, EventMask, ImageFormat,

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use patience::{Limit, Work};
 use reference::random::Random;
 use run::layer::Layer;
+use time_limit::{Limit, Work};
 
 use crate::desk::{
     Desk, KEY_COMMA, KEY_F1, KEY_F5, KEY_HOME, KEY_PERIOD, KEY_SPACE, KEY_TAB, wait,
@@ -105,7 +105,7 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
     let [folder, shaders] = [(); 2].map(|()| tempfile::tempdir().expect("a temporary folder"));
     copy_shaders(shaders.path(), &["common", NAME]);
     let calls = folder.path().join("calls");
-    let layer = Layer::failing("");
+    let layer = Layer::fail_nth_call("");
     let environment = layer.environment();
     let mut environment: Vec<_> =
         environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
@@ -161,7 +161,7 @@ fn controls_may_change_faster_than_pipelines_are_made() {
     let arguments = ["--validate", "--size", "800x700", "--set", "scene=opening"];
     let folder = tempfile::tempdir().expect("a temporary folder");
     let calls = folder.path().join("calls");
-    let layer = Layer::failing("");
+    let layer = Layer::fail_nth_call("");
     let environment = layer.environment();
     let mut environment: Vec<_> =
         environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();

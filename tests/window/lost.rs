@@ -35,7 +35,7 @@ impl Losing {
         if at_once {
             std::fs::write(&fault, "").expect("a file");
         }
-        let layer = Layer::failing(&format!("{function}:{}:{DEVICE_LOST}", fault.display()));
+        let layer = Layer::fail_nth_call(&format!("{function}:{}:{DEVICE_LOST}", fault.display()));
         let environment = layer.environment();
         let mut environment: Vec<_> =
             environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();
@@ -179,7 +179,7 @@ fn a_device_that_is_lost_again_and_again_ends_the_window() {
     let _alone = alone();
     // From the second frame on, however many bands a frame has: that depends on how busy the machine is.
     let moving = ["--size", "160x100", "--set", "play=on"];
-    let layer = Layer::failing(&format!("vkQueuePresentKHR:2+:{DEVICE_LOST}"));
+    let layer = Layer::fail_nth_call(&format!("vkQueuePresentKHR:2+:{DEVICE_LOST}"));
     let output = crate::desk::outcome("14_animation", &moving, &layer.environment());
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
@@ -208,7 +208,7 @@ fn the_offer_can_be_resized_and_minimised() {
 #[test]
 fn a_window_whose_frames_are_counted_ends_with_its_device() {
     let _alone = alone();
-    let layer = Layer::failing(&format!("vkQueuePresentKHR:2:{DEVICE_LOST}"));
+    let layer = Layer::fail_nth_call(&format!("vkQueuePresentKHR:2:{DEVICE_LOST}"));
     let arguments = ["--size", "160x100", "--frames", "3"];
     let output = crate::desk::outcome("02_basic", &arguments, &layer.environment());
     assert_eq!(run::refusal(output).0, 1);

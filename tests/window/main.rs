@@ -357,7 +357,7 @@ const TIMEOUT: i32 = 2;
 #[track_caller]
 fn shows_all_the_same(function: &str, number: usize, result: i32) -> bool {
     let fault = format!("{function}:{number}:{result}");
-    let layer = Layer::failing(&fault);
+    let layer = Layer::fail_nth_call(&fault);
     let arguments = ["--size", "160x100", "--frames", "3"];
     let output = desk::outcome("02_basic", &arguments, &layer.environment());
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -494,7 +494,7 @@ fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
 
 /// The narrowest device's environment, with what else is wrong with it.
 fn narrow(faults: &str) -> (Layer, Vec<(&'static str, std::ffi::OsString)>) {
-    let narrow = Layer::narrow(faults);
+    let narrow = Layer::minimum_limits(faults);
     let environment = narrow.environment();
     (narrow, environment)
 }

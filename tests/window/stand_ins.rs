@@ -1,4 +1,4 @@
-//! Displays and cards that a software driver on an X server is not, by the layer `moods`.
+//! Displays and cards that a software driver on an X server is not, by the layer `display_faults`.
 
 use std::fs;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn under(
     let _alone = alone();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("told");
-    let moods = Layer::moods(&format!("{mood},tell={}", file.display()));
+    let moods = Layer::display_faults(&format!("{mood},tell={}", file.display()));
     let mut environment = moods.environment();
     environment.push(("RUST_LOG", "raybook=info".into()));
     let environment: Vec<_> =
@@ -104,7 +104,7 @@ fn pictures_are_added_to_a_mean_without_waiting_for_the_display() {
 
 #[test]
 fn launches_are_widened_where_a_card_is_too_fast_to_be_timed() {
-    let moods = Layer::moods("fast=30");
+    let moods = Layer::display_faults("fast=30");
     let mut command = moods.command("02_basic");
     command.args(["--headless", "--size", "120x75", "--frames", "1"]);
     let output = command.args(["--compare", "show=picture|normal"]).output().expect("it starts");
@@ -116,7 +116,7 @@ fn launches_are_widened_where_a_card_is_too_fast_to_be_timed() {
 /// A few rays keep no card busy: more invocations ask the same.
 #[test]
 fn rungs_are_timed_on_a_card_that_is_full() {
-    let moods = Layer::moods("fast=30");
+    let moods = Layer::display_faults("fast=30");
     let folder = tempfile::tempdir().expect("a folder");
     let mut command = moods.command("24_accuracy");
     command.args(["--headless", "--rays", "16", "--rounds", "1", "--only", "plane", "--measure"]);
@@ -154,7 +154,7 @@ fn deep_screen() -> (Child, String) {
 #[test]
 fn a_window_of_ten_bits_shows_the_picture() {
     let _alone = alone();
-    let moods = Layer::moods("deep");
+    let moods = Layer::display_faults("deep");
     let environment = moods.environment();
     let environment: Vec<_> =
         environment.iter().map(|(name, value)| (*name, Path::new(value))).collect();

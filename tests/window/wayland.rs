@@ -45,7 +45,7 @@ fn a_present_that_shows_nothing_is_made_up_for_at_once() {
     let _alone = alone();
     let compositor = Compositor::start();
     for mood in ["suboptimal", "out-of-date=1", "out-of-date=3"] {
-        let moods = Layer::moods(mood);
+        let moods = Layer::display_faults(mood);
         let mut command = run::heeding("02_basic");
         command.args(["--validate", "--size", "480x300", "--frames", "12"]);
         command.env_remove("DISPLAY").env("WAYLAND_DISPLAY", Compositor::SOCKET);

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use anyhow::Result;
-use common::app::{self, Args, Clicked, Files, Picture, Run, Watch};
+use common::UsageError;
+use common::app::{self, Args, Clicked, Files, Picture, Run, RunHooks};
 use common::gpu::{Gpu, GpuOptions};
 use common::output;
-use common::usage::Usage;
 
 use crate::compare::{self, Comparison};
 use crate::pixel::{Probe, Which};
@@ -55,18 +55,18 @@ impl Instruments {
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
     if options.pixel.pixel.is_some() {
         let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
-        return Err(Usage(why.to_owned()).into());
+        return Err(UsageError(why.to_owned()).into());
     }
     if args.animate {
         let why =
             "this program plays no frames: --animate is for chapters that do, such as 14_animation";
-        return Err(Usage(why.to_owned()).into());
+        return Err(UsageError(why.to_owned()).into());
     }
     app::files::check(args, &Instruments::new(options.clone()))?;
     Ok(options.report.check()?)
 }
 
-impl Watch for Instruments {
+impl RunHooks for Instruments {
     fn needs_no_window(&self) -> bool {
         let Options { compare, sums, compile_for, pixel, .. } = &self.options;
         let named = matches!(pixel.pixel, Some(Which::At(_)));
@@ -92,7 +92,7 @@ impl Watch for Instruments {
             options.requirements =
                 std::mem::take(&mut options.requirements).compiler_figures_where_offered();
         }
-        options.emulation = Arc::new(self.options.arithmetic.or_seeded());
+        options.driver_shim = Arc::new(self.options.arithmetic.or_seeded());
         if let Some(probe) = &self.probe {
             probe.device(options);
         }
@@ -147,8 +147,8 @@ impl Watch for Instruments {
             self.print(&format!("{name} · {driver}\n\n{}", comparison.table()))?;
         }
         if let Some(family) = self.options.compile_for.compile_for {
-            let blueprints = run.gpu.statistics().blueprints;
-            self.compiled_for = compile_for::compile_for(family, &blueprints)?;
+            let descs = run.gpu.statistics().descs;
+            self.compiled_for = compile_for::compile_for(family, &descs)?;
             self.print(&compile_for::table(&self.compiled_for))?;
         }
         Ok(sums.filter(|_| run.args.out.is_some()).map(|sums| sums.mean()))

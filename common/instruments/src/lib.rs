@@ -6,10 +6,10 @@
 //! - [`compile_for`]: `--compile-for`, what a GPU's compiler makes of a sample's pipelines
 //! - [`arithmetic`]: `--arithmetic worst`, as inexact as Vulkan lets any driver be
 //! - [`pixel`]: `--pixel`, the rays of one pixel as text
-//! - [`guard`]: how a program ends
+//! - [`exit`]: how a program ends
 //!
-//! They meet the framework in two places. [`Instruments`] is a [`Watch`](common::app::Watch): it sees each frame
-//! and the end. [`Arithmetic`](arithmetic::Arithmetic) is an [`Emulation`](common::gpu::Emulation): it changes
+//! They meet the framework in two places. [`Instruments`] is a [`RunHooks`](common::app::RunHooks): it sees each frame
+//! and the end. [`Arithmetic`](arithmetic::Arithmetic) is an [`DriverShim`](common::gpu::DriverShim): it changes
 //! shaders' words and what builds are given; [`pixel`] has another.
 
 // The tests below run on the software driver.
@@ -19,7 +19,7 @@ use device as _;
 pub mod arithmetic;
 pub mod compare;
 pub mod compile_for;
-pub mod guard;
+pub mod exit;
 mod instruments;
 mod options;
 pub mod pixel;
@@ -32,7 +32,7 @@ use anyhow::Result;
 use common::Sample;
 use common::app::{Args, Program};
 
-pub use guard::finish;
+pub use exit::finish;
 pub use instruments::{Instruments, check_files};
 pub use options::{Options, command, parse, parse_with};
 pub use report::{Milliseconds, Report};
@@ -57,7 +57,7 @@ pub fn start<S: Sample>(name: &'static str, args: &Args, options: Options) -> Re
         return compile_for::answer(&S::requirements());
     }
     if !args.headless {
-        guard::apart::want();
+        exit::compile_process::want();
     }
     let program = Program::of::<S>(name);
     match options.are_none() {

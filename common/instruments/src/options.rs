@@ -1,7 +1,7 @@
 //! The options of all instruments, beside those of every sample.
 
+use common::UsageError;
 use common::app::Args;
-use common::usage::Usage;
 
 use crate::arithmetic::Arithmetic;
 use crate::{compare, compile_for, pixel, report, sums};
@@ -48,7 +48,7 @@ impl Options {
     }
 
     /// Refuses options that do not go together.
-    fn check(&self, args: &Args) -> Result<(), Usage> {
+    fn check(&self, args: &Args) -> Result<(), UsageError> {
         let asked = args.list_controls || self.compile_for.compile_for.is_some();
         self.pixel.check(args)?;
         self.sums.check(asked || args.out.is_some() || self.report.report.is_some())
@@ -64,7 +64,7 @@ pub fn command() -> clap::Command {
 ///
 /// # Errors
 /// One line that says what is wrong and where to look.
-pub fn parse(name: &'static str) -> Result<(Args, Options), Usage> {
+pub fn parse(name: &'static str) -> Result<(Args, Options), UsageError> {
     let (args, options, ()) = parse_with(name)?;
     Ok((args, options))
 }
@@ -73,7 +73,7 @@ pub fn parse(name: &'static str) -> Result<(Args, Options), Usage> {
 ///
 /// # Errors
 /// As [`parse`].
-pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options, Own), Usage> {
+pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options, Own), UsageError> {
     #[derive(clap::Args)]
     struct More<Own: clap::Args> {
         #[command(flatten)]

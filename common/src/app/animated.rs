@@ -11,8 +11,8 @@ use anyhow::{Context, Result, ensure};
 use png::{BlendOp, ColorType, Compression, Encoder, Writer};
 
 use super::{Args, Format, Picture, Playback, Run};
+use crate::UsageError;
 use crate::files::write_whole;
-use crate::usage::Usage;
 
 /// The most frames: a minute of them, for all are kept until the last is there.
 const MOST: u32 = 60 * Playback::RATE;
@@ -42,9 +42,9 @@ impl Write for Sink {
 /// Refuses `--animate` where no file of frames could come of it.
 ///
 /// # Errors
-/// [`Usage`], with what would be right.
-pub fn check(args: &Args) -> Result<(), Usage> {
-    let wrong = |what: String| Err(Usage(what));
+/// [`UsageError`], with what would be right.
+pub fn check(args: &Args) -> Result<(), UsageError> {
+    let wrong = |what: String| Err(UsageError(what));
     if !args.animate {
         return Ok(());
     }
@@ -73,15 +73,15 @@ impl Animated {
     /// Begins the animation that a run is to write.
     ///
     /// # Errors
-    /// [`Usage`] if the sample shows nothing that moves.
+    /// [`UsageError`] if the sample shows nothing that moves.
     pub fn begin(run: &mut Run) -> Result<Self> {
         let Some(playback) = run.sample.playback() else {
             let what = "--animate is for chapters that play frames, such as 14_animation";
-            return Err(Usage(format!("{} shows nothing that moves: {what}", run.name)).into());
+            return Err(UsageError(format!("{} shows nothing that moves: {what}", run.name)).into());
         };
         if !playback.playing {
             let what = "--animate shows what is played, and play=off stops it: leave that out";
-            return Err(Usage(what.to_owned()).into());
+            return Err(UsageError(what.to_owned()).into());
         }
         Self::new(run.args.size.width, run.args.size.height, run.args.frames)
     }

@@ -6,9 +6,9 @@ use ash::vk;
 use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
 
+use crate::UsageError;
 use crate::gpu::{GpuOptions, Requirements, named_device};
 use crate::output;
-use crate::usage::Usage;
 
 /// What a sample was asked to do.
 #[derive(Clone, Debug, Parser)]
@@ -76,10 +76,10 @@ impl Args {
     }
 
     /// Fails if a file and a control both name the scene: one of them would be passed over.
-    fn one_scene(&self) -> Result<(), Usage> {
+    fn one_scene(&self) -> Result<(), UsageError> {
         let set = self.sets.iter().find(|(name, value)| name == "scene" && value != "file");
         match (&self.scene, set) {
-            (Some(file), Some((_, chosen))) => Err(Usage(format!(
+            (Some(file), Some((_, chosen))) => Err(UsageError(format!(
                 "--scene {} and --set \"scene={chosen}\" are two scenes; leave one of them out",
                 file.display()
             ))),
@@ -93,7 +93,7 @@ impl Args {
     ///
     /// # Errors
     /// One line that says what is wrong and where to look.
-    pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), Usage> {
+    pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), UsageError> {
         use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
         let command = Self::command().name(name);
         // Arguments of a sample's own would bring their own first line of the help.
@@ -113,7 +113,7 @@ impl Args {
             let text = error.to_string();
             let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
             let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
-            Usage(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
+            UsageError(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
         })?;
         args.one_scene()?;
         Ok((args, more))

@@ -10,9 +10,9 @@ use glam::Vec3;
 
 use super::Playback;
 use super::chart::Chart;
+use crate::UsageError;
 use crate::gpu::ShaderEnum;
 use crate::scene::{Camera, Sun};
-use crate::usage::Usage;
 
 pub use value::Value;
 
@@ -217,7 +217,11 @@ impl Visit for Settings<'_> {
 ///
 /// # Errors
 /// If there is none of that name, or the value is not possible; the line lists what is.
-pub fn set(name: &str, text: &str, mut declare: impl FnMut(&mut Controls)) -> Result<(), Usage> {
+pub fn set(
+    name: &str,
+    text: &str,
+    mut declare: impl FnMut(&mut Controls),
+) -> Result<(), UsageError> {
     round(vec![(name, text)], true, &mut declare)
 }
 
@@ -227,7 +231,10 @@ pub fn set(name: &str, text: &str, mut declare: impl FnMut(&mut Controls)) -> Re
 ///
 /// # Errors
 /// As [`set`].
-pub fn set_all(sets: &[(String, String)], declare: impl FnMut(&mut Controls)) -> Result<(), Usage> {
+pub fn set_all(
+    sets: &[(String, String)],
+    declare: impl FnMut(&mut Controls),
+) -> Result<(), UsageError> {
     rounds(sets, true, declare)
 }
 
@@ -235,7 +242,7 @@ fn rounds(
     sets: &[(String, String)],
     repeats: bool,
     mut declare: impl FnMut(&mut Controls),
-) -> Result<(), Usage> {
+) -> Result<(), UsageError> {
     let mut waiting: Vec<(&str, &str)> = Vec::new();
     for (name, text) in sets {
         if waiting.iter().any(|(other, _)| other == name) {
@@ -256,7 +263,7 @@ pub fn set_beside(
     name: &str,
     text: &str,
     declare: impl FnMut(&mut Controls),
-) -> Result<(), Usage> {
+) -> Result<(), UsageError> {
     let others = sets.iter().filter(|(other, _)| other != name).cloned();
     let all: Vec<_> = others.chain([(name.to_owned(), text.to_owned())]).collect();
     rounds(&all, false, declare)
@@ -267,19 +274,19 @@ fn round(
     waiting: Vec<(&str, &str)>,
     repeats: bool,
     declare: &mut impl FnMut(&mut Controls),
-) -> Result<(), Usage> {
+) -> Result<(), UsageError> {
     let mut settings = Settings { waiting, seen: Vec::new(), refused: None, repeats };
     while let Some(&(name, _)) = settings.waiting.first() {
         let count = settings.waiting.len();
         settings.seen.clear();
         declare(&mut Controls::new(&mut settings));
         if let Some(refused) = settings.refused {
-            return Err(Usage(refused));
+            return Err(UsageError(refused));
         }
         // A control may be declared only after a later one was set.
         if settings.waiting.len() == count {
             let there_is = settings.seen.join(", ");
-            return Err(Usage(format!("no control '{name}'; there is {there_is}")));
+            return Err(UsageError(format!("no control '{name}'; there is {there_is}")));
         }
     }
     Ok(())

@@ -3,19 +3,19 @@
 use anyhow::Result;
 use ash::vk;
 
-use super::watch::Files;
-use super::{Args, Format, Watch};
+use super::run_hooks::Files;
+use super::{Args, Format, RunHooks};
+use crate::UsageError;
 use crate::files;
 use crate::gpu::Gpu;
-use crate::scene::text;
-use crate::usage::Usage;
+use crate::model::text;
 
 /// Refuses before the work what would be refused after it: a file that cannot be written, or that is named
 /// twice.
 ///
 /// # Errors
 /// With the file, and why.
-pub fn check(args: &Args, watch: &dyn Watch) -> Result<()> {
+pub fn check(args: &Args, watch: &dyn RunHooks) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
     let Files { inputs, outputs, updated } = all(args, watch);
     for (i, (name, file)) in outputs.iter().enumerate() {
@@ -24,14 +24,14 @@ pub fn check(args: &Args, watch: &dyn Watch) -> Result<()> {
         let mut others = outputs[..i].iter().chain(inputs);
         if let Some((other, _)) = others.find(|(_, other)| files::same(other, file)) {
             let file = file.display();
-            return Err(Usage(format!("{other} and {name} both name '{file}'")).into());
+            return Err(UsageError(format!("{other} and {name} both name '{file}'")).into());
         }
     }
     Ok(())
 }
 
 /// The files that a run reads and writes.
-fn all<'a>(args: &'a Args, watch: &'a dyn Watch) -> Files<'a> {
+fn all<'a>(args: &'a Args, watch: &'a dyn RunHooks) -> Files<'a> {
     let Files { mut inputs, mut outputs, updated } = watch.files();
     inputs.splice(0..0, args.scene.as_deref().map(|file| ("--scene", file)));
     outputs.splice(0..0, args.out.as_deref().map(|file| ("--out", file)));
@@ -42,12 +42,12 @@ fn all<'a>(args: &'a Args, watch: &'a dyn Watch) -> Files<'a> {
 ///
 /// # Errors
 /// With the file.
-pub fn check_scene(args: &Args, watch: &dyn Watch) -> Result<(), Usage> {
+pub fn check_scene(args: &Args, watch: &dyn RunHooks) -> Result<(), UsageError> {
     let opened = text::opened();
     let mut outputs = all(args, watch).outputs.into_iter();
     match outputs.find(|(_, file)| opened.iter().any(|read| files::same(read, file))) {
         Some((name, file)) => {
-            Err(Usage(format!("{name} names '{}', a file of the scene", file.display())))
+            Err(UsageError(format!("{name} names '{}', a file of the scene", file.display())))
         }
         None => Ok(()),
     }
@@ -57,13 +57,13 @@ pub fn check_scene(args: &Args, watch: &dyn Watch) -> Result<(), Usage> {
 ///
 /// # Errors
 /// With what it allows.
-pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), Usage> {
+pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), UsageError> {
     if gpu.limits.fits(size) {
         return Ok(());
     }
     let (side, pixels) = (gpu.limits.core.max_image_dimension2_d, gpu.limits.max_pixels());
     let (width, height) = (size.width, size.height);
-    Err(Usage(format!(
+    Err(UsageError(format!(
         "{width}x{height} is too large for {}: at most {side} a side and {pixels} pixels",
         gpu.name
     )))

@@ -5,14 +5,14 @@ use std::time::Instant;
 use anyhow::Result;
 
 use super::animated::{self, Animated};
-use super::{Args, Program, Progress, Run, Watch, files};
+use super::{Args, Program, Progress, Run, RunHooks, files};
 
 /// Renders the frames of a sample, and writes the last one, or all of them where they are to move.
 ///
 /// # Errors
-/// On wrong arguments ([`Usage`](crate::usage::Usage)), if anything fails, or if validation had something to
+/// On wrong arguments ([`UsageError`](crate::UsageError)), if anything fails, or if validation had something to
 /// say.
-pub fn run(program: &Program, args: &Args, watch: &mut dyn Watch) -> Result<()> {
+pub fn run(program: &Program, args: &Args, watch: &mut dyn RunHooks) -> Result<()> {
     let start = Instant::now();
     files::check(args, watch)?;
     animated::check(args)?;

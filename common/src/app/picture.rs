@@ -9,8 +9,8 @@ use exr::prelude::{
     Vec2, WritableImage,
 };
 
+use crate::UsageError;
 use crate::files::write_whole;
-use crate::usage::Usage;
 
 /// Linear RGBA pixels, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,14 +37,15 @@ impl Format {
     ///
     /// # Errors
     /// If it names none.
-    pub fn of(path: &Path) -> Result<Self, Usage> {
+    pub fn of(path: &Path) -> Result<Self, UsageError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             "png" => Ok(Self::Png),
             "exr" => Ok(Self::Exr),
-            _ => {
-                Err(Usage(format!("cannot write '{}': a picture is .png or .exr", path.display())))
-            }
+            _ => Err(UsageError(format!(
+                "cannot write '{}': a picture is .png or .exr",
+                path.display()
+            ))),
         }
     }
 }

@@ -4,24 +4,24 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 
-use super::{Args, Sample, Setup, Watch, headless, window};
+use super::{Args, RunHooks, Sample, Setup, headless, window};
+use crate::UsageError;
 use crate::gpu::{self, Gpu, Requirements};
-use crate::usage::Usage;
-use crate::{home, output};
+use crate::{output, paths};
 
 /// Runs a sample of the crate in the folder `home` as a program: reads the arguments, renders, and turns errors
 /// into one line. [`run!`](crate::run) calls it.
 ///
 /// Exit codes: 0 done, 1 failed, 2 wrong arguments.
 pub fn run<S: Sample>(name: &'static str, home: &str) -> ExitCode {
-    home::set(home);
+    paths::set(home);
     let run = || {
         let (args, ()) = Args::parse_with(name)?;
         Program::of::<S>(name).start(&args, &mut ())
     };
     let Err(error) = run() else { return ExitCode::SUCCESS };
     output::complain(&output::line_of(&error));
-    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+    if error.is::<UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
 /// Runs a [`Sample`](crate::Sample) as the program of a crate outside the book: `raybook::run!(Demo)` is all of
@@ -54,7 +54,7 @@ impl Program {
     ///
     /// # Errors
     /// Whatever went wrong.
-    pub fn start(&self, args: &Args, watch: &mut dyn Watch) -> Result<()> {
+    pub fn start(&self, args: &Args, watch: &mut dyn RunHooks) -> Result<()> {
         if args.list_devices {
             return list_devices(&(self.requirements)());
         }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 
 use super::bands::{self, Bands};
-use super::{Args, Picture, Program, Sample, Setup, Watch, controls, files};
+use super::{Args, Picture, Program, RunHooks, Sample, Setup, controls, files};
 use crate::gpu::{Gpu, Image, Messages, Timer};
 use crate::output;
 
@@ -43,7 +43,7 @@ impl<'a> Run<'a> {
     pub fn new(
         program: &Program,
         args: &'a Args,
-        watch: &dyn Watch,
+        watch: &dyn RunHooks,
         start: Instant,
     ) -> Result<Self> {
         let mut options = args.device((program.requirements)());

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 
 use super::Args;
+use crate::UsageError;
+use crate::model::text::shown;
 use crate::output;
-use crate::scene::text::shown;
 use crate::scene::{Scene, SceneOptions};
-use crate::usage::Usage;
 
 /// What a sample is made with.
 pub struct Setup {
@@ -36,7 +36,7 @@ impl Setup {
     /// that it cannot be shown, goes to standard error.
     ///
     /// # Errors
-    /// If a file is missing or wrong; on a scene file of chapter 25, [`Usage`].
+    /// If a file is missing or wrong; on a scene file of chapter 25, [`UsageError`].
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
         let Some(path) = self.scene() else {
             return own().inspect(|scene| output::warn(&scene.model.warnings));
@@ -44,7 +44,7 @@ impl Setup {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
             let what =
                 "a scene file, which 25_scene_effects alone reads; this chapter takes an OBJ file";
-            return Err(Usage(format!("{}: {what}", shown(path))).into());
+            return Err(UsageError(format!("{}: {what}", shown(path))).into());
         }
         let scene = Scene::open(path)?;
         output::warn(&scene.model.warnings);
@@ -52,9 +52,11 @@ impl Setup {
     }
 
     /// Fails if a scene was given to a sample that takes none.
-    pub(super) fn check(&self) -> Result<(), Usage> {
+    pub(super) fn check(&self) -> Result<(), UsageError> {
         if self.scene.is_some() && !self.scene_taken.get() {
-            return Err(Usage("this chapter brings its own scene and takes no --scene".to_owned()));
+            return Err(UsageError(
+                "this chapter brings its own scene and takes no --scene".to_owned(),
+            ));
         }
         Ok(())
     }

@@ -4,13 +4,13 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use crate::home;
+use crate::paths;
 
 /// The folder of a kind of cache, such as `spirv`; `None` on a system that has no place for caches.
 pub fn folder(kind: &str) -> Option<PathBuf> {
     static ALL: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
         let users = users(std::env::consts::OS, |name| std::env::var_os(name));
-        place(home::folder(), &home::book().join("target"), users)
+        place(paths::folder(), &paths::book().join("target"), users)
     });
     ALL.as_ref().map(|all| all.join(kind))
 }

@@ -7,7 +7,11 @@
 
 mod build;
 mod compaction;
+pub mod geometry;
+pub mod margin;
 mod micromap;
+pub mod micromap_extension;
+pub mod order;
 mod place;
 mod plan;
 mod update;
@@ -17,10 +21,10 @@ use std::sync::Arc;
 use anyhow::Result;
 use ash::vk;
 
-use super::geometry::Geometry;
-use super::micromap::TrianglesMicromap;
 use super::pipeline::Asked;
 use super::{Buffer, Gpu};
+use crate::gpu::accel::geometry::Geometry;
+use crate::gpu::accel::micromap_extension::TrianglesMicromap;
 pub use micromap::OpacityMicromap;
 use plan::Plan;
 

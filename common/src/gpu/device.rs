@@ -1,15 +1,22 @@
 //! The choice of a physical device: real GPUs first, and for each one refused, what it lacks.
 
+pub mod context;
+pub mod features;
+pub mod instance;
+pub mod limits;
+pub mod requirements;
+pub mod threads;
+
 use std::ffi::CStr;
 use std::sync::LazyLock;
 
 use anyhow::{Context as _, Result, bail, ensure};
 use ash::{Device, Instance, khr, vk};
 
-use super::instance::{Vulkan, WindowHandles};
-use super::limits::Limits;
 use super::{Features, Requirements};
-use crate::usage::Usage;
+use crate::UsageError;
+use crate::gpu::device::instance::{Vulkan, WindowHandles};
+use crate::gpu::device::limits::Limits;
 
 /// A physical device, described well enough to choose it or to say why not, and to open it.
 #[derive(Default)]
@@ -236,7 +243,9 @@ pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Can
         Err(_) => candidate.name.to_lowercase().contains(&asked.to_lowercase()),
     };
     let Some(position) = candidates.iter().position(matches) else {
-        return Err(Usage(format!("no device '{asked}'; there is {}", list(&candidates))).into());
+        return Err(
+            UsageError(format!("no device '{asked}'; there is {}", list(&candidates))).into()
+        );
     };
     if !candidates[position].missing.is_empty() {
         bail!("device '{asked}' cannot run this: {}", list(&candidates[position..=position]));

@@ -1,5 +1,10 @@
 //! The memory of a buffer or an image.
 
+pub mod buffer;
+pub mod image;
+pub mod staging;
+pub mod texture;
+
 use std::mem;
 
 use anyhow::{Result, anyhow};

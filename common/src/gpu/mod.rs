@@ -1,68 +1,50 @@
 //! Thin Vulkan: each file wraps one noun, frees what it made, and leaves the raw handles public.
+//!
+//! - [`device`]: the instance, the choice of a device, its features and limits
+//! - [`memory`]: buffers, images, textures, staging
+//! - [`accel`]: acceleration structures, and what their builds are given
+//! - [`pipeline`]: shaders, pipelines, the shader binding table
+//! - [`check`]: what is compared with what: shaders with Rust, calls with the specification
+//! - here: barriers, submission, timing, the swapchain
 
-mod accel;
-mod agreement;
+pub mod accel;
 pub mod barrier;
-mod blueprint;
-mod buffer;
-mod context;
-pub mod contraction;
+pub mod check;
 pub mod device;
-mod emulation;
-mod enumeration;
-mod executable;
-mod features;
-mod geometry;
-mod image;
-pub mod instance;
-mod layout;
-mod limits;
-mod margin;
-mod memory;
-pub mod micromap;
-pub mod order;
-mod pipeline;
-mod pipeline_cache;
+pub mod memory;
+pub mod pipeline;
 mod queries;
-mod reflection;
-mod requirements;
-pub mod sbt;
-pub mod shader;
-mod staging;
-mod statistics;
 mod submit;
 mod swapchain;
-mod texture;
-mod threads;
 mod timing;
-mod validation;
 
+pub use accel::geometry::Geometry;
+pub use accel::margin::{margin, padded};
+pub use accel::order;
 pub use accel::{AccelerationStructure, BuildOptions, OpacityMicromap};
-pub use blueprint::{Attachments, Binding, Blueprint, Group, Stage};
-pub use buffer::{ADDRESS_ALIGNMENT, Buffer};
-pub use context::{Gpu, GpuContext, GpuOptions};
+pub use check::driver_shim::{DriverShim, Plain};
+pub use check::executable::Executable;
+pub use check::reflection::{Bound, Reflection};
+pub use check::statistics::Statistics;
+pub use check::validation::Messages;
+pub use device::context::{Gpu, GpuContext, GpuOptions};
+pub use device::features::Features;
+pub use device::instance::{Vulkan, WindowHandles};
+pub use device::limits::Limits;
+pub use device::requirements::{Requirement, Requirements};
+pub use device::threads::ensure_threads;
 pub use device::{device_lines, named as named_device};
-pub use emulation::{Emulation, Plain};
-pub use enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
-pub use executable::Executable;
-pub use features::Features;
-pub use geometry::Geometry;
-pub use image::{Image, Texels, transition};
-pub use instance::{Vulkan, WindowHandles};
-pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
-pub use limits::Limits;
-pub use margin::{margin, padded};
+pub use memory::buffer::{ADDRESS_ALIGNMENT, Buffer};
+pub use memory::image::{Image, Texels, transition};
+pub use memory::texture::TextureTable;
+pub use pipeline::cache::PipelineCache;
+pub use pipeline::desc::{Attachments, Binding, Group, PipelineDesc, Stage};
+pub use pipeline::enumeration::{Number, ShaderConstant, ShaderEnum, words, words_len};
+pub use pipeline::layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
+pub use pipeline::sbt::{Record, ShaderBindingTable};
 pub use pipeline::{
     Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline, PipelineBuilder,
-    RayTracingPipeline,
+    RayTracingPipeline, contraction, sbt, shader,
 };
-pub use pipeline_cache::PipelineCache;
-pub use reflection::{Bound, Reflection};
-pub use requirements::{Requirement, Requirements};
-pub use sbt::{Record, ShaderBindingTable};
-pub use statistics::Statistics;
 pub use swapchain::{Acquired, Swapchain};
-pub use texture::TextureTable;
-pub use threads::ensure_threads;
 pub use timing::Timer;
-pub use validation::Messages;

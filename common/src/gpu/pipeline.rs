@@ -1,10 +1,17 @@
 //! Pipelines: their stages, what they may bind, and how they are bound.
 
 mod builder;
+pub mod cache;
 mod compute;
+pub mod contraction;
+pub mod desc;
+pub mod enumeration;
 mod graphics;
 mod hit_group;
 mod hit_records;
+pub mod layout;
+pub mod sbt;
+pub mod shader;
 
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,9 +26,9 @@ pub use graphics::GraphicsPipeline;
 pub use hit_group::HitGroup;
 pub use hit_records::Asked;
 
-use super::blueprint::{Binding, Blueprint, STAGES};
-use super::layout::ShaderStruct;
 use super::{AccelerationStructure, Buffer, Gpu, Image, Record};
+use crate::gpu::pipeline::desc::{Binding, PipelineDesc, STAGES};
+use crate::gpu::pipeline::layout::ShaderStruct;
 
 /// What is pushed to a binding for the next trace.
 #[derive(Clone, Copy)]
@@ -41,7 +48,7 @@ pub struct Pipeline {
     /// The pipeline layout.
     pub layout: vk::PipelineLayout,
     /// What it was made from.
-    pub blueprint: Arc<Blueprint>,
+    pub desc: Arc<PipelineDesc>,
     /// How long compiling the shaders and making the pipeline took.
     pub build_time: Duration,
     textures: Option<vk::DescriptorSet>,
@@ -84,7 +91,7 @@ impl RayTracingPipeline {
     /// Notes the hit records of a table that was made for it.
     pub(super) fn knows_hit_records(&self, hit: &[Record]) {
         let [raygen, miss, ..] = self.groups;
-        let kind = |record: &Record| self.blueprint.groups[raygen + miss + record.group].kind;
+        let kind = |record: &Record| self.desc.groups[raygen + miss + record.group].kind;
         let kinds = hit.iter().map(kind).map(vk::RayTracingShaderGroupTypeKHR::from_raw);
         let mut known = self.hit_records.lock().unwrap_or_else(PoisonError::into_inner);
         if hit.len() > known.len() {
@@ -108,7 +115,7 @@ impl RayTracingPipeline {
                 descriptor
                 && !records.is_empty()
             {
-                hit_records::check(asked, &records, &self.blueprint.name)?;
+                hit_records::check(asked, &records, &self.desc.name)?;
             }
         }
         drop(records);
@@ -135,7 +142,7 @@ impl Pipeline {
         descriptors: &[Descriptor],
         push: &T,
     ) -> Result<()> {
-        let Blueprint { name, bindings, push_size, .. } = &*self.blueprint;
+        let PipelineDesc { name, bindings, push_size, .. } = &*self.desc;
         let kinds = || descriptors.iter().map(Descriptor::binding);
         ensure!(
             kinds().eq(bindings.iter().copied()),
@@ -148,7 +155,7 @@ impl Pipeline {
             "pipeline '{name}' takes {push_size} bytes of push constants, not {}",
             bytes.len()
         );
-        let (device, point) = (&self.gpu.device, self.blueprint.bind_point());
+        let (device, point) = (&self.gpu.device, self.desc.bind_point());
         // SAFETY: cmd is being recorded; the pipeline and its descriptors outlive the submission.
         unsafe {
             device.cmd_bind_pipeline(cmd, point, self.handle);
@@ -185,7 +192,7 @@ impl Pipeline {
                 ensure!(
                     target.size <= most,
                     "pipeline '{}' binds a buffer of {} bytes, and {} takes {most}",
-                    self.blueprint.name,
+                    self.desc.name,
                     target.size,
                     self.gpu.name
                 );
@@ -194,7 +201,7 @@ impl Pipeline {
                 write.buffer_info(&buffer)
             }
         };
-        let (extension, point) = (&self.gpu.push_descriptor, self.blueprint.bind_point());
+        let (extension, point) = (&self.gpu.push_descriptor, self.desc.bind_point());
         // SAFETY: set 0 was made for push descriptors of these kinds; all handles are alive.
         unsafe { extension.cmd_push_descriptor_set(cmd, point, self.layout, 0, &[write]) };
         Ok(())

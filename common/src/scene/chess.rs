@@ -5,7 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use glam::{Affine3A, DVec3, Mat3A, Vec3, Vec3A};
 
-use super::{Camera, Instance, Material, Model, Scene, obj};
+use super::{Camera, Instance, Material, Scene};
+use crate::model::Model;
+use crate::model::obj;
 
 /// Morphy's game at the Paris opera, 1858, before White's tenth move.
 const POSITION: &str = "rn2kb1r/p3qppp/2p2n2/1p2p1B1/2B1P3/1QN5/PPP2PPP/R3K2R";

@@ -84,7 +84,7 @@ impl Mesh {
 }
 
 /// Lowest and highest corner of the box around points.
-pub(super) fn around(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
+pub(crate) fn around(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| {
         (low.min(point), high.max(point))
     })

@@ -104,5 +104,5 @@ fn opaque(scene: &Scene) -> Vec<bool> {
 /// unless that is ruled out.
 pub fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
     let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
-    if options.no_duplicate_any_hit { order } else { gpu.emulation.candidates(order) }
+    if options.no_duplicate_any_hit { order } else { gpu.driver_shim.candidates(order) }
 }

@@ -9,8 +9,9 @@ use bytemuck::cast_slice;
 use glam::Vec3;
 
 use super::meshes::{MeshBuffers, MeshesOnGpu};
-use super::{InstanceRecord, MaterialRecord, Model, Scene, SceneAddresses};
+use super::{InstanceRecord, MaterialRecord, Scene, SceneAddresses};
 use crate::gpu::{AccelerationStructure, Buffer, BuildOptions, Gpu, Texels, TextureTable, order};
+use crate::model::Model;
 
 /// A scene in device memory, ready to be traced.
 ///
@@ -298,5 +299,5 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
 /// # Errors
 /// If memory is short.
 pub fn boxes_on_gpu(gpu: &Gpu, name: &str, boxes: &[[Vec3; 2]]) -> Result<Buffer> {
-    Buffer::with_data(gpu, name, &gpu.emulation.boxes(boxes.to_vec()), input_usage())
+    Buffer::with_data(gpu, name, &gpu.driver_shim.boxes(boxes.to_vec()), input_usage())
 }

@@ -5,7 +5,9 @@ use std::path::Path;
 use anyhow::Result;
 use glam::{Affine3A, DVec3, Vec3};
 
-use super::{Camera, Mesh, Model, obj};
+use super::{Camera, Mesh};
+use crate::model::Model;
+use crate::model::obj;
 
 /// Meshes, materials and textures with their placements.
 #[derive(Clone)]

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context, Result, bail};
 use common::app::Picture;
 use flip::near::Near;
-use patience::Limit;
+use time_limit::Limit;
 
 use super::code;
 use super::exercise::{Exercise, Takes};

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
+use common::UsageError;
 use common::output::print;
-use common::usage::Usage;
 use common::workers;
 use manuscript::project::Project;
 
@@ -76,14 +76,14 @@ impl ExerciseArguments {
             [] if self.list => Exercise::whole(project)?,
             [] => {
                 let what = "no exercise is named; --list shows them";
-                return Err(Usage(what.to_owned()).into());
+                return Err(UsageError(what.to_owned()).into());
             }
             [name] => Exercise::named(project, name)?,
             [_, second, ..] => {
                 let what = format!(
                     "'{second}' is one too many: name one exercise, put an answer in quotes"
                 );
-                return Err(Usage(what).into());
+                return Err(UsageError(what).into());
             }
         };
         let one = self.names.first().is_some_and(|name| name.contains('.'));
@@ -98,7 +98,7 @@ impl ExerciseArguments {
                 if asked || self.folder.is_some() {
                     let what = "a chapter has several exercises: name one, such as";
                     let first = exercises.first().map_or("05.2".to_owned(), Exercise::to_string);
-                    return Err(Usage(format!("{what} {first}")).into());
+                    return Err(UsageError(format!("{what} {first}")).into());
                 }
                 list(project, &exercises)
             }
@@ -166,7 +166,7 @@ impl ExerciseArguments {
         }
         if exercise.takes == Takes::Look {
             let what = format!("exercise {exercise} changes nothing: there is nothing to apply");
-            return Err(Usage(what).into());
+            return Err(UsageError(what).into());
         }
         bench.set_up()?;
         for file in bench.apply()? {
@@ -245,7 +245,7 @@ pub fn offer(exercise: &Exercise, progress: &Progress) -> String {
 fn target(exercise: &Exercise, bench: &Workbench, progress: &Progress) -> Result<()> {
     let Some(arguments) = exercise.target().filter(|_| exercise.takes != Takes::Look) else {
         let what = format!("exercise {exercise} has no target: no picture tells that it is solved");
-        return Err(Usage(what).into());
+        return Err(UsageError(what).into());
     };
     if !progress.shows_target(exercise) {
         let failed = progress.failures(exercise);
@@ -260,7 +260,7 @@ fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Resu
     if exercise.takes != Takes::Look {
         let what =
             format!("exercise {exercise} asks no question; --check tells whether it is solved");
-        return Err(Usage(what).into());
+        return Err(UsageError(what).into());
     }
     if !exercise.answers.accept(answer) {
         bail!("'{answer}' is not the answer; --hint helps");

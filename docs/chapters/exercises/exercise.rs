@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use anyhow::Result;
-use common::usage::Usage;
+use common::UsageError;
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project};
 
@@ -116,7 +116,8 @@ impl Exercise {
         found.retain(|exercise| number.parse() == Ok(exercise.number));
         match found.is_empty() {
             true => {
-                Err(Usage(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+                Err(UsageError(format!("no exercise '{name}'; there is {}", names.join(", ")))
+                    .into())
             }
             false => Ok(found),
         }

@@ -4,7 +4,7 @@ use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result};
 use common::output::print;
-use patience::Limit;
+use time_limit::Limit;
 
 use crate::programs::child;
 

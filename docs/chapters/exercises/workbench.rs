@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
+use common::UsageError;
 use common::output::print;
-use common::usage::Usage;
 
 use super::attempt::{Attempt, Originals, Verdict};
 use super::command::offer;
@@ -48,7 +48,9 @@ impl<'a> Workbench<'a> {
                 Takes::File | Takes::Rust => "is done in the project itself",
                 _ => "changes nothing",
             };
-            return Err(Usage(format!("exercise {exercise} {what} and takes no --folder")).into());
+            return Err(
+                UsageError(format!("exercise {exercise} {what} and takes no --folder")).into()
+            );
         }
         let own = format!("target/exercises/{exercise}");
         let shown = folder.map_or_else(|| own.clone(), |folder| folder.display().to_string());
@@ -58,7 +60,9 @@ impl<'a> Workbench<'a> {
         };
         if let Some(file) = file_on_the_way(&folder) {
             let what = if file == folder { shown } else { file.display().to_string() };
-            return Err(Usage(format!("'{what}' is no folder; name another with --folder")).into());
+            return Err(
+                UsageError(format!("'{what}' is no folder; name another with --folder")).into()
+            );
         }
         Ok(Self { programs, exercise, folder, shown })
     }
@@ -83,7 +87,7 @@ impl<'a> Workbench<'a> {
                 let is_book =
                     |folder: &Path| folder.canonicalize().ok() == book.canonicalize().ok();
                 let refused = |what: &str| {
-                    Usage(format!("'{}' {what}; name another with --folder", self.shown))
+                    UsageError(format!("'{}' {what}; name another with --folder", self.shown))
                 };
                 if self.folder.ancestors().any(is_book) {
                     return Err(refused("holds the book's own shaders").into());

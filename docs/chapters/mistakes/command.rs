@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use common::UsageError;
 use common::output::print;
-use common::usage::Usage;
 use common::workers;
 use manuscript::project::Project;
 
@@ -39,7 +39,9 @@ pub fn run(
     }
     let (Some(name), [mistake]) = (name, &mistakes[..]) else {
         let names: Vec<String> = mistakes.into_iter().map(|mistake| mistake.name).collect();
-        return Err(Usage(format!("no mistake is named; there is {}", names.join(", "))).into());
+        return Err(
+            UsageError(format!("no mistake is named; there is {}", names.join(", "))).into()
+        );
     };
     let folder = out.map_or_else(|| format!("target/mistakes/{name}").into(), Path::to_owned);
     mistake.copy_to(project, &std::path::absolute(&folder)?)?;

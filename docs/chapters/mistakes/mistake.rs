@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Result;
+use common::UsageError;
 use common::files::NewFolder;
-use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::Project;
 
@@ -106,7 +106,7 @@ impl Mistake {
         let mistakes = Self::whole(project)?;
         let names: Vec<String> = mistakes.iter().map(|mistake| mistake.name.clone()).collect();
         mistakes.into_iter().find(|mistake| mistake.name == name).ok_or_else(|| {
-            Usage(format!("no mistake '{name}'; there is {}", names.join(", "))).into()
+            UsageError(format!("no mistake '{name}'; there is {}", names.join(", "))).into()
         })
     }
 
@@ -194,7 +194,7 @@ impl Mistake {
     /// If the patch does not fit, the folder holds something, or it cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
         let refused = |path: &Path, what: &str| {
-            Usage(format!("'{}' {what}; name another folder with --out", path.display()))
+            UsageError(format!("'{}' {what}; name another folder with --out", path.display()))
         };
         if let Some(file) = file_on_the_way(folder) {
             return Err(refused(file, "is a file, and the copy is a folder").into());

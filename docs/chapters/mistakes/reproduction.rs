@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use common::files::NewFolder;
 use image::RgbImage;
 use panels::{Panel, sheet};
-use patience::Limit;
+use time_limit::Limit;
 
 use super::mistake::{Mistake, Outcome};
 use crate::patches::edition::{Edition, Patched};

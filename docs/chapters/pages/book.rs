@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use anyhow::Result;
-use common::usage::Usage;
+use common::UsageError;
 use manuscript::anchor::anchors;
 use manuscript::fault::Fault;
 use manuscript::link::local;
@@ -178,7 +178,7 @@ impl<'a> Book<'a> {
         if let Some(name) = names.iter().find(|name| !measurements.iter().any(|m| is_of(m, name))) {
             let there: Vec<&str> = measurements.iter().map(|m| &*m.name).collect();
             let what = format!("nothing measures '{name}'; there is {}", there.join(", "));
-            return Err(Usage(what).into());
+            return Err(UsageError(what).into());
         }
         let wanted = |measurement: &&Measurement| match names[..] {
             [] => measurement.fault(stored.get(&measurement.name)).is_some(),
@@ -285,7 +285,7 @@ impl<'a> Book<'a> {
     ///
     /// # Errors
     /// With its name.
-    pub fn check_pictures(&self, names: &[String]) -> Result<(), Usage> {
+    pub fn check_pictures(&self, names: &[String]) -> Result<(), UsageError> {
         let project = self.programs.project;
         let pictures = Picture::all(project, &self.pages).0.into_iter().map(|picture| picture.name);
         let mistakes = Mistake::all(project).0.into_iter().map(|mistake| mistake.name);
@@ -293,7 +293,7 @@ impl<'a> Book<'a> {
         match names.iter().find(|name| !there.contains(name)) {
             Some(name) => {
                 let there = there.join(", ");
-                Err(Usage(format!("no page makes a picture '{name}'; there is {there}")))
+                Err(UsageError(format!("no page makes a picture '{name}'; there is {there}")))
             }
             None => Ok(()),
         }

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use common::files::NewFolder;
 use common::output::complain;
 use manuscript::project::Project;
-use patience::{ASLEEP, Limit};
+use time_limit::{ASLEEP, Limit};
 
 use super::patch::Patch;
 use crate::programs::child;

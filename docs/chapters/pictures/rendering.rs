@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use common::app::Picture as Large;
 use manuscript::project::Project;
-use patience::Limit;
+use time_limit::Limit;
 
 use super::downscale;
 use super::stamp::Maker;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use common::output::complain;
-use patience::{GLANCE, Limit, Work};
+use time_limit::{GLANCE, Limit, Work};
 
 use super::interrupt;
 

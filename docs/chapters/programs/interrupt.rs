@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
-use instruments::guard::Interrupt;
+use instruments::exit::Interrupt;
 
 static INTERRUPT: OnceLock<Interrupt> = OnceLock::new();
 

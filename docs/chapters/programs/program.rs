@@ -10,7 +10,7 @@ use std::time::SystemTime;
 use anyhow::{Context, Result, anyhow};
 use common::workers;
 use manuscript::project::Project;
-use patience::Limit;
+use time_limit::Limit;
 
 use super::child;
 use super::controls::Controls;

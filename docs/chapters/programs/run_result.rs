@@ -6,8 +6,8 @@ use std::process::{Command, ExitStatus};
 use anyhow::Result;
 use common::app::Picture;
 use common::files::NewFolder;
-use patience::Limit;
 use serde_json::Value;
+use time_limit::Limit;
 
 use super::child;
 use super::program::Programs;

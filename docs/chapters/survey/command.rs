@@ -11,13 +11,13 @@ use std::process::Command;
 use std::time::{Instant, SystemTime};
 
 use anyhow::{Context, Result, anyhow, bail};
+use common::UsageError;
 use common::files::{NewFolder, check_writable, folder};
 use common::output::print;
-use common::usage::Usage;
 use instruments::report::Limits;
 use manuscript::project::Chapter;
-use patience::Limit;
 use serde_json::Value;
+use time_limit::Limit;
 
 use super::card::{self, Card, Device};
 use super::card_page;
@@ -231,7 +231,7 @@ impl Survey<'_> {
         let Some(chapter) = self.programs.project.chapters.last() else { return Ok(()) };
         let ended = self.end_of(&chapter.name, &words(&["--list-controls"]))?;
         if let Some(line) = ended.refused().filter(|_| self.device.is_some()) {
-            return Err(Usage(line).into());
+            return Err(UsageError(line).into());
         }
         // What else keeps a program from running is a line of the card.
         match ended.failed().filter(|line| line.starts_with(NO_DRIVER)) {
@@ -375,7 +375,7 @@ fn check_place(out: &Path) -> Result<()> {
     let another = "name another folder with --out";
     if let Some(file) = file_on_the_way(out) {
         let what = format!("'{}' is a file, and the card goes to a folder", file.display());
-        return Err(Usage(format!("{what}; {another}")).into());
+        return Err(UsageError(format!("{what}; {another}")).into());
     }
     folder::make(out)
         .and_then(|()| check_writable(&out.join("card.md")))

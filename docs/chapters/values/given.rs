@@ -11,8 +11,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 use common::files::NewFolder;
-use patience::Limit;
 use serde_json::{Map, Value, json};
+use time_limit::Limit;
 
 use super::record::Record;
 use crate::programs::program::Programs;

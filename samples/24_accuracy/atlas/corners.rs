@@ -35,13 +35,13 @@ pub fn row(gpu: &Gpu, options: &GpuOptions, rays: usize) -> Result<(Row, Vec<Str
     };
     let requirements = Requirements::ray_tracing().float64_where_offered().position_fetch();
     let number = gpu.index.to_string();
-    let (validate, emulation) = (options.validate, options.emulation.clone());
+    let (validate, driver_shim) = (options.validate, options.driver_shim.clone());
     let device = Some(number.as_str());
     let opened = Gpu::new(&GpuOptions {
         requirements,
         device,
         validate,
-        emulation,
+        driver_shim,
         ..GpuOptions::default()
     });
     let gpu = match opened {

@@ -105,7 +105,7 @@ pub fn draw(
         schema: SCHEMA,
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.emulation.name().to_owned(),
+        arithmetic: gpu.driver_shim.name().to_owned(),
         traversal: traversal.name(),
         date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string()[..10].to_owned(),
         rays,

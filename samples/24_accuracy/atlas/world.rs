@@ -65,9 +65,9 @@ impl World {
         rows: &Rows,
         build: Build,
     ) -> Result<Self> {
-        let mut original = gpu.emulation.order((0..triangles.len() as u32).collect());
+        let mut original = gpu.driver_shim.order((0..triangles.len() as u32).collect());
         if !build.no_duplicates {
-            original = gpu.emulation.candidates(original);
+            original = gpu.driver_shim.candidates(original);
         }
         let built: Vec<Corners> = original.iter().map(|&i| triangles[i as usize]).collect();
         let (input, geometry) = match traversal {
@@ -82,7 +82,7 @@ impl World {
     /// # Errors
     /// If memory is short.
     pub fn of_boxes(gpu: &Gpu, boxes: &[[Vec3; 2]]) -> Result<Self> {
-        let original = gpu.emulation.order((0..boxes.len() as u32).collect());
+        let original = gpu.driver_shim.order((0..boxes.len() as u32).collect());
         let built: Vec<_> = original.iter().map(|&i| boxes[i as usize]).collect();
         let (input, geometry) = boxes_of(gpu, &built)?;
         Self::new(gpu, input, geometry, &[], original, &IDENTITY, Build::default())

@@ -3,8 +3,8 @@
 //! Each is a function for serde's `deserialize_with`, so that the error has the number's own line.
 
 use common::gpu::ShaderEnum;
+use common::model::text::quoted;
 use common::scene::LightKind;
-use common::scene::text::quoted;
 use glam::{DVec3, Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error};
 use toml::Value;

@@ -4,10 +4,9 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use anyhow::Result;
-use common::scene::text::{Folder, quoted};
-use common::scene::{
-    Camera, Instance, Material, Mesh, Model, REACH, Scene, assets, obj, place_position,
-};
+use common::model::text::{Folder, quoted};
+use common::model::{Model, obj};
+use common::scene::{Camera, Instance, Material, Mesh, REACH, Scene, assets, place_position};
 use glam::{Affine3A, Mat3A, Vec3};
 use toml::Spanned;
 

@@ -13,8 +13,8 @@ mod values;
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use common::model::text::shown;
 use common::scene::Scene;
-use common::scene::text::shown;
 use description::Description;
 use source::Source;
 

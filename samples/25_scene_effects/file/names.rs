@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use anyhow::Result;
-use common::scene::Model;
-use common::scene::text::quoted;
+use common::model::Model;
+use common::model::text::quoted;
 use toml::Spanned;
 
 use super::source::Source;

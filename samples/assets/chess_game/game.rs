@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, ensure};
-use common::scene::text::{Text, quoted, shown, uncommented};
+use common::model::text::{Text, quoted, shown, uncommented};
 
 use super::position::{Kind, Move, Played, Position, Square};
 

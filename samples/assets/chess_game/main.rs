@@ -11,10 +11,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
+use common::UsageError;
 use common::files::write_whole;
+use common::model::text::shown;
 use common::output;
-use common::scene::text::shown;
-use common::usage::Usage;
 use instruments::finish;
 
 /// The game of the book: Morphy's at the opera.
@@ -36,7 +36,7 @@ fn main() -> ExitCode {
         _ => {
             let all: Vec<_> = arguments.iter().map(|one| shown(Path::new(one))).collect();
             let all = all.join(" ");
-            Err(Usage(format!(
+            Err(UsageError(format!(
                 "chess_game takes moves (.txt), --check, or nothing, and not '{all}'"
             ))
             .into())

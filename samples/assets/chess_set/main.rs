@@ -19,9 +19,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
+use common::UsageError;
 use common::files::write_whole;
 use common::output;
-use common::usage::Usage;
 use image::ImageFormat;
 use instruments::finish;
 
@@ -42,7 +42,7 @@ fn main() -> ExitCode {
         ["--help" | "-h"] => output::print(USAGE),
         _ => {
             let all = arguments.join(" ");
-            Err(Usage(format!("chess_set takes --check, or nothing, and not '{all}'")).into())
+            Err(UsageError(format!("chess_set takes --check, or nothing, and not '{all}'")).into())
         }
     })
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use anyhow::Result;
-use common::scene::{Model, Scene};
+use common::model::Model;
+use common::scene::Scene;
 
 use super::{corpus, ours, texture};
 use crate::format::{Format, Function};

@@ -1,6 +1,6 @@
 //! The page *What hardware computes*: its figures and its charts are those of the cards.
 
-use run::figures;
+use run::expected;
 use run::plot::{self, Axis, Chart, Series};
 use serde_json::{Map, Value};
 
@@ -47,7 +47,7 @@ fn values(atlas: &Value) -> Map<String, Value> {
 #[test]
 fn the_page_tells_what_cards_say() {
     for (name, file) in CARDS {
-        figures::hold_exact(&format!("what-hardware-computes/{name}"), values(&card(file)).into());
+        expected::hold_exact(&format!("what-hardware-computes/{name}"), values(&card(file)).into());
     }
 }
 

@@ -5,9 +5,10 @@
 //! root's (MacDonald and Booth 1990). The tree is the one that the samples' order makes: halves of a list.
 
 use common::gpu::order::{Bounds, kd_median};
-use common::scene::{Model, assets, obj};
+use common::model::{Model, obj};
+use common::scene::assets;
 use glam::Vec3;
-use run::figures;
+use run::expected;
 use serde_json::json;
 
 use super::motion::KINDS;
@@ -86,7 +87,7 @@ fn a_tree_decays_as_its_boxes_move_apart_and_not_with_the_number_of_updates() {
     let [w1, w8, w15, w30, w60, w240] = waving.map(rounded);
     let [u30, u60, u120, u240, u480] = unfolding.map(rounded);
     let [g240, g480, g960, g1824] = game.map(rounded);
-    figures::hold_exact(
+    expected::hold_exact(
         "14_animation/decay",
         json!({
             "waving_1": w1, "waving_8": w8, "waving_15": w15, "waving_30": w30, "waving_60": w60,

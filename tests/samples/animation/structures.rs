@@ -5,7 +5,7 @@ use common::gpu::{
     AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, GpuOptions, Requirements,
 };
 use common::scene::{Scene, SceneOptions, Vertex, input_usage, triangle_order};
-use run::{figures, render};
+use run::{expected, render};
 use serde_json::{Value, json};
 
 use super::{NAME, SIZE};
@@ -151,7 +151,7 @@ fn bytes_of_what_moves_and_of_what_does_not() {
     let ([flag, flag_build, flag_update], [top, top_build, top_update]) =
         (level("flag"), level("top"));
     assert!(flag > 36 * 3072 && top > 64 * 40, "{flag} {top}");
-    figures::hold(
+    expected::hold(
         "14_animation/bytes",
         json!({
             "plain": plain, "compacted": compacted, "updatable": updatable, "both": both,
@@ -179,7 +179,7 @@ fn a_build_and_an_update_are_timed_in_turns() {
     };
     let [[small_build, small_update], [large_build, large_update], [top_build, top_update]] =
         [both(&small, "flag"), both(&large, "flag"), both(&small, "top")];
-    figures::give_timed(
+    expected::give_timed(
         "14_animation/times",
         json!({
             "flag_built": small_build, "flag_updated": small_update,

@@ -5,7 +5,7 @@ use common::app::Picture;
 use serde_json::{Map, Value};
 
 use super::{FOOTPRINTS, NAME, picture};
-use run::{figures, render};
+use run::{expected, render};
 
 /// The instances, with the floor at 0.
 const SURFACES: [(&str, f32); 3] = [("mirror", 1.0), ("hollow", 2.0), ("glass", 3.0)];
@@ -98,8 +98,8 @@ fn error_and_flicker_in_each_of_the_three() {
             flicker.insert(format!("{name}.{footprint}"), change.into());
         }
     }
-    figures::hold("40_curved_cones/errors", Value::Object(errors));
-    figures::hold("40_curved_cones/flicker", Value::Object(flicker));
+    expected::hold("40_curved_cones/errors", Value::Object(errors));
+    expected::hold("40_curved_cones/flicker", Value::Object(flicker));
 }
 
 /// What a frame takes, over what it takes with a point.
@@ -113,5 +113,5 @@ fn time_by_footprint() {
         let ratio = &report["comparison"]["values"][i]["ratio"]["median"];
         table.insert((*footprint).to_owned(), ratio.clone());
     }
-    figures::give_timed("40_curved_cones/times", Value::Object(table));
+    expected::give_timed("40_curved_cones/times", Value::Object(table));
 }

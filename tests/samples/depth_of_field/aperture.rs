@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::points::{hash, mirrored, owen, sobol_second};
 use super::{AT_ORIGIN, SIZE, SMALL, picture};
-use run::figures;
+use run::expected;
 
 /// What a random number is for, as in `shaders/common/random.glsl` and `sample_point.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
@@ -152,5 +152,5 @@ fn every_part_of_a_pixel_sees_through_every_part_of_the_lens() {
     // 64 pairs by chance miss a given one of 16 with 1.6 %.
     assert_eq!(shared, 4.0);
     assert!(own > 15.0, "{own}");
-    figures::hold_exact("28_depth_of_field/pairs", json!({ "shared": shared, "own": own }));
+    expected::hold_exact("28_depth_of_field/pairs", json!({ "shared": shared, "own": own }));
 }

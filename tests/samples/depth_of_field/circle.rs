@@ -8,7 +8,7 @@ use serde_json::{Map, json};
 use tempfile::TempDir;
 
 use super::{NAME, picture_of};
-use run::{command, figures};
+use run::{command, expected};
 
 /// What the light sends out: the sky behind it sends a millionth of that.
 const RADIANCE: f64 = 1e6;
@@ -145,7 +145,7 @@ fn a_light_is_spread_over_the_circle_of_confusion() {
         let all = spread(&shown, at, beyond + 1.0).light;
         assert_eq!(all, light, "{depth}: light beyond {beyond} pixels");
     }
-    figures::hold("28_depth_of_field/circles", table.into());
+    expected::hold("28_depth_of_field/circles", table.into());
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn a_photographer_has_the_same_circle() {
     }
     let number = focal_length / diameter;
     println!("{diameter} mm, f/{number}, {focal_length} mm");
-    figures::hold_exact(
+    expected::hold_exact(
         "28_depth_of_field/photograph",
         json!({ "square": square, "diameter": diameter, "number": number, "film": film }),
     );
@@ -245,5 +245,5 @@ fn samples_against_the_noise_of_a_blurred_light() {
         table.insert(format!("{frames}.independent"), independent.into());
     }
     table.insert("part".to_owned(), part.into());
-    figures::hold("28_depth_of_field/noise", table.into());
+    expected::hold("28_depth_of_field/noise", table.into());
 }

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use serde_json::Map;
 
 use super::{SMALL, picture};
-use run::{bits, figures};
+use run::{bits, expected};
 
 /// Half the width of a picture 600 pixels high, over that of one pixel, at distance 1.
 fn pixels(camera: &Camera) -> f64 {
@@ -82,7 +82,7 @@ fn each_ray_passes_by_its_point_in_focus() {
             assert!(world > 1.0 && eye > 1.0, "{world} and {eye} pixels: nothing is lost");
         }
     }
-    figures::hold("28_depth_of_field/rays", table.into());
+    expected::hold("28_depth_of_field/rays", table.into());
 }
 
 #[test]

@@ -4,7 +4,7 @@ use common::app::Picture;
 use serde_json::Map;
 
 use super::{NAME, arguments, picture};
-use run::{command, figures, render, render_by, shaders_with};
+use run::{command, expected, render, render_by, shaders_with};
 
 /// Small: there are many frames.
 const SIZE: &str = "40x25";
@@ -54,7 +54,7 @@ fn the_running_mean_keeps_what_a_sum_of_floats_loses() {
     // Chapter 04: the mean of n frames is off by n roundings at most.
     assert!(mean < f64::from(FRAMES) * 0.5f64.powi(24), "{mean}");
     assert!(mean < sum, "a sum of floats has {sum}, the mean {mean}");
-    figures::hold("28_depth_of_field/sums", table.into());
+    expected::hold("28_depth_of_field/sums", table.into());
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn samples_buy_less_where_the_lens_blurs() {
     // An edge leaves -3/4 of evenly placed points (04). Small lamps far out of focus are met by chance.
     assert!(slopes[0] < -0.65, "a pinhole: {}", slopes[0]);
     assert!((-0.65..-0.45).contains(&slopes[1]), "a lens: {}", slopes[1]);
-    figures::hold("28_depth_of_field/errors", table.into());
+    expected::hold("28_depth_of_field/errors", table.into());
 }
 
 /// The time of a picture with a lens, in milliseconds.
@@ -96,5 +96,5 @@ fn price() {
         let median = report["gpu_milliseconds"]["median"].as_f64().expect("a time");
         table.insert(frames.to_string(), (median * f64::from(frames)).into());
     }
-    figures::give_timed("28_depth_of_field/price", table.into());
+    expected::give_timed("28_depth_of_field/price", table.into());
 }

@@ -2,7 +2,7 @@
 
 use reference::Ray;
 use run::primary_hits::reference;
-use run::{command, copy_of_shaders, figures, render_by};
+use run::{command, copy_of_shaders, expected, render_by};
 use serde_json::json;
 
 use super::{NAME, picture};
@@ -108,5 +108,5 @@ fn a_path_is_caught_if_it_starts_within_another_body_that_touches_its_own() {
     // Set by llvmpipe; with seeds 1 to 7 it is none.
     assert!(caught <= 4.0, "{caught} paths are caught");
     let paths = FRAMES as usize * pixels.len();
-    figures::hold("29_emitters/furnace", json!({ "caught": caught, "paths": paths }));
+    expected::hold("29_emitters/furnace", json!({ "caught": caught, "paths": paths }));
 }

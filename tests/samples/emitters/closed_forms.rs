@@ -9,7 +9,7 @@ use serde_json::Map;
 
 use super::{ESTIMATORS, Estimate, NAME, U, brightness, estimator, picture};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
-use run::{figures, render};
+use run::{expected, render};
 
 /// The balls of the scenes: centre, radius, radiance.
 pub fn balls(scene: &str) -> Vec<(DVec3, f64, f64)> {
@@ -117,7 +117,7 @@ fn a_ball_lights_a_plane_as_its_closed_form_says() {
             held.insert(format!("{key}.{name}.confidence"), estimate.confidence.into());
         }
     }
-    figures::hold("29_emitters/balls", held.into());
+    expected::hold("29_emitters/balls", held.into());
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn many_balls_light_it_as_all_of_them_do_whichever_are_asked() {
     }
     let closed = expected.iter().sum::<f64>() / expected.len() as f64;
     held.insert("closed".to_owned(), closed.into());
-    figures::hold("29_emitters/many", held.into());
+    expected::hold("29_emitters/many", held.into());
 }
 
 #[test]

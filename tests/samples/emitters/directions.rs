@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::{NAME, U};
 use crate::glass::equations::hash;
-use run::{command, copy_of_shaders, figures, render_by};
+use run::{command, copy_of_shaders, expected, render_by};
 
 /// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
 /// `vec4 answer`.
@@ -66,7 +66,7 @@ fn a_cone_keeps_its_digits_far_away_and_close_by() {
     // Half a dozen roundings, of which Vulkan lets a division be 5 u.
     assert!(here < 16.0, "{here}");
     assert!(by_the_book > 0.5, "the textbook's form would do: {by_the_book}");
-    figures::hold("29_emitters/cone", json!({ "here": here, "textbook": by_the_book }));
+    expected::hold("29_emitters/cone", json!({ "here": here, "textbook": by_the_book }));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn the_solid_angle_of_a_triangle_keeps_its_digits() {
     assert!(tried > 5000, "{tried}");
     assert!(here < 16.0, "{here}");
     assert!(by_the_book > 100.0, "the textbook's form would do: {by_the_book}");
-    figures::hold(
+    expected::hold(
         "29_emitters/solid_angle",
         json!({ "here": here, "textbook": by_the_book, "triangles": tried }),
     );

@@ -8,7 +8,7 @@ use super::closed_forms::{lit_by_balls, mean_variances, variances_of_squares};
 use super::{ESTIMATORS, Estimate, NAME, brightness, estimator, picture};
 use crate::path_tracing::closed_forms::{SQUARES, form_factors};
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
-use run::{figures, render};
+use run::{expected, render};
 
 #[test]
 #[ignore = "by hand: draws docs/images/29_estimators.png"]
@@ -119,7 +119,7 @@ fn errors() {
         charts.push(Chart { title: scene, x, y, series: series.collect() });
     }
     draw("29_error.svg", (400, 380), &charts);
-    figures::hold("29_emitters/errors", held.into());
+    expected::hold("29_emitters/errors", held.into());
 }
 
 const SMALL: &str = "96x60";
@@ -140,7 +140,7 @@ fn a_depth_leaves_out_what_its_paths_do_not_reach() {
         last = error;
         held.insert(depth.to_string(), error.into());
     }
-    figures::hold("29_emitters/left_out", held.into());
+    expected::hold("29_emitters/left_out", held.into());
 }
 
 /// The set by lamp light: error against rays and against time, beside a picture of many more samples.
@@ -207,5 +207,5 @@ fn price() {
         })
         .collect();
     draw("29_price.svg", (400, 380), &charts);
-    figures::give_timed("29_emitters/price", held.into());
+    expected::give_timed("29_emitters/price", held.into());
 }

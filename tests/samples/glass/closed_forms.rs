@@ -3,7 +3,7 @@
 use common::app::Picture;
 use common::scene::Camera;
 use glam::DVec3;
-use run::figures;
+use run::expected;
 use serde_json::json;
 
 use super::{U, picture};
@@ -68,7 +68,7 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
     println!("up to {aside:.3} aside, off by {off:.1} u of the way; turned by {turned:.1} u");
     // The ray and two refractions of 8 u each.
     assert!(turned < 24.0, "{turned}");
-    figures::hold("27_glass/slab", json!({ "aside": aside, "off": off, "turned": turned }));
+    expected::hold("27_glass/slab", json!({ "aside": aside, "off": off, "turned": turned }));
 }
 
 /// Where a ray passes nearest to the z axis.
@@ -116,7 +116,7 @@ fn a_ball_has_its_focal_length() {
     let sagitta = (std::f64::consts::TAU / 512.0).powi(2) / 4.0;
     println!("at most {worst:.2e} off, sagitta {sagitta:.2e}; nearest {nearest:?}");
     assert!(worst < 1.6 * sagitta + 64.0 * U / 0.05, "{worst}");
-    figures::hold(
+    expected::hold(
         "27_glass/ball",
         json!({ "off": worst, "sagitta": sagitta, "crossing": nearest.1, "exact": nearest.2 }),
     );
@@ -146,7 +146,7 @@ fn a_prism_deviates_by_its_least_angle_and_never_by_less() {
     // Less by rounding; more because the next pixel may be 1/2 pixel away both ways, and the angle is a parabola there.
     let pixel = (5f64.to_radians() / 60.0) * 0.5;
     assert!(found > least - 32.0 * U && found < least + 4.0 * pixel * pixel, "{found} {least}");
-    figures::hold(
+    expected::hold(
         "27_glass/prism",
         json!({ "found": found.to_degrees(), "closed": least.to_degrees() }),
     );

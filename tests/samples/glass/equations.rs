@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use reference::ulp::ulp_error;
-use run::{evaluate, figures};
+use run::{evaluate, expected};
 use serde_json::json;
 
 use super::U;
@@ -94,7 +94,7 @@ fn what_is_reflected_and_what_goes_through_is_all() {
     assert!(reflected < 16.0 && through < 16.0, "{reflected} {through} ULP");
     assert!(sum < 16.0, "R + T is off by {sum} u");
     assert!(textbook > 1000.0, "the textbook's form would do: {textbook}");
-    figures::hold(
+    expected::hold(
         "27_glass/fresnel",
         json!({ "reflected": reflected, "through": through, "textbook": textbook, "sum": sum }),
     );
@@ -135,7 +135,7 @@ fn a_refracted_ray_keeps_its_digits() {
     );
     assert!(bend < 8.0 && length < 4.0, "{bend} {length}");
     assert!(by_the_book > 16.0, "refract() would do: {by_the_book}");
-    figures::hold(
+    expected::hold(
         "27_glass/refracted",
         json!({
             "direction": bend, "length": length,

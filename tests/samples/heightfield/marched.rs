@@ -186,7 +186,7 @@ impl fmt::Display for Row {
 
 impl Row {
     /// Its figures, each named after the row.
-    pub fn figures(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
+    pub fn values(&self, row: &str) -> impl Iterator<Item = (String, Value)> {
         let Self { steps, right, wrong, errors: [half, most] } = self;
         let first = [("steps", json!(steps)), ("right", json!(right))];
         let wrong = wrong.map(|(name, count)| (name, json!(count)));

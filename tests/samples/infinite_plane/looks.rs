@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::{Octahedron, PLANE, level, shown};
 use run::primary_hits::rays;
-use run::{bits, figures};
+use run::{bits, expected};
 
 #[test]
 fn inside_and_outside_are_told_apart() {
@@ -138,7 +138,7 @@ fn the_checker_board_is_averaged_over_each_pixel() {
          at the middle by {point_error:.3}"
     );
     let found = json!({ "rays": FINE * FINE, "filtered": filtered_error, "point": point_error });
-    figures::hold("12_infinite_plane/checker", found);
+    expected::hold("12_infinite_plane/checker", found);
     assert!(count > 1000 && filtered_error < 0.06 && point_error > 4.0 * filtered_error);
     // Towards the horizon all is grey, and nothing is cut off.
     let horizon = filtered.iter().filter(|pixel| pixel[0] == PLANE && pixel[2] > 60.0);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use reference::transform::U;
-use run::figures;
+use run::expected;
 use serde_json::{Map, Value, json};
 
 use super::{SPECIMEN, ViewedScene, absolute};
@@ -51,7 +51,7 @@ pub fn by_the_inverses(viewed: &ViewedScene, sets: &[&str]) -> Map<String, Value
 #[test]
 fn normals_turn_with_the_inverse_transpose() {
     let viewed = ViewedScene::specimens();
-    figures::hold("09_instancing/normals", by_the_inverses(&viewed, &[]).into());
+    expected::hold("09_instancing/normals", by_the_inverses(&viewed, &[]).into());
     // By the matrix: right where it only turns and mirrors, wrong where it shears or stretches.
     let first = viewed.pieces.len() - 6;
     // Two only turned and mirrored, and four sheared or stretched.
@@ -64,7 +64,7 @@ fn normals_turn_with_the_inverse_transpose() {
     println!("by the matrix, in degrees: {most:.5?}");
     let of_knight = |(knight, degrees): (usize, &f64)| (knight.to_string(), json!(degrees));
     let by_matrix: Map<_, _> = most.iter().enumerate().skip(2).map(of_knight).collect();
-    figures::hold("09_instancing/by_matrix", by_matrix.into());
+    expected::hold("09_instancing/by_matrix", by_matrix.into());
     let (rigid, deformed) = most.split_at(2);
     assert!(rigid.iter().all(|&degrees| degrees < 1e-4), "{most:?}");
     assert!(deformed.iter().all(|&degrees| degrees > 15.0), "{most:?}");

@@ -31,7 +31,7 @@ impl Errors {
     }
 
     /// The figures of a row of the page's table; rays are counted as parts of all.
-    pub fn figures(&self) -> [(&'static str, f64); 5] {
+    pub fn values(&self) -> [(&'static str, f64); 5] {
         let part = |count: usize| count as f64 / self.rays as f64;
         let [p50, p99, max] = [0.5, 0.99, 1.0].map(|part| self.at(part));
         let [hits, misses] = [self.false_hits, self.false_misses].map(part);

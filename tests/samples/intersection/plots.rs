@@ -10,7 +10,7 @@ use super::errors::Errors;
 use super::rungs::{RUNGS, with_t};
 use super::shapes::SceneKind;
 use super::{picture, shapes};
-use run::figures;
+use run::expected;
 use run::plot::{Shown, draw_panels};
 
 /// The page's table and its error maps: `UPDATE=1` writes the picture.
@@ -47,7 +47,7 @@ fn errors_at_every_distance() {
             }
             println!("| {rung} | {distance} | {} |", errors.row());
             let name = format!("{distance}.{}", rung.replace(' ', "-"));
-            let figures = errors.figures();
+            let figures = errors.values();
             table.extend(figures.map(|(figure, value)| (format!("{name}.{figure}"), value.into())));
             let Some(row) = ["textbook", "stable"].iter().position(|&shown| shown == rung) else {
                 continue;
@@ -58,7 +58,7 @@ fn errors_at_every_distance() {
             rows[2 * row + 1].push((errors.label(), map));
         }
     }
-    figures::hold("08_intersection/errors", table.into());
+    expected::hold("08_intersection/errors", table.into());
     if std::env::var_os("UPDATE").is_some_and(|value| value == "1") {
         draw_panels("08_errors.png", 1, &rows.each_ref().map(|row| Shown::row(row)));
     }

@@ -13,7 +13,7 @@ use super::shapes::SceneKind;
 use super::{NAME, SIZE, picture, shapes};
 use common::app::Picture;
 use run::primary_hits::{answer, rays};
-use run::{figures, render};
+use run::{expected, render};
 
 /// The rays and t of a picture that shows ray directions: t below 0 is a miss.
 pub fn with_t(camera: &Camera, picture: &Picture) -> Vec<(Ray, Option<f32>)> {
@@ -87,13 +87,13 @@ fn the_hosts_c_keeps_a_planet() {
         }
         println!("| {rung} | planet | {} |", errors.row());
         let name = rung.replace(' ', "-");
-        let figures = errors.figures().into_iter().take(3);
+        let figures = errors.values().into_iter().take(3);
         table.extend(figures.map(|(figure, value)| (format!("{name}.{figure}"), value.into())));
         assert!(errors.ulp.len() > 3000, "{rung}: {} hits", errors.ulp.len());
         let p99 = errors.at(0.99);
         assert!(if rung == "host c" { p99 <= 10.0 } else { p99 > 1000.0 }, "{rung}: {p99}");
     }
-    figures::hold("08_intersection/planet", table.into());
+    expected::hold("08_intersection/planet", table.into());
 }
 
 #[test]
@@ -163,13 +163,13 @@ fn a_ray_along_a_wall_is_sure_to_hit_it_only_by_division() {
     let ([reciprocal, _], [division, along]) = (count("reciprocal"), count("division"));
     println!("rays along a wall: {reciprocal} hits by reciprocals, {division} by division");
     let found = json!({ "reciprocal": reciprocal, "division": division });
-    figures::hold("08_intersection/walls", found);
+    expected::hold("08_intersection/walls", found);
     assert!(reciprocal <= division, "{reciprocal} {division}");
     assert!(2 * division >= along, "{division} of {along}");
     assert!(division > 30 || !run::device::is_software(), "{division}");
     // GLSL does not say what `min` makes of what is not a number: Mesa 25.0.7 loses the hits by it, and 26.2.6
     // happens to find them.
-    if figures::are_of_this_driver("08_intersection/walls") {
+    if expected::are_of_this_driver("08_intersection/walls") {
         assert!(reciprocal < division / 2, "{reciprocal} {division}");
     }
 }
@@ -194,7 +194,7 @@ fn the_margin_offers_every_hit() {
     assert_eq!(count("margin=on").1, 0);
     // What llvmpipe does without; a device that widens boxes by itself may do better.
     let (hits, never) = count("margin=off");
-    figures::hold("08_intersection/margin", json!({ "hits": hits, "never": never }));
+    expected::hold("08_intersection/margin", json!({ "hits": hits, "never": never }));
     let device = render(NAME, "8x5", &[]).report["device"].as_str().unwrap().to_owned();
     assert!(never > 20 || !device.contains("llvmpipe"), "{never}");
 }

@@ -6,7 +6,7 @@ use serde_json::Map;
 
 use super::{SMALL, run};
 use crate::sequences::points::hash;
-use run::{bits, figures, render};
+use run::{bits, expected, render};
 
 /// Frames after which the mean must still be right.
 const MANY: u32 = 100_000;
@@ -134,7 +134,7 @@ fn the_mean_is_right_after_a_hundred_thousand_frames() {
             assert!(sum > 1e-4, "the sum is better than its reputation: {sum}");
         }
     }
-    figures::hold_exact("04_jitter_camera/means", errors.into());
+    expected::hold_exact("04_jitter_camera/means", errors.into());
 }
 
 #[test]
@@ -162,5 +162,5 @@ fn a_running_sum_stalls_and_the_mean_does_not() {
     assert_eq!(means.sum, (1u32 << 21) as f32);
     assert!(stalled.is_some());
     assert_eq!(means.mean, 0.1);
-    figures::hold_exact("04_jitter_camera/sums", sums.into());
+    expected::hold_exact("04_jitter_camera/sums", sums.into());
 }

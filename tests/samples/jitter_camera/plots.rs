@@ -5,7 +5,7 @@ use serde_json::Map;
 
 use super::{error, offsets, part_below, run};
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
-use run::{figures, render};
+use run::{expected, render};
 
 const FILTERS: [&str; 3] = ["box", "tent", "Blackman-Harris"];
 
@@ -90,5 +90,5 @@ fn errors() {
         held.insert(format!("{filter}.slope"), slope.into());
         println!("| {filter} | {} | {slope:.2} |", errors.map(|e| format!("{e:.4}")).join(" | "));
     }
-    figures::hold("04_jitter_camera/errors", held.into());
+    expected::hold("04_jitter_camera/errors", held.into());
 }

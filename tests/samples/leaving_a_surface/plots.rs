@@ -4,7 +4,7 @@
 use serde_json::Map;
 
 use super::{HIGH, RULES, SETTINGS, Setting, Tally, picture};
-use run::figures;
+use run::expected;
 use run::plot::{Shown, draw_panels};
 
 /// The places as a label has room for them, in the order of [`SETTINGS`].
@@ -65,6 +65,6 @@ fn table_of_origins() {
             }
         }
     }
-    figures::hold("26_leaving_a_surface/origins", table.into());
-    figures::hold("26_leaving_a_surface/height", height.into());
+    expected::hold("26_leaving_a_surface/origins", table.into());
+    expected::hold("26_leaving_a_surface/height", height.into());
 }

@@ -2,7 +2,7 @@
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
-use run::{Near, bits, device, figures, render, same_answers, same_colors};
+use run::{Near, bits, device, expected, render, same_answers, same_colors};
 use serde_json::{Value, json};
 
 use super::shutter::{Between, Pose, between};
@@ -100,7 +100,7 @@ fn mean_matrices_shrink_and_rotations_do_not() {
         near(rotation.x_axis.length(), 1.0);
         held[format!("{degrees}")] = json!(matrix.x_axis.length());
     }
-    figures::hold_exact("23_motion_blur/shrink", held);
+    expected::hold_exact("23_motion_blur/shrink", held);
 }
 
 /// In the picture of the middle moment: the knight is as large as it stands, and smaller by the mean of matrices.
@@ -147,7 +147,7 @@ fn methods_cost_what_is_counted() {
             held[format!("{method}-{}", name.replace('_', "-"))] = counted[name].clone();
         }
     }
-    figures::hold("23_motion_blur/costs", held);
+    expected::hold("23_motion_blur/costs", held);
 }
 
 /// With fewer moments than samples, the smear is a row of copies; errors fall as moments are added.
@@ -163,7 +163,7 @@ fn moments_come_near_to_the_smear() {
     });
     println!("{errors:?}");
     assert!(errors.is_sorted_by(|a, b| *b < 0.8 * a), "{errors:?}");
-    figures::hold(
+    expected::hold(
         "23_motion_blur/moments",
         json!({ "1": errors[0], "2": errors[1], "4": errors[2], "8": errors[3] }),
     );
@@ -203,5 +203,5 @@ fn strata_are_better_than_chance() {
     (held["random-slope"], held["strata-slope"]) = (json!(slopes[0]), json!(slopes[1]));
     assert!((slopes[0] + 0.5).abs() < 0.1, "{slopes:?}");
     assert!(slopes[1] < -0.85, "{slopes:?}");
-    figures::hold("23_motion_blur/error", held);
+    expected::hold("23_motion_blur/error", held);
 }

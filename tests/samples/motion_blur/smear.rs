@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use common::app::Picture;
-use common::scene::{Camera, assets, obj};
+use common::model::obj;
+use common::scene::{Camera, assets};
 use glam::{DQuat, DVec3};
-use run::{figures, render};
+use run::{expected, render};
 use serde_json::json;
 
 use super::motion::{Motion, Placed};
@@ -92,7 +93,7 @@ fn the_smear_of_a_ball_is_its_closed_form() {
         held[format!("{method}-error")] = json!(error);
         held[format!("{method}-largest")] = json!(largest);
     }
-    figures::hold("23_motion_blur/ball", held);
+    expected::hold("23_motion_blur/ball", held);
 }
 
 /// Half the angle from one unit quaternion to the mix of two that are `half` apart.
@@ -151,7 +152,7 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
     );
     assert!(compared > 60, "{compared}");
     let turned = close.yaw - open.yaw;
-    figures::hold(
+    expected::hold(
         "23_motion_blur/knight",
         json!({ "pixels": compared, "error": error, "largest": largest, "degrees": turned }),
     );

@@ -6,7 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use common::app::Picture;
-use common::scene::{Mesh, Scene, Texture};
+use common::model::Texture;
+use common::scene::{Mesh, Scene};
 use run::layer::Layer;
 use run::{refused, render, root, same_answers, same_colors};
 

@@ -2,7 +2,7 @@
 
 use serde_json::Map;
 
-use run::{evaluate, figures};
+use run::{evaluate, expected};
 
 /// Heights of four directions above level ground: one in the middle of each quarter.
 const HEIGHTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
@@ -52,5 +52,5 @@ fn four_directions_have_the_mean_that_the_page_computes_by_hand() {
     held.insert("mean".to_owned(), means[0].into());
     held.insert("by_cosine".to_owned(), means[1].into());
     held.insert("all".to_owned(), all.into());
-    figures::hold("11_path_tracing/by_hand", held.into());
+    expected::hold("11_path_tracing/by_hand", held.into());
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde_json::json;
 
 use super::{Estimate, brightness, picture, picture_by_chance};
-use run::{bits, figures};
+use run::{bits, expected};
 
 /// The square that shines, in the scene of each name.
 pub const SQUARES: [(&str, [DVec3; 4]); 2] = [
@@ -91,7 +91,7 @@ fn squares_light_each_other_as_their_form_factors_say() {
         println!("{name}: {mean:.5} ± {confidence:.5}, in closed form {expected:.5}");
         assert!((mean - expected).abs() < confidence, "{name}: {mean} not {expected}");
         let key = format!("11_path_tracing/{}", name.replace(' ', "_"));
-        figures::hold(&key, json!({ "mean": mean, "closed": expected, "confidence": confidence }));
+        expected::hold(&key, json!({ "mean": mean, "closed": expected, "confidence": confidence }));
     }
 }
 

@@ -6,7 +6,7 @@ use serde_json::Map;
 
 use super::closed_forms::{ROOM_VARIANCE, SQUARES, form_factors};
 use super::{Estimate, brightness, colors, error, picture, picture_by_chance};
-use run::figures;
+use run::expected;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
 #[test]
@@ -101,7 +101,7 @@ fn errors() {
         })
         .collect();
     draw("11_error.svg", (400, 380), &charts);
-    figures::hold("11_path_tracing/errors", held.into());
+    expected::hold("11_path_tracing/errors", held.into());
 }
 
 /// The root of the mean square over that of the picture's own colours.
@@ -125,7 +125,7 @@ fn biases() {
         println!("| depth {depth} | {error:.5} |");
         held.insert(format!("depth.{depth}"), error.into());
     }
-    figures::hold("11_path_tracing/biases", held.into());
+    expected::hold("11_path_tracing/biases", held.into());
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn noise() {
         held.insert(format!("clamp.{clamp}.error"), error.into());
         held.insert(format!("clamp.{clamp}.lost"), lost.into());
     }
-    figures::hold("11_path_tracing/noise", held.into());
+    expected::hold("11_path_tracing/noise", held.into());
 }
 
 #[test]
@@ -164,5 +164,5 @@ fn sums() {
         println!("| {frames} | {most:.1e} |");
         held.insert(frames.to_string(), most.into());
     }
-    figures::hold("11_path_tracing/sums", held.into());
+    expected::hold("11_path_tracing/sums", held.into());
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde_json::json;
 
 use super::NAME;
-use run::{command, copy_of_shaders, figures, render_by};
+use run::{command, copy_of_shaders, expected, render_by};
 
 /// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
 /// `vec4 answer`.
@@ -116,7 +116,7 @@ fn a_highlight_creates_no_energy() {
             assert!(plain * kept(n) < 1.002, "n {n}, {degrees}: {}", plain * kept(n));
         }
     }
-    figures::hold_exact("11_path_tracing/highlight", json!({ "more": most - 1.0 }));
+    expected::hold_exact("11_path_tracing/highlight", json!({ "more": most - 1.0 }));
     println!("05's highlight reflects up to {most:.4} of the light");
     assert!(most > 1.02, "the correction is for nothing: {most}");
 }

@@ -4,7 +4,7 @@ use common::app::Picture;
 use serde_json::{Map, Value};
 
 use super::{FOOTPRINTS, NAME, seen, view};
-use run::{figures, render};
+use run::{expected, render};
 
 const DISTANCES: [f64; 4] = [5.0, 20.0, 80.0, 320.0];
 const ANGLES: [f64; 3] = [90.0, 30.0, 10.0];
@@ -77,8 +77,8 @@ fn error_and_flicker_by_distance_and_angle() {
     }
     println!("truth: {truth_is_off:.4}");
     errors.insert("truth".into(), truth_is_off.into());
-    figures::hold("19_ray_cones/errors", Value::Object(errors));
-    figures::hold("19_ray_cones/flicker", Value::Object(flicker));
+    expected::hold("19_ray_cones/errors", Value::Object(errors));
+    expected::hold("19_ray_cones/flicker", Value::Object(flicker));
 }
 
 /// What a frame takes, over what it takes with a point.
@@ -105,5 +105,5 @@ fn time_by_distance_and_angle() {
     for (footprint, mean) in FOOTPRINTS.iter().zip(sums) {
         table.insert(format!("mean.{footprint}"), mean.into());
     }
-    figures::give_timed("19_ray_cones/times", Value::Object(table));
+    expected::give_timed("19_ray_cones/times", Value::Object(table));
 }

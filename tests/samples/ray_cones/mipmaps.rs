@@ -1,6 +1,6 @@
 //! The levels that the device has made of a texture.
 
-use common::scene::Texture;
+use common::model::Texture;
 
 use super::{NAME, floor};
 use run::{command, copy_of_shaders, render_by, replace_line};

@@ -7,7 +7,7 @@ use reference::occlusion::standing_box;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays};
-use run::{Run, figures, render, root};
+use run::{Run, expected, render, root};
 
 use super::NAME;
 
@@ -87,6 +87,6 @@ fn the_error_falls_faster_than_by_the_root_of_the_rays() {
         held.insert(format!("independent_{count}"), json!(independent));
         timed.insert(format!("ms_{count}"), run.report["gpu_milliseconds"]["median"].clone());
     }
-    figures::hold("17_ray_query_raster/occlusion", held.into());
-    figures::give_timed("17_ray_query_raster/occlusion_times", timed.into());
+    expected::hold("17_ray_query_raster/occlusion", held.into());
+    expected::give_timed("17_ray_query_raster/occlusion_times", timed.into());
 }

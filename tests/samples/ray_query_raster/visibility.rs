@@ -10,7 +10,7 @@ use reference::scene::Scene as Exact;
 use serde_json::json;
 
 use run::primary_hits::{answer, rays, reference};
-use run::{figures, render};
+use run::{expected, render};
 
 use super::NAME;
 
@@ -162,7 +162,7 @@ fn raster_and_rays_see_what_the_reference_sees_but_for_edges() {
     // A ray's edges are off by its roundings alone.
     assert!(rays.edges < raster.edges && rays.reach < 0.0002, "{rays:?}");
     assert!(raster.edges > 30, "{raster:?}");
-    figures::hold(
+    expected::hold(
         "17_ray_query_raster/visibility",
         json!({
             "pixels": 480 * 300,
@@ -219,5 +219,5 @@ fn reversed_floats_tell_near_from_far_where_others_do_not() {
         assert!(usual <= usual_most && short >= short_least, "{times}: {usual} {short}");
         assert!(times < 100.0 || usual > 500, "{usual}");
     }
-    figures::hold("17_ray_query_raster/depth", found.into());
+    expected::hold("17_ray_query_raster/depth", found.into());
 }

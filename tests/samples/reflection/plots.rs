@@ -5,7 +5,7 @@ use common::app::Picture;
 use serde_json::Map;
 
 use super::picture;
-use run::figures;
+use run::expected;
 use run::plot::{Shown, draw_panels};
 
 #[test]
@@ -49,5 +49,5 @@ fn table_of_depths() {
     let of = |name: &str| errors[name].as_f64().unwrap();
     let times = of("depth.4") / of("minimum.0.001953125");
     errors.insert("times".to_owned(), times.into());
-    figures::hold("06_reflection/errors", errors.into());
+    expected::hold("06_reflection/errors", errors.into());
 }

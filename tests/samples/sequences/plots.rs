@@ -6,7 +6,7 @@ use serde_json::Map;
 use super::converging::shrunk;
 use super::points::{Scrambling, Sequence, sample_point};
 use super::{error, run};
-use run::figures;
+use run::expected;
 use run::plot::{Axis, Chart, Series, Shown, draw, draw_panels};
 
 /// The sequences, each with the scrambling that suits it.
@@ -66,7 +66,7 @@ fn scrambling() {
         blocks.insert(format!("{side}.none"), none.into());
         blocks.insert(format!("{side}.Owen"), owen.into());
     }
-    figures::hold("37_sequences/blocks", blocks.into());
+    expected::hold("37_sequences/blocks", blocks.into());
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn errors() {
             shown.map(|i| format!("{:.4}", curve[i])).join(" | ")
         );
     }
-    figures::hold("37_sequences/errors", held.into());
+    expected::hold("37_sequences/errors", held.into());
     let x = Axis { label: "samples a pixel", ticks: &FRAMES.map(f64::from), logarithmic: true };
     let y = Axis {
         label: "root mean squared error",

@@ -8,7 +8,7 @@ use common::app::Picture;
 use serde_json::{Map, Value, json};
 
 use super::{FIRST_HIT, NAME};
-use run::{command, copy_of_shaders, figures, flat_shaders, replace_line};
+use run::{command, copy_of_shaders, expected, flat_shaders, replace_line};
 
 /// Runs by shaders with a line replaced, where rays leave triangles as they are.
 fn patched(file: &str, from: &str, to: &str, more: &[&str]) -> (Picture, f64) {
@@ -54,7 +54,7 @@ fn specks_come_where_the_bound_is_not_kept() {
     }
     println!("{lit} lit; dark by the offset's factor: {scaled:?}");
     scaled.insert("lit".to_owned(), lit.into());
-    figures::hold("05_shadow_miss/scaled", scaled.into());
+    expected::hold("05_shadow_miss/scaled", scaled.into());
 }
 
 fn is_lit(pixel: &[f32; 4]) -> bool {
@@ -81,7 +81,7 @@ fn the_hit_s_own_point_is_no_start() {
     let lit = right.pixels.iter().filter(|pixel| is_lit(pixel)).count();
     let acne = dark(&right, &shadow());
     println!("of {lit} lit, {acne} dark where the ray starts at o + t d");
-    figures::hold("05_shadow_miss/acne", json!({ "lit": lit, "dark": acne }));
+    expected::hold("05_shadow_miss/acne", json!({ "lit": lit, "dark": acne }));
     assert!(acne > lit / 10, "{acne} of {lit}");
 }
 
@@ -94,7 +94,7 @@ fn the_bound_in_time() {
          hit.height = 0.001;\n"
     );
     let time = |to: &str| patched("05_shadow_miss/shade.rchit", PLACED, to, &["--frames", "5"]).1;
-    figures::give_timed("05_shadow_miss/bound", ratio(|| time(PLACED) / time(&by_eye)));
+    expected::give_timed("05_shadow_miss/bound", ratio(|| time(PLACED) / time(&by_eye)));
 }
 
 /// A frame's time where shadow rays go on to the nearest hit, over that where the first hit ends them.
@@ -104,7 +104,7 @@ fn the_first_hit_in_time() {
     let [with, without] = FIRST_HIT;
     let low_sun = ["--frames", "5", "--set", "sun elevation=5"];
     let time = |to: &str| patched("common/shadow.glsl", with, to, &low_sun).1;
-    figures::give_timed("05_shadow_miss/flags", ratio(|| time(without) / time(with)));
+    expected::give_timed("05_shadow_miss/flags", ratio(|| time(without) / time(with)));
 }
 
 /// The middle of 20 ratios, and where the middle half of them lies.

@@ -1,6 +1,6 @@
 //! What a ray of 05_shadow_miss pays for: each part taken out in turn, on the clock and for GPUs' compilers.
 
-use run::{command, figures, shaders_with};
+use run::{command, expected, shaders_with};
 use serde_json::{Map, Value};
 use tempfile::TempDir;
 
@@ -93,6 +93,6 @@ fn what_a_ray_pays_for() {
             compiler = row["compiler"].as_str().expect("a compiler").to_owned();
         }
     }
-    figures::give_timed("prices/parts", taken.into());
-    figures::hold_compiled("prices/compiled_parts", &compiler, GENERATIONS, compiled.into());
+    expected::give_timed("prices/parts", taken.into());
+    expected::hold_compiled("prices/compiled_parts", &compiler, GENERATIONS, compiled.into());
 }

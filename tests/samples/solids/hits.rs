@@ -11,9 +11,9 @@ use serde_json::{Map, json};
 use super::counterpart::{counterpart, largest};
 use super::shapes::SHAPES;
 use super::stub::Stub;
-use super::tally::{Tally, at, figures};
+use super::tally::{Tally, at, values};
 use super::{FIELD_OF_VIEW, INSIDE, OUTSIDE, is_endless, shape};
-use run::figures as held;
+use run::expected as held;
 use run::primary_hits::rays;
 
 /// Holds views of solids to the exact ones.
@@ -57,7 +57,7 @@ fn hits_agree_with_the_exact_solid_from_outside_and_inside() {
     let (near, wrong) = (all.near, all.wrong.len());
     let counts = json!({ "hits": all.hits, "misses": all.misses, "near": near, "wrong": wrong });
     held::hold("22_solids/hits", counts);
-    let errors = [figures("planes", &all.planes), figures("balls", &all.balls)];
+    let errors = [values("planes", &all.planes), values("balls", &all.balls)];
     held::hold("22_solids/errors", errors.into_iter().flatten().collect::<Map<_, _>>().into());
 }
 
@@ -87,7 +87,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
                 }
             }
             println!("{rung:12} {place}: {tally}");
-            table.extend(figures(&format!("{rung}.{place}"), &tally.planes));
+            table.extend(values(&format!("{rung}.{place}"), &tally.planes));
             assert!(tally.wrong.is_empty() && tally.hits > 500, "{tally}, {:?}", tally.wrong);
             let worst = at(&tally.planes, 1.0);
             // Solids are small, and a ray that grazes a face sees little of it: the plainest sum is near.

@@ -65,7 +65,7 @@ impl Tally {
 }
 
 /// The errors' median, what 99 of 100 are below, and the largest, as figures for a page.
-pub fn figures(name: &str, errors: &[f64]) -> [(String, Value); 3] {
+pub fn values(name: &str, errors: &[f64]) -> [(String, Value); 3] {
     let part = |(figure, part)| (format!("{name}.{figure}"), at(errors, part).into());
     [("p50", 0.5), ("p99", 0.99), ("max", 1.0)].map(part)
 }

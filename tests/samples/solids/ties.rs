@@ -11,7 +11,7 @@ use super::stub::{Stub, text, with_kinds};
 use super::tally::Tally;
 use super::{FIELD_OF_VIEW, shape};
 use run::primary_hits::rays;
-use run::{bits, figures};
+use run::{bits, expected};
 
 const LARGER: &str = "120x75";
 
@@ -74,7 +74,7 @@ fn touching_flush_and_grazing_cutters_leave_no_crack() {
         wrong;
     let found = json!({ "halves_from_within": halves_from_within, "grazed_cube": grazed_cube,
                         "slotted_cube": slotted_cube, "overlap_of_halves": overlap_of_halves });
-    figures::hold("22_solids/ties", found);
+    expected::hold("22_solids/ties", found);
     for count in [grazed_cube, slotted_cube, overlap_of_halves, halves_from_within] {
         assert!(count > 100, "{wrong:?}");
     }
@@ -98,7 +98,7 @@ fn three_parts_around_a_line_crack_in_the_line_and_nowhere_else() {
         }
     }
     println!("{cracks} of 301 rays that meet the line stop there");
-    figures::hold("22_solids/cracks", json!({ "cracks": cracks, "rays": thirds.height }));
+    expected::hold("22_solids/cracks", json!({ "cracks": cracks, "rays": thirds.height }));
     // One plane is one number, but three numbers have an order, which rounding may choose.
     assert!(cracks > 0);
 }

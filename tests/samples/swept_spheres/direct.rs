@@ -84,8 +84,8 @@ pub struct Found {
 /// A device that computes as `arithmetic` says.
 pub fn device(arithmetic: Arithmetic) -> Gpu {
     let requirements = Requirements::ray_tracing();
-    let emulation = Arc::new(arithmetic);
-    Gpu::new(&GpuOptions { requirements, emulation, ..GpuOptions::default() }).expect("a device")
+    let driver_shim = Arc::new(arithmetic);
+    Gpu::new(&GpuOptions { requirements, driver_shim, ..GpuOptions::default() }).expect("a device")
 }
 
 /// The first hit of each ray by a rung, by the number that its shader knows it by.

@@ -12,7 +12,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 
 use common::gpu::shader::StageText;
-use common::gpu::{Emulation, Requirements, contraction};
+use common::gpu::{DriverShim, Requirements, contraction};
 use glam::Vec3;
 
 /// The name of a shader's own `main` while another calls it.
@@ -97,7 +97,7 @@ impl Arithmetic {
     }
 }
 
-impl Emulation for Arithmetic {
+impl DriverShim for Arithmetic {
     fn name(&self) -> &'static str {
         match self {
             Self::Driver => "driver",

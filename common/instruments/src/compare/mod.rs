@@ -14,9 +14,9 @@ use std::collections::HashMap;
 
 use anyhow::Result;
 use ash::vk;
+use common::UsageError;
 use common::app::{Bands, Progress, Run, controls};
 use common::gpu::Image;
-use common::usage::Usage;
 use serde::Serialize;
 
 /// Milliseconds that a launch has to take to be worth timing.
@@ -89,12 +89,12 @@ impl Ratio {
 ///
 /// # Errors
 /// If there is no name or fewer than two values.
-pub fn parse(text: &str) -> Result<(String, Vec<String>), Usage> {
+pub fn parse(text: &str) -> Result<(String, Vec<String>), UsageError> {
     let parts = text.split_once('=');
     let values = |list: &str| list.split('|').map(|value| value.trim().to_owned()).collect();
     match parts.map(|(name, list)| (name.trim().to_owned(), values(list))) {
         Some((name, values)) if !name.is_empty() && Vec::len(&values) > 1 => Ok((name, values)),
-        _ => Err(Usage(format!(
+        _ => Err(UsageError(format!(
             "--compare takes a control and its values, as NAME=A|B; not '{text}'"
         ))),
     }

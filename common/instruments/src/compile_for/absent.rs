@@ -10,7 +10,7 @@ use ash::vk;
 use serde::{Deserialize, Serialize};
 
 use common::gpu::{
-    Blueprint, Executable, Gpu, GpuOptions, Requirements, TextureTable, Vulkan, device,
+    Executable, Gpu, GpuOptions, PipelineDesc, Requirements, TextureTable, Vulkan, device,
 };
 
 /// What an absent card's driver has to say.
@@ -32,7 +32,7 @@ pub struct Answer {
 pub fn compile(
     requirements: &Requirements,
     family: &str,
-    blueprints: &[Blueprint],
+    descs: &[PipelineDesc],
 ) -> Result<Option<Answer>> {
     let requirements = requirements.clone().compiler_figures_where_offered();
     let vulkan = Vulkan::new(None, None)?;
@@ -44,21 +44,21 @@ pub fn compile(
     };
     ensure!(card.missing.is_empty(), "it lacks {}", card.missing.join(", "));
     let gpu = Gpu::open(vulkan, card, GpuOptions { requirements, ..GpuOptions::default() })?;
-    let pipelines: Result<_> = blueprints.iter().map(|blueprint| one(&gpu, blueprint)).collect();
+    let pipelines: Result<_> = descs.iter().map(|desc| one(&gpu, desc)).collect();
     let compiler = gpu.driver.clone();
     // "Null hardware" crashes where its queue is waited for: the device goes with the process.
     std::mem::forget(gpu);
     Ok(Some(Answer { compiler, pipelines: pipelines? }))
 }
 
-fn one(gpu: &Gpu, blueprint: &Blueprint) -> Result<Vec<Executable>> {
+fn one(gpu: &Gpu, desc: &PipelineDesc) -> Result<Vec<Executable>> {
     let properties = gpu.executable_properties.as_ref().context("its driver tells no figures")?;
-    let textures = blueprint.textures.map(|count| TextureTable::layout(gpu, count)).transpose()?;
-    let (set, layout) = blueprint.layouts(gpu, textures)?;
-    let mut blueprint = blueprint.clone();
-    blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
-    let made = blueprint.create(gpu, layout, vk::PipelineCache::null());
-    let made = made.with_context(|| format!("cannot make the pipeline '{}'", blueprint.name));
+    let textures = desc.textures.map(|count| TextureTable::layout(gpu, count)).transpose()?;
+    let (set, layout) = desc.layouts(gpu, textures)?;
+    let mut desc = desc.clone();
+    desc.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
+    let made = desc.create(gpu, layout, vk::PipelineCache::null());
+    let made = made.with_context(|| format!("cannot make the pipeline '{}'", desc.name));
     let executables = made.and_then(|pipeline| {
         let executables = Executable::all(properties, pipeline);
         // SAFETY: nothing uses it.

@@ -17,10 +17,10 @@ use clap::ValueEnum;
 use serde::Serialize;
 
 use absent::Answer;
-use common::gpu::{Blueprint, Executable, Requirements};
+use common::gpu::{Executable, PipelineDesc, Requirements};
 use common::output;
 
-use crate::guard::child::{self, Crashed};
+use crate::exit::child::{self, Crashed};
 
 /// What is asked of compilers.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -98,11 +98,11 @@ pub struct CompiledFor {
 ///
 /// # Errors
 /// If there is no RADV, with what to install, or if it refuses a pipeline.
-pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<CompiledFor>> {
-    let mut different: Vec<&Blueprint> = Vec::new();
-    for blueprint in blueprints {
-        if !different.contains(&&**blueprint) {
-            different.push(blueprint);
+pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<CompiledFor>> {
+    let mut different: Vec<&PipelineDesc> = Vec::new();
+    for desc in descs {
+        if !different.contains(&&**desc) {
+            different.push(desc);
         }
     }
     let mut pipelines = programs(family, &different)?;
@@ -124,17 +124,17 @@ pub fn compile_for(family: Family, blueprints: &[Arc<Blueprint>]) -> Result<Vec<
 ///
 /// # Errors
 /// As [`compile_for`].
-pub fn programs(family: Family, blueprints: &[&Blueprint]) -> Result<Vec<Vec<CompiledFor>>> {
+pub fn programs(family: Family, descs: &[&PipelineDesc]) -> Result<Vec<Vec<CompiledFor>>> {
     let manifest = manifest()?;
-    let mut all = vec![Vec::new(); blueprints.len()];
+    let mut all = vec![Vec::new(); descs.len()];
     for &family in family.names() {
-        let question = serde_json::to_vec(&(family, blueprints))?;
+        let question = serde_json::to_vec(&(family, descs))?;
         let answer = ask(family, &manifest, &question)
             .with_context(|| format!("cannot compile for {family}"))?;
         ensure!(answer.pipelines.len() == all.len(), "{family} has answered about too few");
-        for ((rows, programs), blueprint) in all.iter_mut().zip(answer.pipelines).zip(blueprints) {
+        for ((rows, programs), desc) in all.iter_mut().zip(answer.pipelines).zip(descs) {
             for program in &programs {
-                let name = blueprint.name.clone();
+                let name = desc.name.clone();
                 rows.push(CompiledFor::new(family, &answer.compiler, name, program)?);
             }
         }
@@ -148,10 +148,10 @@ pub fn programs(family: Family, blueprints: &[&Blueprint]) -> Result<Vec<Vec<Com
 /// If it refuses.
 pub fn answer(requirements: &Requirements) -> Result<()> {
     child::bind();
-    let (family, blueprints): (String, Vec<Blueprint>) =
+    let (family, descs): (String, Vec<PipelineDesc>) =
         serde_json::from_reader(std::io::stdin().lock())
             .context("no pipelines on standard input")?;
-    let answer = absent::compile(requirements, &family, &blueprints)?;
+    let answer = absent::compile(requirements, &family, &descs)?;
     output::print(&serde_json::to_string(&answer)?)
 }
 

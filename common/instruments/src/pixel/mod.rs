@@ -11,11 +11,11 @@ use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail};
-use ash::vk::BufferUsageFlags as Usage;
+use ash::vk::BufferUsageFlags as UsageError;
+use common::UsageError as Wrong;
 use common::app::{Args, Clicked, Run};
 use common::gpu::{Buffer, Gpu, GpuOptions};
 use common::output;
-use common::usage::Usage as Wrong;
 
 use self::log::{Log, WORDS};
 use self::stages::Stages;
@@ -90,7 +90,7 @@ impl Probe {
     /// Changes what a device is opened with.
     pub fn device(&self, options: &mut GpuOptions) {
         options.prints = true;
-        options.emulation = self.stages.clone();
+        options.driver_shim = self.stages.clone();
     }
 
     /// Makes the log on a device.
@@ -98,10 +98,10 @@ impl Probe {
     /// # Errors
     /// If memory is short.
     pub fn open(&self, gpu: &Gpu) -> Result<()> {
-        let usage = Usage::SHADER_DEVICE_ADDRESS
-            | Usage::STORAGE_BUFFER
-            | Usage::TRANSFER_SRC
-            | Usage::TRANSFER_DST;
+        let usage = UsageError::SHADER_DEVICE_ADDRESS
+            | UsageError::STORAGE_BUFFER
+            | UsageError::TRANSFER_SRC
+            | UsageError::TRANSFER_DST;
         let log = Buffer::new(gpu, "ray log", 4 * (WORDS + 1), usage)?;
         self.stages.place(log.address);
         *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = Some((gpu.clone(), log));

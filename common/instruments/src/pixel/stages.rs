@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::Result;
 use ash::vk::ShaderStageFlags as Kind;
 use common::gpu::shader::{self, StageText, to_spirv};
-use common::gpu::{Emulation, contraction};
+use common::gpu::{DriverShim, contraction};
 
 use super::log::{ANY_HIT, BACK, HIT, MANY, MISS, PRINT, RAY, WORDS};
 
@@ -66,7 +66,7 @@ impl Stages {
     }
 }
 
-impl Emulation for Stages {
+impl DriverShim for Stages {
     fn words(&self, stage: &StageText) -> Result<Vec<u32>> {
         let address = self.address.load(Ordering::Relaxed);
         let text = logging(shader::stage(stage.path)?, &stage.text, self.number(stage), address);

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use serde::Serialize;
 
+use common::UsageError;
 use common::app::Run;
 use common::files::write_whole;
 use common::gpu::Executable;
 use common::output;
-use common::usage::Usage;
 
 use crate::compare::Comparison;
 use crate::compile_for::CompiledFor;
@@ -45,15 +45,15 @@ impl Options {
     /// Refuses a file that is no JSON by its name.
     ///
     /// # Errors
-    /// [`Usage`], with what would be right.
-    pub fn check(&self) -> Result<(), Usage> {
+    /// [`UsageError`], with what would be right.
+    pub fn check(&self) -> Result<(), UsageError> {
         let is_json =
             |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
         match self.file().filter(|path| !is_json(path)) {
             None => Ok(()),
             Some(report) => {
                 let line = "a report is .json, or - for standard output";
-                Err(Usage(format!("--report {}: {line}", report.display())))
+                Err(UsageError(format!("--report {}: {line}", report.display())))
             }
         }
     }
@@ -150,7 +150,7 @@ impl Report {
             device: gpu.name.clone(),
             driver: gpu.driver.clone(),
             limits: Limits::of(gpu),
-            arithmetic: gpu.emulation.name().to_owned(),
+            arithmetic: gpu.driver_shim.name().to_owned(),
             width,
             height,
             frames: if run.apart { times.len() as u32 } else { args.frames },

@@ -14,13 +14,13 @@ use ash::vk;
 use glam::UVec2;
 
 use super::{Header, Origin, SampleSet, Spoiled, Sums, range};
-use crate::guard::{Interrupt, Stopped};
+use crate::exit::{Interrupt, Stopped};
+use common::UsageError;
 use common::app::{Args, Run, controls};
 use common::gpu::{
-    Address, Binding, Blueprint, Buffer, ComputePipeline, Descriptor, Gpu, Image, barrier,
+    Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, Image, PipelineDesc, barrier,
 };
-use common::scene::text::{opened, shown};
-use common::usage::Usage;
+use common::model::text::{opened, shown};
 use common::{files, output};
 
 /// Which samples are rendered, and where their sums are kept.
@@ -53,11 +53,11 @@ impl Options {
     /// would keep nothing of its samples, perhaps after days.
     ///
     /// # Errors
-    /// [`Usage`], with what would be right.
-    pub fn check(&self, is_kept: bool) -> Result<(), Usage> {
+    /// [`UsageError`], with what would be right.
+    pub fn check(&self, is_kept: bool) -> Result<(), UsageError> {
         if let (Some(path), None) = (&self.save, &self.samples) {
             let path = path.display();
-            return Err(Usage(format!(
+            return Err(UsageError(format!(
                 "--save {path}: it keeps sums of samples: say which, --samples A..B; a picture is written by --out FILE"
             )));
         }
@@ -65,14 +65,14 @@ impl Options {
         if let Some(path) = &self.save {
             let ends = |end: &&str| path.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
             if others.iter().any(ends) || path.as_os_str() == "-" {
-                return Err(Usage(format!(
+                return Err(UsageError(format!(
                     "--save {}: sums of samples are no picture; name the file .sums, and the picture by --out",
                     path.display()
                 )));
             }
         }
         if self.samples.is_some() && self.save.is_none() && !is_kept {
-            return Err(Usage(
+            return Err(UsageError(
                 "--samples keeps nothing: name a file for the picture, --out, or for the sums, --save"
                     .to_owned(),
             ));
@@ -149,7 +149,9 @@ impl Gather {
             let when = if args.sets.is_empty() { "" } else { " with these values of --set" };
             let why = "each of its frames is a picture of its own, not a sample of one";
             let which = "docs/long-renders.md names the chapters that gather samples";
-            return Err(Usage(format!("{name} takes no --samples{when}: {why}; {which}")).into());
+            return Err(
+                UsageError(format!("{name} takes no --samples{when}: {why}; {which}")).into()
+            );
         }
         let interrupt = options.save.as_ref().map(|_| Interrupt::listen());
         let origin = origin(run)?;
@@ -237,7 +239,7 @@ impl Gather {
         if std::mem::replace(&mut self.has_added, true) {
             return Ok(());
         }
-        let shaders = Some(crc_of(&gpu.statistics().blueprints));
+        let shaders = Some(crc_of(&gpu.statistics().descs));
         let here = Origin { shaders, ..self.header.origin.clone() };
         fit(&self.resumed, &self.header.origin, &here)?;
         self.header.origin = here;
@@ -343,14 +345,14 @@ fn origin(run: &mut Run) -> Result<Origin> {
         shaders: None,
         device: gpu.name.clone(),
         driver: gpu.driver.clone(),
-        arithmetic: gpu.emulation.name().to_owned(),
+        arithmetic: gpu.driver_shim.name().to_owned(),
     })
 }
 
 /// The CRC-32 of the SPIR-V and the constants of pipelines.
-fn crc_of(pipelines: &[Arc<Blueprint>]) -> u32 {
+fn crc_of(pipelines: &[Arc<PipelineDesc>]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
-    for Blueprint { stages, constants, .. } in pipelines.iter().map(AsRef::as_ref) {
+    for PipelineDesc { stages, constants, .. } in pipelines.iter().map(AsRef::as_ref) {
         stages.iter().for_each(|stage| hasher.update(bytemuck::cast_slice(&stage.words)));
         hasher.update(bytemuck::cast_slice(constants));
     }

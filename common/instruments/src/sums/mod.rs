@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use common::app::Picture;
 use common::files::write_whole;
-use common::scene::text::{regular, shown};
+use common::model::text::{regular, shown};
 
 pub use gather::{Gather, Options, resumed};
 pub use origin::{Difference, Origin};

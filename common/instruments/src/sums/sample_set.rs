@@ -188,8 +188,8 @@ mod tests {
             let pairs: Vec<_> = (0..100_000).map(|i| [first + 4 * i, first + 4 * i + 1]).collect();
             pairs.try_into().unwrap()
         };
-        let work = patience::Work::of_this_thread();
-        let (start, limit) = (std::time::Instant::now(), patience::Limit::worked(5));
+        let work = time_limit::Work::of_this_thread();
+        let (start, limit) = (std::time::Instant::now(), time_limit::Limit::worked(5));
         let mut samples = every(0);
         assert!(!samples.contain(&every(2)) && samples.contain(&every(0)));
         samples.add(&every(2)).unwrap();

@@ -33,8 +33,8 @@ use winit::window::WindowId;
 
 use self::lost::{Choice, Lost};
 use self::session::Session;
-use super::{Args, Program, Watch};
-use crate::usage::Usage;
+use super::{Args, Program, RunHooks};
+use crate::UsageError;
 
 /// Pixels of a window's side: X11 counts in signed 16 bits.
 const MOST_SIDE: u32 = 32_767;
@@ -50,18 +50,18 @@ enum Wake {
 /// Opens a window for a sample and returns when it is closed.
 ///
 /// # Errors
-/// On wrong arguments ([`Usage`]), without a display, if anything fails, or if validation had something
+/// On wrong arguments ([`UsageError`]), without a display, if anything fails, or if validation had something
 /// to say.
-pub fn open(program: &Program, args: &Args, watch: &dyn Watch) -> Result<()> {
+pub fn open(program: &Program, args: &Args, watch: &dyn RunHooks) -> Result<()> {
     if args.out.is_some() || !watch.files().outputs.is_empty() {
         let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
-        return Err(Usage(hint.to_owned()).into());
+        return Err(UsageError(hint.to_owned()).into());
     }
     let (width, height) = (args.size.width, args.size.height);
     if width.max(height) > MOST_SIDE {
         let most =
             format!("{width}x{height} is too large for a window: at most {MOST_SIDE} a side");
-        return Err(Usage(most).into());
+        return Err(UsageError(most).into());
     }
     log_if_asked();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
@@ -109,7 +109,7 @@ enum Shown {
 struct Of<'a> {
     program: &'a Program,
     args: &'a Args,
-    watch: &'a dyn Watch,
+    watch: &'a dyn RunHooks,
 }
 
 struct Shows<'a> {

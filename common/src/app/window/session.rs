@@ -97,7 +97,7 @@ impl Session {
                 name: of.program.name.to_owned(),
                 device: gpu.name.clone(),
                 software: gpu.software,
-                arithmetic: gpu.emulation.name(),
+                arithmetic: gpu.driver_shim.name(),
                 ..Facts::default()
             },
             reload: Reload::new(proxy),
@@ -247,7 +247,7 @@ impl Session {
         if let Err(error) = self.reload.learn(&statistics.stages()) {
             self.panel.error = Some(format!("{error:#}"));
         }
-        if !statistics.blueprints.is_empty() {
+        if !statistics.descs.is_empty() {
             self.facts.programs = statistics.executables;
         }
         self.facts.warnings = statistics.warnings.into_iter().map(|(_, line)| line).collect();

@@ -9,7 +9,7 @@ use ash::vk;
 use super::place::{OFFSET_ALIGNMENT, place, together};
 use super::plan::Plan;
 use super::{AccelerationStructure, BuildOptions, Input, compaction};
-use crate::gpu::buffer::offsets;
+use crate::gpu::memory::buffer::offsets;
 use crate::gpu::queries::Queries;
 use crate::gpu::{Buffer, Geometry, Gpu, barrier};
 

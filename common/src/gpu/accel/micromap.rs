@@ -5,7 +5,7 @@ use ash::vk;
 
 use super::build::scratch_buffer;
 use super::place::OFFSET_ALIGNMENT;
-use crate::gpu::micromap::{
+use crate::gpu::accel::micromap_extension::{
     self, CreateAccelerationStructure2, CreateInfo2, INPUT_ALIGNMENT, MicromapData,
     MicromapTriangle, MicromapUsage, TrianglesMicromap,
 };
@@ -48,14 +48,14 @@ impl OpacityMicromap {
         let triangle = |i: usize| MicromapTriangle {
             data_offset: (i * bytes) as u32,
             subdivision_level: level as u16,
-            format: micromap::FORMAT_4_STATE,
+            format: micromap_extension::FORMAT_4_STATE,
         };
         let triangles: Vec<_> = (0..count).map(triangle).collect();
         // ANCHOR: input
         // Only the build reads them; they are freed at the end of this function.
         let (_states, data) = input(gpu, states)?;
         let (_triangles, triangle_array) = input(gpu, bytemuck::cast_slice(&triangles))?;
-        let format = micromap::FORMAT_4_STATE.into();
+        let format = micromap_extension::FORMAT_4_STATE.into();
         let usage = MicromapUsage { count: count as u32, subdivision_level: level, format };
         let input = MicromapData {
             usage_counts_count: 1,
@@ -71,11 +71,11 @@ impl OpacityMicromap {
     fn build(gpu: &Gpu, name: &str, input: &MicromapData) -> Result<Self> {
         let geometry = vk::AccelerationStructureGeometryKHR {
             p_next: std::ptr::from_ref(input).cast(),
-            geometry_type: micromap::GEOMETRY_TYPE,
+            geometry_type: micromap_extension::GEOMETRY_TYPE,
             ..Default::default()
         };
         let info = vk::AccelerationStructureBuildGeometryInfoKHR::default()
-            .ty(micromap::TYPE)
+            .ty(micromap_extension::TYPE)
             .flags(vk::BuildAccelerationStructureFlagsKHR::PREFER_FAST_TRACE)
             .geometries(std::slice::from_ref(&geometry));
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
@@ -122,7 +122,8 @@ impl OpacityMicromap {
         let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
             | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let (_buffer, address) = aligned(gpu, name, size, OFFSET_ALIGNMENT, usage)?;
-        let info = CreateInfo2 { address, size, ty: micromap::TYPE, ..CreateInfo2::default() };
+        let info =
+            CreateInfo2 { address, size, ty: micromap_extension::TYPE, ..CreateInfo2::default() };
         let mut handle = vk::AccelerationStructureKHR::null();
         // SAFETY: the buffer has room there and lives as long as the structure.
         unsafe { create(device, &raw const info, std::ptr::null(), &raw mut handle) }.result()?;

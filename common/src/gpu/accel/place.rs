@@ -6,7 +6,7 @@ use anyhow::Result;
 use ash::vk;
 
 use super::{AccelerationStructure, Plan};
-use crate::gpu::buffer::offsets;
+use crate::gpu::memory::buffer::offsets;
 use crate::gpu::pipeline::Asked;
 use crate::gpu::{Buffer, Gpu};
 

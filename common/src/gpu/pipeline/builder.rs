@@ -9,20 +9,20 @@ use ash::vk;
 
 use super::hit_group::HitGroup;
 use super::{ComputePipeline, GraphicsPipeline, Pipeline, RayTracingPipeline};
-use crate::gpu::agreement;
-use crate::gpu::blueprint::{Binding, Blueprint, Group, Stage};
-use crate::gpu::enumeration::ShaderConstant;
-use crate::gpu::layout::{Known, ShaderStruct, StructLayout};
-use crate::gpu::shader::{self, Shader, StageText};
-use crate::gpu::texture::TextureTable;
+use crate::gpu::check::interface_check;
+use crate::gpu::memory::texture::TextureTable;
+use crate::gpu::pipeline::desc::{Binding, Group, PipelineDesc, Stage};
+use crate::gpu::pipeline::enumeration::ShaderConstant;
+use crate::gpu::pipeline::layout::{Known, ShaderStruct, StructLayout};
+use crate::gpu::pipeline::shader::{self, Shader, StageText};
 use crate::gpu::{Executable, Gpu};
 
-/// Fills a [`Blueprint`] line by line. Begin with [`RayTracingPipeline::builder`],
+/// Fills a [`PipelineDesc`] line by line. Begin with [`RayTracingPipeline::builder`],
 /// [`ComputePipeline::builder`] or [`GraphicsPipeline::builder`].
 #[derive(Default)]
 pub struct PipelineBuilder<'a> {
     /// What the pipeline is made from; its stages get their words last.
-    blueprint: Blueprint,
+    desc: PipelineDesc,
     /// How many groups it has of each kind: raygen, miss, hit, callable.
     groups: [usize; 4],
     workgroup: [u32; 2],
@@ -34,8 +34,8 @@ pub struct PipelineBuilder<'a> {
 
 impl<'a> PipelineBuilder<'a> {
     pub(super) fn new(name: &str) -> Self {
-        let blueprint = Blueprint { name: name.to_owned(), recursion: 1, ..Blueprint::default() };
-        Self { blueprint, workgroup: [1, 1], ..Self::default() }
+        let desc = PipelineDesc { name: name.to_owned(), recursion: 1, ..PipelineDesc::default() };
+        Self { desc, workgroup: [1, 1], ..Self::default() }
     }
 
     /// Adds a ray generation shader; `vkCmdTraceRaysKHR` starts the first.
@@ -68,7 +68,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Adds a group behind those of its kind.
     fn group(mut self, kind: usize, group: Group) -> Self {
         let at = self.groups[..=kind].iter().sum();
-        self.blueprint.groups.insert(at, group);
+        self.desc.groups.insert(at, group);
         self.groups[kind] += 1;
         self
     }
@@ -76,7 +76,7 @@ impl<'a> PipelineBuilder<'a> {
     /// The number of a stage: each is compiled once, however many groups have it. It lies in the folder of
     /// the pipeline's name, or where its path below `shaders/` says.
     fn stage(&mut self, shader: &str) -> u32 {
-        let Blueprint { name, stages, .. } = &mut self.blueprint;
+        let PipelineDesc { name, stages, .. } = &mut self.desc;
         let path = match shader.contains('/') {
             true => shader.to_owned(),
             false => format!("{name}/{shader}"),
@@ -98,14 +98,14 @@ impl<'a> PipelineBuilder<'a> {
     /// compute shader names as its `local_size_x_id` and `local_size_y_id`.
     pub fn workgroup(mut self, id: u32, size: [u32; 2]) -> Self {
         self.workgroup = size;
-        self.blueprint.constants.extend([[id, size[0]], [id + 1, size[1]]]);
+        self.desc.constants.extend([[id, size[0]], [id + 1, size[1]]]);
         self
     }
 
     /// Sets the vertex shader.
     pub fn vertex(mut self, shader: &str) -> Self {
         self.stage(shader);
-        self.blueprint.stages.rotate_right(1);
+        self.desc.stages.rotate_right(1);
         self
     }
 
@@ -117,34 +117,34 @@ impl<'a> PipelineBuilder<'a> {
 
     /// Adds the next colour attachment, which takes the place of what was there: nothing is blended.
     pub fn color(mut self, format: vk::Format) -> Self {
-        let attachments = self.blueprint.attachments.get_or_insert_default();
+        let attachments = self.desc.attachments.get_or_insert_default();
         attachments.colors.push(format.as_raw());
         self
     }
 
     /// Sets the depth attachment, and what a fragment's depth has to be against the one that is there.
     pub fn depth(mut self, format: vk::Format, compare: vk::CompareOp) -> Self {
-        let attachments = self.blueprint.attachments.get_or_insert_default();
+        let attachments = self.desc.attachments.get_or_insert_default();
         attachments.depth = Some((format.as_raw(), compare.as_raw()));
         self
     }
 
     /// Adds the next binding of set 0.
     pub fn binding(mut self, binding: Binding) -> Self {
-        self.blueprint.bindings.push(binding);
+        self.desc.bindings.push(binding);
         self
     }
 
     /// Makes set 1 the texture table.
     pub fn textures(mut self, textures: &'a TextureTable) -> Self {
-        self.blueprint.textures = Some(textures.count());
+        self.desc.textures = Some(textures.count());
         self.textures = Some(textures);
         self
     }
 
     /// Declares the push constants, checked against the block of the same name in every shader.
     pub fn push_constants<T: ShaderStruct>(mut self) -> Self {
-        self.blueprint.push_size = T::LAYOUT.size as u32;
+        self.desc.push_size = T::LAYOUT.size as u32;
         T::reach(&mut self.known);
         self
     }
@@ -164,7 +164,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Sets the specialization constant `id` in every stage that has it. The names that shaders have for
     /// an enumeration's numbers are checked against it.
     pub fn constant<T: ShaderConstant>(mut self, id: u32, value: T) -> Self {
-        self.blueprint.constants.push([id, value.bits()]);
+        self.desc.constants.push([id, value.bits()]);
         T::ENUM.into_iter().for_each(|layout| self.known.add_enum(layout));
         self
     }
@@ -177,7 +177,7 @@ impl<'a> PipelineBuilder<'a> {
 
     /// How deep `traceRayEXT` nests: 1 is a ray from the raygen shader, 2 a ray from its hit.
     pub fn recursion(mut self, depth: u32) -> Self {
-        self.blueprint.recursion = depth;
+        self.desc.recursion = depth;
         self
     }
 
@@ -192,7 +192,7 @@ impl<'a> PipelineBuilder<'a> {
     /// by `#ifdef ROUNDING_MODE_RTE`.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
         let can = gpu.limits.vulkan12.shader_rounding_mode_rte_float32 == vk::TRUE;
-        match can && gpu.emulation.rounds_to_nearest_even() {
+        match can && gpu.driver_shim.rounds_to_nearest_even() {
             true => self.define("ROUNDING_MODE_RTE", 1),
             false => self,
         }
@@ -201,7 +201,7 @@ impl<'a> PipelineBuilder<'a> {
     /// Promises that rays shall skip all triangles, or all boxes: where the device has
     /// `rayTraversalPrimitiveCulling`, and only one of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
-        self.blueprint.flags |= flags.as_raw();
+        self.desc.flags |= flags.as_raw();
         self
     }
 
@@ -209,7 +209,7 @@ impl<'a> PipelineBuilder<'a> {
     pub fn opacity_micromaps(mut self, meets: bool) -> Self {
         if meets {
             let flag = vk::PipelineCreateFlags::RAY_TRACING_OPACITY_MICROMAP_EXT;
-            self.blueprint.flags |= flag.as_raw();
+            self.desc.flags |= flag.as_raw();
         }
         self
     }
@@ -221,7 +221,7 @@ impl<'a> PipelineBuilder<'a> {
     /// has not declared what lies at an address, the device allows less recursion, or there are more push
     /// constants than the sample's requirements say.
     pub fn build(self, gpu: &Gpu) -> Result<RayTracingPipeline> {
-        let Blueprint { name, recursion, .. } = &self.blueprint;
+        let PipelineDesc { name, recursion, .. } = &self.desc;
         let limit = gpu.limits.max_ray_recursion_depth;
         ensure!(
             *recursion <= limit,
@@ -241,14 +241,14 @@ impl<'a> PipelineBuilder<'a> {
     /// As [`build`](Self::build); if there is no compute shader, or a workgroup is larger than the device
     /// takes.
     pub fn build_compute(self, gpu: &Gpu) -> Result<ComputePipeline> {
-        let (name, workgroup @ [width, height]) = (&self.blueprint.name, self.workgroup);
+        let (name, workgroup @ [width, height]) = (&self.desc.name, self.workgroup);
         let limit = gpu.limits.core.max_compute_work_group_invocations;
         ensure!(
             width * height <= limit,
             "pipeline '{name}' has workgroups of {width}x{height} invocations; {} takes {limit}",
             gpu.name
         );
-        ensure!(!self.blueprint.stages.is_empty(), "a compute pipeline without a shader");
+        ensure!(!self.desc.stages.is_empty(), "a compute pipeline without a shader");
         Ok(ComputePipeline { workgroup, pipeline: self.pipeline(gpu)? })
     }
 
@@ -257,7 +257,7 @@ impl<'a> PipelineBuilder<'a> {
     /// # Errors
     /// As [`build`](Self::build); if there is no vertex or no fragment shader.
     pub fn build_graphics(mut self, gpu: &Gpu) -> Result<GraphicsPipeline> {
-        let Blueprint { name, stages, attachments, .. } = &mut self.blueprint;
+        let PipelineDesc { name, stages, attachments, .. } = &mut self.desc;
         let kinds = stages.iter().map(|stage| shader::stage(&stage.path));
         let kinds: Vec<_> = kinds.collect::<Result<_>>()?;
         ensure!(
@@ -271,59 +271,59 @@ impl<'a> PipelineBuilder<'a> {
     /// Compiles each stage and makes the pipeline of what has been filled in.
     fn pipeline(self, gpu: &Gpu) -> Result<Pipeline> {
         let start = Instant::now();
-        let Self { mut blueprint, groups, textures, known, defines, as_written, .. } = self;
+        let Self { mut desc, groups, textures, known, defines, as_written, .. } = self;
         let mut shaders = Vec::new();
-        for Stage { path, .. } in &blueprint.stages {
+        for Stage { path, .. } in &desc.stages {
             shaders.push(Shader::of(path, &defines, |stage| {
-                let pipeline = Some(&blueprint);
-                gpu.emulation.words(&StageText { as_written, pipeline, ..stage })
+                let pipeline = Some(&desc);
+                gpu.driver_shim.words(&StageText { as_written, pipeline, ..stage })
             })?);
         }
-        let (push_size, most) = (blueprint.push_size, gpu.requirements.push_constants);
+        let (push_size, most) = (desc.push_size, gpu.requirements.push_constants);
         ensure!(
             push_size <= most,
             "pipeline '{}' has {push_size} bytes of push constants, and its sample asks for {most}: more \
              is to be said in requirements(), so that devices are chosen by it",
-            blueprint.name
+            desc.name
         );
-        let warnings = agreement::check(&blueprint, groups, &shaders, &known)?;
-        gpu.warn(&blueprint.name, warnings);
-        for (stage, shader) in blueprint.stages.iter_mut().zip(shaders) {
+        let warnings = interface_check::check(&desc, groups, &shaders, &known)?;
+        gpu.warn(&desc.name, warnings);
+        for (stage, shader) in desc.stages.iter_mut().zip(shaders) {
             (stage.stage, stage.words) = (shader.stage.as_raw(), shader.spirv);
         }
         if gpu.executable_properties.is_some() {
-            blueprint.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
+            desc.flags |= vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR.as_raw();
         }
-        let (set_layout, layout) = blueprint.layouts(gpu, textures.map(|table| table.layout))?;
+        let (set_layout, layout) = desc.layouts(gpu, textures.map(|table| table.layout))?;
         let mut pipeline = Pipeline {
             handle: vk::Pipeline::null(),
             layout,
             set_layout,
             textures: textures.map(|table| table.set),
-            blueprint: Arc::new(blueprint),
+            desc: Arc::new(desc),
             build_time: Duration::ZERO,
             gpu: gpu.clone(),
         };
-        let blueprint = pipeline.blueprint.clone();
-        let cannot = || format!("cannot make the pipeline '{}'", blueprint.name);
-        let made = blueprint.create(gpu, layout, gpu.pipeline_cache.handle);
+        let desc = pipeline.desc.clone();
+        let cannot = || format!("cannot make the pipeline '{}'", desc.name);
+        let made = desc.create(gpu, layout, gpu.pipeline_cache.handle);
         pipeline.handle = made.with_context(cannot)?;
-        gpu.name_object(pipeline.handle, &blueprint.name);
-        gpu.name_object(layout, &blueprint.name);
-        gpu.name_object(set_layout, &blueprint.name);
+        gpu.name_object(pipeline.handle, &desc.name);
+        gpu.name_object(layout, &desc.name);
+        gpu.name_object(set_layout, &desc.name);
         pipeline.build_time = start.elapsed();
         if let Some(device) = &gpu.executable_properties {
             // A driver that does not tell has made the pipeline all the same.
             let executables = Executable::all(device, pipeline.handle).unwrap_or_else(|error| {
                 let line = format!("{} tells no figures of its compiler: {error}", gpu.name);
-                gpu.warn(&blueprint.name, vec![line]);
+                gpu.warn(&desc.name, vec![line]);
                 Vec::new()
             });
             gpu.count(|statistics| statistics.executables = executables);
         }
         gpu.count(|statistics| {
             statistics.pipeline_time += pipeline.build_time;
-            statistics.blueprints.push(blueprint);
+            statistics.descs.push(desc);
         });
         Ok(pipeline)
     }

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::gpu::blueprint::Group;
+use crate::gpu::pipeline::desc::Group;
 
 /// A hit group: what happens where a ray meets one kind of geometry.
 #[derive(Clone, Copy, Default)]

@@ -9,7 +9,7 @@ use crate::device::function;
 use crate::record::{Record, finest, record};
 use crate::structures::{
     BUILD_FLAGS, MICROMAP, MICROMAP_DATA, MicromapData, TRIANGLES_MICROMAP, Triangle,
-    TrianglesMicromap, Usage,
+    TrianglesMicromap, UsageError,
 };
 
 /// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`.
@@ -18,7 +18,7 @@ const FOUR_STATES: u32 = 2;
 /// What a micromap is built of.
 pub struct Input<'a> {
     data: &'a MicromapData,
-    usages: &'a [Usage],
+    usages: &'a [UsageError],
 }
 
 impl<'a> Input<'a> {
@@ -41,7 +41,7 @@ impl<'a> Input<'a> {
             record.hold(data.kind == MICROMAP_DATA && data.next.is_null(), "MicromapData");
             record.hold(data.usage_pointers.is_null(), "one of the two arrays of usages");
             let usages = std::slice::from_raw_parts(data.usages, data.usage_count as usize);
-            let fits = |usage: &Usage| usage.format == FOUR_STATES && usage.level <= finest();
+            let fits = |usage: &UsageError| usage.format == FOUR_STATES && usage.level <= finest();
             record.hold(usages.iter().all(fits), "format and level of usages");
             let stride = data.stride;
             record.hold(stride >= 8 && stride.is_multiple_of(4), "triangleArrayStride");
@@ -79,8 +79,9 @@ impl<'a> Input<'a> {
                 let at = (data + u64::from(offset)) as *const u8;
                 bytes.extend_from_slice(std::slice::from_raw_parts(at, size));
                 finest = finest.max(level);
-                let is =
-                    |usage: &Usage| (usage.level, usage.format) == (level.into(), format.into());
+                let is = |usage: &UsageError| {
+                    (usage.level, usage.format) == (level.into(), format.into())
+                };
                 if let Some((_, count)) = counts.iter_mut().find(|(usage, _)| is(usage)) {
                     *count += 1;
                 }

@@ -52,8 +52,8 @@ pub struct MicromapData {
     pub kind: i32,
     pub next: *const c_void,
     pub usage_count: u32,
-    pub usages: *const Usage,
-    pub usage_pointers: *const *const Usage,
+    pub usages: *const UsageError,
+    pub usage_pointers: *const *const UsageError,
     pub data: u64,
     pub triangles: u64,
     pub stride: u64,
@@ -61,7 +61,7 @@ pub struct MicromapData {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct Usage {
+pub struct UsageError {
     pub count: u32,
     pub level: u32,
     pub format: u32,

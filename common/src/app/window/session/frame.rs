@@ -7,7 +7,7 @@ use ash::vk;
 use egui::{FullOutput, ViewportId};
 
 use super::Session;
-use crate::app::Watch;
+use crate::app::RunHooks;
 use crate::app::window::keys::Ask;
 use crate::app::window::panel::Outcome;
 use crate::app::window::stepped::Stepped;
@@ -24,7 +24,7 @@ impl Session {
     ///
     /// # Errors
     /// If the sample, the device or the window system fails.
-    pub fn draw(&mut self, watch: &dyn Watch) -> Result<bool> {
+    pub fn draw(&mut self, watch: &dyn RunHooks) -> Result<bool> {
         for _ in 0..TRIES {
             if let Some(go_on) = self.try_to_draw(watch)? {
                 return Ok(go_on);
@@ -34,7 +34,7 @@ impl Session {
     }
 
     /// As [`Session::draw`]; nothing if the window changed meanwhile and shows no part of it.
-    fn try_to_draw(&mut self, watch: &dyn Watch) -> Result<Option<bool>> {
+    fn try_to_draw(&mut self, watch: &dyn RunHooks) -> Result<Option<bool>> {
         let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.

@@ -1,0 +1,57 @@
+//! How a program ends: in one line whatever ends it, with no half-written file, and without taking others along.
+//!
+//! - [`signals`]: Ctrl-C, a closed terminal, what a batch system sends
+//! - [`panic_hook`]: panics, crashes of the driver, no memory left
+//! - [`open_files`]: too few of them
+//! - [`compile_process`]: the shader compiler in a process of its own, with bounds
+//! - [`child`]: this program started again, to be asked one question
+
+pub mod child;
+pub mod compile_process;
+mod open_files;
+mod panic_hook;
+mod signals;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use common::UsageError;
+use common::gpu::shader::are_others;
+use common::output;
+
+pub use self::signals::{Interrupt, Stopped, watch};
+
+/// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
+/// half-written file. Shaders of a folder that is not the project's are compiled in a process of their own.
+///
+/// Exit codes: 0 done, 1 failed with one line that says why, 2 wrong arguments, 3 asked to stop, and what was
+/// gathered is saved.
+pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    watch();
+    exit_code(|| {
+        if compile_process::is_asked() {
+            return compile_process::answer();
+        }
+        if are_others() {
+            compile_process::want();
+        }
+        program()
+    })
+}
+
+/// As [`finish`], for a program that heeds signals itself.
+pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
+    panic_hook::for_panics();
+    // Of the compiler's child, its parent tells, which can name the shader.
+    if !compile_process::is_asked() {
+        panic_hook::for_crashes();
+    }
+    let Err(error) = open_files::check().and_then(|()| program()) else { return ExitCode::SUCCESS };
+    let line = output::line_of(&error);
+    if error.is::<Stopped>() {
+        panic_hook::say(line.trim_start_matches("error: "));
+        return ExitCode::from(3);
+    }
+    panic_hook::say(&line);
+    if error.is::<UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}

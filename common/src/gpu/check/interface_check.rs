@@ -1,0 +1,199 @@
+//! Whether shaders and Rust agree on structures, enumerations and bindings, and shaders with each other on
+//! payloads, on hit attributes and on what a launch is.
+
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use anyhow::{Result, bail, ensure};
+use ash::vk;
+
+use crate::files::{self, cache};
+use crate::gpu::check::reflection::{Passed, Payloads, Reflection};
+use crate::gpu::pipeline::desc::{Binding, Group, PipelineDesc};
+use crate::gpu::pipeline::enumeration;
+use crate::gpu::pipeline::layout::Known;
+use crate::gpu::pipeline::shader::Shader;
+
+/// Holds the shaders of a pipeline against what Rust has declared, against what the program binds, and against
+/// each other; what is no error and seldom meant. `groups` says how many shader groups the pipeline has of each
+/// kind: raygen, miss, hit, callable.
+///
+/// What agrees is noted beside the shaders' words, by a hash of all that was compared and of what compares, and
+/// is not looked at again.
+///
+/// # Errors
+/// On the first that differs, with where it stands and what would be right.
+pub fn check(
+    desc: &PipelineDesc,
+    groups: [usize; 4],
+    shaders: &[Shader],
+    known: &Known,
+) -> Result<Vec<String>> {
+    let PipelineDesc { name, bindings, textures, .. } = desc;
+    let [raygens, misses, hits, _] = groups;
+    let mut hasher = DefaultHasher::new();
+    let ways = [
+        include_str!("interface_check.rs"),
+        include_str!("reflection.rs"),
+        include_str!("reflection/memory.rs"),
+        include_str!("reflection/rays.rs"),
+    ];
+    (ways, include_str!("../pipeline/enumeration.rs"), known).hash(&mut hasher);
+    (shaders, bindings, textures.is_some(), groups, &desc.groups).hash(&mut hasher);
+    let file = format!("{:016x}.agreed", hasher.finish());
+    let note = cache::folder("spirv").map(|folder| folder.join(file));
+    if let Some(warnings) = note.as_ref().and_then(|note| fs::read_to_string(note).ok()) {
+        return Ok(warnings.lines().map(str::to_owned).collect());
+    }
+    let mut constants = Vec::new();
+    let mut reflections = Vec::new();
+    for Shader { path, spirv, text, .. } in shaders {
+        let reflection = Reflection::of(spirv)?;
+        reflection.check_memory(path)?;
+        ensure!(
+            desc.push_size > 0 || !reflection.has_push_constants(),
+            "{path}: the shader has push constants, and the pipeline none: the line .push_constants::<Push>() \
+             declares them"
+        );
+        reflection.check(path, &known.structs)?;
+        reflection.check_addresses(path, &known.structs)?;
+        reflection.check_bindings(path, bindings, textures.is_some())?;
+        constants.extend(enumeration::constants(path, text));
+        reflections.push((&**path, reflection));
+    }
+    for layout in &known.enums {
+        layout.check(name, &constants)?;
+    }
+    if raygens > 0 && bindings.contains(&Binding::StorageImage) {
+        reflections.iter().try_for_each(|(path, shader)| shader.check_launch(path))?;
+    }
+    reflections.iter().try_for_each(|(path, shader)| shader.check_misses(path, misses))?;
+    // The groups of a kind stand together: raygen, then miss.
+    let miss_groups = desc.groups.iter().skip(raygens).take(misses);
+    let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
+    check_payloads(&reflections, &miss_shaders)?;
+    check_stages(desc, shaders, &reflections)?;
+    check_hit_attributes(&reflections, &desc.groups)?;
+    let warnings = warnings(shaders, &reflections, hits);
+    // A note that cannot be written costs time at the next start, nothing else.
+    let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
+    Ok(warnings)
+}
+
+/// Holds that each payload that a shader takes is one that a shader of the pipeline passes, and a miss shader's one
+/// that every ray passes which names it. `misses` has the miss shaders in their order.
+fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()> {
+    let payloads: Vec<_> = shaders.iter().map(|(_, shader)| shader.payloads()).collect();
+    let passed = || {
+        payloads
+            .iter()
+            .zip(shaders)
+            .flat_map(|(of, (by, _))| of.passed.iter().map(move |passed| (*by, passed)))
+    };
+    for (number, (Payloads { taken, .. }, (path, _))) in payloads.iter().zip(shaders).enumerate() {
+        let [taken] = &taken[..] else { continue };
+        match misses.iter().position(|miss| *miss == number) {
+            Some(index) => {
+                for (by, Passed { miss, shape }) in passed() {
+                    ensure!(
+                        *miss != Some(index as u32) || shape == taken,
+                        "{by}: a ray has the missIndex {index}, which is {path}, and passes a payload of another \
+                         type than that takes by rayPayloadInEXT"
+                    );
+                }
+            }
+            None => ensure!(
+                passed().next().is_none() || passed().any(|(_, passed)| passed.shape == *taken),
+                "{path}: no traceRayEXT of the pipeline passes a payload of the type that this shader takes by \
+                 rayPayloadInEXT; its last argument is the location of the rayPayloadEXT that it passes"
+            ),
+        }
+    }
+    Ok(())
+}
+
+/// Holds that each shader of a hit group is of its stage, that only shaders trace which the recursion lets, and that
+/// none takes a payload of its own for that of who called it.
+fn check_stages(
+    desc: &PipelineDesc,
+    shaders: &[Shader],
+    reflections: &[(&str, Reflection)],
+) -> Result<()> {
+    use vk::ShaderStageFlags as Flags;
+    for group in &desc.groups {
+        for (number, stage, kind) in [
+            (group.intersection, Flags::INTERSECTION_KHR, "an intersection shader, .rint"),
+            (group.any_hit, Flags::ANY_HIT_KHR, "an any-hit shader, .rahit"),
+            (group.closest_hit, Flags::CLOSEST_HIT_KHR, "a closest hit shader, .rchit"),
+        ] {
+            if let Some(Shader { path, .. }) =
+                shaders.get(number as usize).filter(|shader| shader.stage != stage)
+            {
+                bail!("{path}: it stands in a hit group where {kind}, belongs");
+            }
+        }
+    }
+    for (Shader { path, stage, .. }, (_, shader)) in shaders.iter().zip(reflections) {
+        let is_called = (Flags::CLOSEST_HIT_KHR | Flags::MISS_KHR).contains(*stage);
+        ensure!(
+            !is_called || !shader.traces_rays() || desc.recursion > 1,
+            "{path}: a ray from this shader takes .recursion(2) at least, and the pipeline '{}' has {}; a loop in \
+             the raygen shader needs 1",
+            desc.name,
+            desc.recursion
+        );
+        ensure!(
+            !(is_called || *stage == Flags::ANY_HIT_KHR)
+                || shader.traces_rays()
+                || !shader.has_own_payload(),
+            "{path}: it traces no ray, and has a rayPayloadEXT; that of the ray that has called it is \
+             rayPayloadInEXT"
+        );
+    }
+    Ok(())
+}
+
+/// The type of the attribute that a triangle's hit has: a vec2.
+const WEIGHTS: &str = "TypeVector(TypeFloat(32) 2)";
+
+/// Holds that the shaders of a hit group take the attribute that it has: what its intersection shader declares, or, of
+/// triangles, the two weights.
+fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Result<()> {
+    for group in groups {
+        let shader = |stage: u32| shaders.get(stage as usize);
+        for &(path, ref taker) in [group.any_hit, group.closest_hit].into_iter().filter_map(shader)
+        {
+            let Some(taken) = taker.hit_attribute() else { continue };
+            match shader(group.intersection) {
+                Some((of, intersection)) => match intersection.hit_attribute() {
+                    Some(given) => ensure!(
+                        given == taken,
+                        "{path}: its hitAttributeEXT is not of the type of that of {of}, which writes it; \
+                         declare the same type in both"
+                    ),
+                    None => bail!(
+                        "{path}: it reads a hitAttributeEXT, and {of} writes none before it reports a hit"
+                    ),
+                },
+                None => ensure!(
+                    taken == WEIGHTS,
+                    "{path}: its hitAttributeEXT is no vec2, and a triangle's are two weights, those of its \
+                     second and third corner"
+                ),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What of the shaders is no error and seldom meant.
+fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)], hits: usize) -> Vec<String> {
+    let of_each = reflections.iter().flat_map(|(path, shader)| shader.warnings(path, hits));
+    let mut found: Vec<String> = of_each.collect();
+    let any_hit = shaders.iter().find(|shader| shader.stage == vk::ShaderStageFlags::ANY_HIT_KHR);
+    let never_asked = reflections.iter().all(|(_, shader)| shader.traces_opaque_alone());
+    found.extend(any_hit.filter(|_| never_asked).map(|Shader { path, .. }| {
+        format!("{path} is never asked: every ray has the flag gl_RayFlagsOpaqueEXT")
+    }));
+    found
+}

@@ -1,0 +1,397 @@
+//! What a sample asks of a device: Vulkan features and the extensions that carry them.
+//!
+//! A chapter that needs more than the baseline adds a line in `requirements()`. The
+//! device is created with exactly what was asked, so validation catches a feature used by accident.
+
+use std::ffi::CStr;
+
+use ash::{khr, vk};
+
+use crate::gpu::accel::micromap_extension::{DEVICE_ADDRESS_COMMANDS, OPACITY_MICROMAP};
+use crate::gpu::{Features, Limits};
+
+/// One feature bit, the extension that carries it, and how to read and set it.
+#[derive(Clone, Copy)]
+pub struct Requirement {
+    /// The feature's name in the specification, as an error shows it.
+    pub name: &'static str,
+    /// The extension that must be enabled with it; `None` where Vulkan 1.3 has it in core.
+    pub extension: Option<&'static CStr>,
+    bit: fn(&mut Features) -> &mut vk::Bool32,
+}
+
+impl Requirement {
+    fn is_in(&self, features: &Features) -> bool {
+        let mut features = *features;
+        *(self.bit)(&mut features) == vk::TRUE
+    }
+}
+
+macro_rules! requirement {
+    ($extension:expr, $name:literal, $($field:ident).+) => {
+        Requirement { name: $name, extension: $extension, bit: |features| &mut features.$($field).+ }
+    };
+}
+
+/// What tracing rays takes, beyond [`COMPUTE`].
+const RAY_TRACING: [Requirement; 2] = [
+    requirement!(
+        Some(khr::acceleration_structure::NAME),
+        "accelerationStructure",
+        acceleration_structure.acceleration_structure
+    ),
+    requirement!(
+        Some(khr::ray_tracing_pipeline::NAME),
+        "rayTracingPipeline",
+        ray_tracing_pipeline.ray_tracing_pipeline
+    ),
+];
+
+/// What every chapter asks for.
+const COMPUTE: [Requirement; 3] = [
+    requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
+    requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
+    requirement!(None, "synchronization2", vulkan13.synchronization2),
+];
+
+/// What a table of textures takes.
+const TEXTURES: [Requirement; 3] = [
+    requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
+    requirement!(
+        None,
+        "descriptorBindingSampledImageUpdateAfterBind",
+        vulkan12.descriptor_binding_sampled_image_update_after_bind
+    ),
+    requirement!(
+        None,
+        "shaderSampledImageArrayNonUniformIndexing",
+        vulkan12.shader_sampled_image_array_non_uniform_indexing
+    ),
+];
+
+/// A list of requirements, begun with [`Requirements::ray_tracing`] or [`Requirements::compute`] and extended by
+/// the chapter.
+#[derive(Clone, Default)]
+pub struct Requirements {
+    /// How deep `traceRayEXT` has to nest in every pipeline of the sample.
+    pub recursion: u32,
+    /// The most bytes of push constants that a pipeline of the sample has.
+    pub push_constants: u32,
+    /// A queue with graphics, and depth in 32-bit floats.
+    pub raster: bool,
+    /// A queue with graphics, for blits.
+    pub mipmaps: bool,
+    exact_floats: bool,
+    list: Vec<Requirement>,
+    wishes: Vec<Requirement>,
+    extensions: Vec<&'static CStr>,
+}
+
+impl Requirements {
+    /// The baseline of every chapter that traces rays: that of [`compute`](Self::compute), a ray tracing pipeline
+    /// and acceleration structures; and of the limits, what Vulkan promises of each such device: a recursion depth
+    /// of 1.
+    pub fn ray_tracing() -> Self {
+        let mut all = Self { recursion: 1, ..Self::compute() };
+        all.list.splice(0..0, RAY_TRACING);
+        // Acceleration structures depend on deferred host operations, even where none is used.
+        all.extensions.push(khr::deferred_host_operations::NAME);
+        all
+    }
+
+    /// The baseline without ray tracing: compute shaders, scalar block layout, buffer addresses, `synchronization2`
+    /// and push descriptors; and of the limits, what Vulkan promises of each device: 128 bytes of push constants.
+    ///
+    /// Of Vulkan 1.3, `scalarBlockLayout` and the extension `VK_KHR_push_descriptor` alone are a device's free
+    /// choice. MoltenVK 1.4, with which Macs have Vulkan, offers all of it, and what
+    /// [`textures`](Self::textures) adds, from macOS 13 on where the GPU has argument buffers of tier 2 (its
+    /// `MoltenVK_Runtime_UserGuide.md`, and `MVKPhysicalDevice::initFeatures` in `MVKDevice.mm`, read in 1.4.2).
+    pub fn compute() -> Self {
+        Self {
+            push_constants: 128,
+            list: COMPUTE.to_vec(),
+            extensions: vec![khr::push_descriptor::NAME],
+            ..Self::default()
+        }
+    }
+
+    /// Whether acceleration structures are built, and rays traced through them.
+    pub fn has_ray_tracing(&self) -> bool {
+        self.asks_for(khr::acceleration_structure::NAME)
+    }
+
+    /// Hit shaders that trace rays in turn: a recursion depth beyond the 1 that is promised.
+    pub fn recursion(mut self, depth: u32) -> Self {
+        self.recursion = depth;
+        self
+    }
+
+    /// More push constants than the 128 bytes that are promised.
+    pub fn push_constants(mut self, bytes: u32) -> Self {
+        self.push_constants = bytes;
+        self
+    }
+
+    /// Shaders that declare how 32-bit floats are rounded, and that zeros keep their signs.
+    pub fn exact_floats(mut self) -> Self {
+        self.exact_floats = true;
+        self
+    }
+
+    /// The bindless texture table: one array of sampled images, indexed differently by each ray. Of those
+    /// that may be written after they are bound, a device has to take far more.
+    pub fn textures(mut self) -> Self {
+        self.list.extend(TEXTURES);
+        self
+    }
+
+    /// 64-bit floats in shaders.
+    pub fn float64(mut self) -> Self {
+        self.list.push(requirement!(None, "shaderFloat64", core.shader_float64));
+        self
+    }
+
+    /// 64-bit floats in shaders, where the device has them: its [`Features`] tell.
+    pub fn float64_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
+        self
+    }
+
+    /// The corners of the triangle that was hit, from its bottom level.
+    pub fn position_fetch(mut self) -> Self {
+        self.list.push(requirement!(
+            Some(khr::ray_tracing_position_fetch::NAME),
+            "rayTracingPositionFetch",
+            position_fetch.ray_tracing_position_fetch
+        ));
+        self
+    }
+
+    /// Rays that any stage traces by itself, without a ray tracing pipeline.
+    pub fn ray_query(mut self) -> Self {
+        self.list.push(requirement!(Some(khr::ray_query::NAME), "rayQuery", ray_query.ray_query));
+        self
+    }
+
+    /// Whether shaders may trace rays without a ray tracing pipeline.
+    pub fn has_ray_query(&self) -> bool {
+        self.asks_for(khr::ray_query::NAME)
+    }
+
+    fn asks_for(&self, extension: &CStr) -> bool {
+        self.list.iter().any(|requirement| requirement.extension == Some(extension))
+    }
+
+    /// Triangles that are drawn: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit
+    /// floats, which the specification does not promise (it promises that or `X8_D24_UNORM_PACK32`).
+    pub fn raster(mut self) -> Self {
+        self.raster = true;
+        self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
+        self
+    }
+
+    /// Mip levels that the device makes: by blits, and these need a queue with graphics.
+    pub fn mipmaps(mut self) -> Self {
+        self.mipmaps = true;
+        self
+    }
+
+    /// Rays that skip all triangles or all boxes, where the device has it: its [`Features`] tell.
+    pub fn primitive_culling_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(khr::ray_tracing_pipeline::NAME),
+            "rayTraversalPrimitiveCulling",
+            ray_tracing_pipeline.ray_traversal_primitive_culling
+        ));
+        self
+    }
+
+    /// Opacity micromaps that traversal reads by itself, where the device has them:
+    /// [`OpacityMicromap::finest`](crate::gpu::OpacityMicromap::finest) tells.
+    pub fn opacity_micromaps_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(DEVICE_ADDRESS_COMMANDS),
+            "deviceAddressCommands",
+            address_commands.device_address_commands
+        ));
+        self.wishes.push(requirement!(Some(OPACITY_MICROMAP), "micromap", micromap.micromap));
+        self
+    }
+
+    /// What the driver's compiler says of each pipeline, where it does: [`Statistics`](crate::gpu::Statistics)
+    /// keeps it.
+    pub fn compiler_figures_where_offered(mut self) -> Self {
+        self.wishes.push(requirement!(
+            Some(khr::pipeline_executable_properties::NAME),
+            "pipelineExecutableInfo",
+            executable.pipeline_executable_info
+        ));
+        self
+    }
+
+    /// What drawing to a window adds: the swapchain and dynamic rendering for the panel.
+    pub fn window(mut self) -> Self {
+        self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
+        self.extensions.push(khr::swapchain::NAME);
+        self
+    }
+
+    /// Every extension to enable, each once: of the wishes, those that `offered` grants.
+    pub fn extensions(&self, offered: &Features) -> Vec<&'static CStr> {
+        let carried = self.granted(offered).filter_map(|requirement| requirement.extension);
+        let mut all: Vec<_> = self.extensions.iter().copied().chain(carried).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// The features to enable: those asked for, those wished for that `offered` has, and no other.
+    pub fn features(&self, offered: &Features) -> Features {
+        let mut features = Features::default();
+        for requirement in self.granted(offered) {
+            *(requirement.bit)(&mut features) = vk::TRUE;
+        }
+        features
+    }
+
+    /// What is asked for, and what is wished for and offered.
+    fn granted(&self, offered: &Features) -> impl Iterator<Item = &Requirement> {
+        self.list.iter().chain(self.wishes.iter().filter(|wish| wish.is_in(offered)))
+    }
+
+    /// What a device with these extensions, features and limits lacks, by name; empty if it is suitable.
+    ///
+    /// The limits are those of the device, if it can be asked for them; one of an extension that is missing is not
+    /// judged.
+    pub fn missing(
+        &self,
+        has_extension: impl Fn(&CStr) -> bool,
+        offered: &Features,
+        limits: Option<&Limits>,
+    ) -> Vec<String> {
+        let mut missing = Vec::new();
+        for name in self.extensions(&Features::default()) {
+            if !has_extension(name) {
+                missing.push(name.to_string_lossy().into_owned());
+            }
+        }
+        for requirement in &self.list {
+            let carried = requirement.extension.is_none_or(&has_extension);
+            if carried && !requirement.is_in(offered) {
+                missing.push(format!("feature {}", requirement.name));
+            }
+        }
+        let Some(limits) = limits else { return missing };
+        let (depth, bytes) = (limits.max_ray_recursion_depth, limits.core.max_push_constants_size);
+        if has_extension(khr::ray_tracing_pipeline::NAME) && self.recursion > depth {
+            missing.push(format!("maxRayRecursionDepth {} (it has {depth})", self.recursion));
+        }
+        if self.push_constants > bytes {
+            missing.push(format!("maxPushConstantsSize {} (it has {bytes})", self.push_constants));
+        }
+        if self.exact_floats {
+            let floats = &limits.vulkan12;
+            if floats.shader_rounding_mode_rte_float32 == vk::FALSE {
+                missing.push("shaderRoundingModeRTEFloat32".to_owned());
+            }
+            if floats.shader_signed_zero_inf_nan_preserve_float32 == vk::FALSE {
+                missing.push("shaderSignedZeroInfNanPreserveFloat32".to_owned());
+            }
+        }
+        missing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_without_ray_tracing_is_told_what_it_lacks() {
+        let missing = Requirements::ray_tracing().missing(|_| false, &Features::default(), None);
+        assert!(missing.contains(&"VK_KHR_ray_tracing_pipeline".to_owned()), "{missing:?}");
+        assert!(missing.contains(&"feature scalarBlockLayout".to_owned()), "{missing:?}");
+        assert!(
+            !missing.contains(&"feature rayTracingPipeline".to_owned()),
+            "named by its extension"
+        );
+    }
+
+    #[test]
+    fn compute_alone_asks_for_no_ray_tracing_and_every_other_chapter_names_what_it_lacks() {
+        let is_of_rays = |name: &CStr| {
+            let name = name.to_string_lossy();
+            ["acceleration", "ray", "host"].iter().any(|word| name.contains(word))
+        };
+        let mut limits = Limits::default();
+        limits.core.max_push_constants_size = 128;
+        let missing = |wanted: Requirements| {
+            let offered = wanted.features(&Features::default());
+            wanted.missing(|name| !is_of_rays(name), &offered, Some(&limits))
+        };
+        assert_eq!(missing(Requirements::compute().textures().window()), [""; 0]);
+        assert_eq!(
+            missing(Requirements::ray_tracing()),
+            [
+                "VK_KHR_acceleration_structure",
+                "VK_KHR_deferred_host_operations",
+                "VK_KHR_ray_tracing_pipeline"
+            ]
+        );
+        assert_eq!(
+            missing(Requirements::compute().push_constants(144)),
+            ["maxPushConstantsSize 144 (it has 128)"]
+        );
+    }
+
+    #[test]
+    fn an_offered_extension_without_its_feature_is_not_enough() {
+        let wanted = Requirements::ray_tracing();
+        let mut offered = wanted.features(&Features::default());
+        offered.ray_tracing_pipeline.ray_tracing_pipeline = vk::FALSE;
+        assert_eq!(wanted.missing(|_| true, &offered, None), ["feature rayTracingPipeline"]);
+    }
+
+    #[test]
+    fn limits_are_judged_with_features() {
+        let mut limits = Limits::default();
+        limits.ray_tracing_pipeline.max_ray_recursion_depth = 1;
+        limits.core.max_push_constants_size = 128;
+        let missing = |wanted: Requirements| {
+            wanted.missing(|_| true, &wanted.features(&Features::default()), Some(&limits))
+        };
+        assert_eq!(missing(Requirements::ray_tracing()), [""; 0]);
+        assert_eq!(
+            missing(Requirements::ray_tracing().recursion(2).push_constants(144)),
+            ["maxRayRecursionDepth 2 (it has 1)", "maxPushConstantsSize 144 (it has 128)"]
+        );
+        assert_eq!(
+            missing(Requirements::ray_tracing().exact_floats()),
+            ["shaderRoundingModeRTEFloat32", "shaderSignedZeroInfNanPreserveFloat32"]
+        );
+    }
+
+    #[test]
+    fn nothing_but_what_was_asked_is_enabled() {
+        let mut features = Requirements::ray_tracing().features(&Features::default());
+        assert_eq!(features.vulkan12.runtime_descriptor_array, vk::FALSE);
+        assert_eq!(features.vulkan13.dynamic_rendering, vk::FALSE);
+        features = Requirements::ray_tracing().textures().features(&Features::default());
+        assert_eq!(features.vulkan12.runtime_descriptor_array, vk::TRUE);
+    }
+
+    #[test]
+    fn a_wish_is_granted_where_it_is_offered_and_refuses_no_device() {
+        let wishing = Requirements::ray_tracing().float64_where_offered();
+        let mut offered = wishing.features(&Features::default());
+        assert_eq!(offered.core.shader_float64, vk::FALSE);
+        assert!(wishing.missing(|_| true, &offered, None).is_empty());
+        offered.core.shader_float64 = vk::TRUE;
+        assert_eq!(wishing.features(&offered).core.shader_float64, vk::TRUE);
+        let wishing = wishing.compiler_figures_where_offered();
+        let name = khr::pipeline_executable_properties::NAME;
+        assert!(!wishing.extensions(&offered).contains(&name));
+        offered.executable.pipeline_executable_info = vk::TRUE;
+        assert!(wishing.extensions(&offered).contains(&name));
+    }
+}

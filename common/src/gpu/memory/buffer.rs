@@ -1,0 +1,252 @@
+//! A buffer and its memory: uploaded once, addressed from shaders, read back for tests.
+
+use std::ffi::c_void;
+use std::ptr::NonNull;
+
+use anyhow::{Context, Result, ensure};
+use ash::vk::{self, BufferUsageFlags as UsageError};
+use bytemuck::Pod;
+use gpu_allocator::MemoryLocation;
+
+use crate::gpu::memory::Memory;
+use crate::gpu::memory::staging::{Staging, read_back};
+use crate::gpu::{Gpu, barrier};
+
+/// What `vkCmdUpdateBuffer` takes at most, in bytes.
+const MOST_UPDATED: usize = 65_536;
+
+/// What the address of every addressed buffer is a multiple of on any device: what shaders may promise of the
+/// addresses that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what
+/// builds ask of their input, 16 for instances and 8 for boxes.
+pub const ADDRESS_ALIGNMENT: u64 = 16;
+
+/// A `VkBuffer` bound to memory of its own, freed on drop.
+pub struct Buffer {
+    /// The Vulkan handle.
+    pub handle: vk::Buffer,
+    /// Its size in bytes.
+    pub size: u64,
+    /// Its device address; 0 unless made with `SHADER_DEVICE_ADDRESS`.
+    pub address: vk::DeviceAddress,
+    memory: Option<Memory>,
+    gpu: Gpu,
+}
+
+impl Buffer {
+    /// The usage of what shaders read or write by address.
+    pub const ADDRESSED: UsageError = UsageError::from_raw(
+        UsageError::SHADER_DEVICE_ADDRESS.as_raw() | UsageError::STORAGE_BUFFER.as_raw(),
+    );
+
+    /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
+    /// what the device asks of any: [`Limits::address_alignment`](crate::gpu::Limits::address_alignment).
+    ///
+    /// # Errors
+    /// If the device has no memory left for it.
+    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: UsageError) -> Result<Self> {
+        Self::make(gpu, name, size, usage, MemoryLocation::GpuOnly)
+    }
+
+    /// A buffer in device memory that holds `data`.
+    ///
+    /// # Errors
+    /// As [`Buffer::new`], or if the copy fails.
+    pub fn with_data<T: Pod>(gpu: &Gpu, name: &str, data: &[T], usage: UsageError) -> Result<Self> {
+        Ok(Self::with_arrays(gpu, name, [data], usage)?.0)
+    }
+
+    /// A buffer in device memory that holds arrays one after the other, and the address of each, a multiple of
+    /// [`ADDRESS_ALIGNMENT`].
+    ///
+    /// A buffer for each would cost time and memory, and a device has room for some thousands of allocations
+    /// only.
+    ///
+    /// # Errors
+    /// As [`Buffer::with_data`].
+    pub fn with_arrays<T: Pod, A: AsRef<[T]>>(
+        gpu: &Gpu,
+        name: &str,
+        arrays: impl IntoIterator<Item = A>,
+        usage: UsageError,
+    ) -> Result<(Self, Vec<vk::DeviceAddress>)> {
+        let arrays: Vec<A> = arrays.into_iter().collect();
+        // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
+        let sizes = arrays.iter().map(|array| size_of_val(array.as_ref()).max(1) as u64);
+        let (offsets, size) = offsets(sizes, ADDRESS_ALIGNMENT);
+        let buffer = Self::new(gpu, name, size, usage | UsageError::TRANSFER_DST)?;
+        let mut staging = Staging::new(gpu, size as usize)?;
+        for (array, &offset) in arrays.iter().zip(&offsets) {
+            staging.fill_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
+        }
+        staging.submit()?;
+        let addresses = offsets.iter().map(|offset| buffer.address + offset).collect();
+        Ok((buffer, addresses))
+    }
+
+    /// A buffer that the host has mapped, to copy from (`CpuToGpu`) or to (`GpuToCpu`).
+    pub(in crate::gpu) fn mapped(
+        gpu: &Gpu,
+        name: &str,
+        size: u64,
+        at: MemoryLocation,
+    ) -> Result<Self> {
+        Self::make(gpu, name, size, UsageError::TRANSFER_SRC | UsageError::TRANSFER_DST, at)
+    }
+
+    fn make(
+        gpu: &Gpu,
+        name: &str,
+        size: u64,
+        usage: UsageError,
+        at: MemoryLocation,
+    ) -> Result<Self> {
+        // Vulkan has no empty buffers; an empty mesh or table still wants an address.
+        let size = size.max(1);
+        let most = gpu.limits.max_buffer_size();
+        ensure!(
+            size <= most,
+            "the buffer '{name}' takes {size} bytes, and {} has room for {most} in one",
+            gpu.name
+        );
+        let info = vk::BufferCreateInfo::default().size(size).usage(usage);
+        // SAFETY: the device is alive; the buffer is destroyed on every path below.
+        let handle = unsafe { gpu.device.create_buffer(&info, None) }
+            .with_context(|| format!("cannot make the buffer '{name}' of {size} bytes"))?;
+        let mut buffer = Self { handle, size, address: 0, memory: None, gpu: gpu.clone() };
+        // SAFETY: as above.
+        let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        let addressed = usage.contains(UsageError::SHADER_DEVICE_ADDRESS);
+        let alignment = if addressed { gpu.limits.address_alignment() } else { 1 };
+        requirements.alignment = requirements.alignment.max(alignment);
+        let no_memory = || format!("no memory for the buffer '{name}' of {size} bytes");
+        let memory = Memory::new(gpu, name, requirements, at, true).with_context(no_memory)?;
+        let allocation = &buffer.memory.insert(memory).allocation;
+        let offset = allocation.offset();
+        // Where the host has no room to map it, some drivers hand out `MAP_FAILED`, which is -1.
+        let start = |first: NonNull<c_void>| first.addr().get().wrapping_sub(offset as usize);
+        let unmapped = allocation.mapped_ptr().is_some_and(|first| start(first) == usize::MAX);
+        ensure!(!unmapped, "no address space for the buffer '{name}' of {size} bytes");
+        // SAFETY: the allocation was made for this buffer's requirements and is freed after it.
+        unsafe { gpu.device.bind_buffer_memory(handle, allocation.memory(), offset) }
+            .with_context(no_memory)?;
+        if addressed {
+            let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
+            // SAFETY: the buffer is bound and was made for addressing.
+            buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
+            // The offset in memory is aligned; that the memory's own address is, no rule promises.
+            ensure!(
+                buffer.address.is_multiple_of(alignment),
+                "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
+                buffer.address
+            );
+        }
+        gpu.name_object(handle, name);
+        Ok(buffer)
+    }
+
+    /// Copies `data` to the buffer, `offset` bytes from its start, and waits for it.
+    ///
+    /// # Errors
+    /// If the data does not fit, or the copy fails.
+    pub fn write<T: Pod>(&self, offset: u64, data: &[T]) -> Result<()> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        ensure!(
+            offset + bytes.len() as u64 <= self.size,
+            "{} bytes at {offset} do not fit a buffer of {} bytes",
+            bytes.len(),
+            self.size
+        );
+        let mut staging = Staging::new(&self.gpu, bytes.len())?;
+        staging.fill_buffer(self, offset, bytes)?;
+        staging.submit()
+    }
+
+    /// Records that the buffer begins with `data` for the traces and builds that follow in `cmd`; the host does
+    /// not wait.
+    ///
+    /// For what changes from frame to frame and is small, as the commands hold a copy of it: a multiple of
+    /// 4 bytes, into a buffer made with `TRANSFER_DST`.
+    ///
+    /// # Errors
+    /// If the data is none of that, or does not fit.
+    pub fn update<T: Pod>(&self, cmd: vk::CommandBuffer, data: &[T]) -> Result<()> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let size = bytes.len() as u64;
+        ensure!(
+            size <= self.size && size.is_multiple_of(4),
+            "{size} bytes cannot be recorded for a buffer of {} bytes",
+            self.size
+        );
+        barrier::reads_to_update(&self.gpu, cmd);
+        for (number, part) in bytes.chunks(MOST_UPDATED).enumerate() {
+            let offset = (number * MOST_UPDATED) as u64;
+            // SAFETY: cmd is being recorded on this device; the bytes are copied into it here.
+            unsafe { self.gpu.device.cmd_update_buffer(cmd, self.handle, offset, part) };
+        }
+        barrier::update_to_reads(&self.gpu, cmd);
+        Ok(())
+    }
+
+    /// Records that all of it is 0 for the traces that follow in `cmd`; made with `TRANSFER_DST`.
+    pub fn clear(&self, cmd: vk::CommandBuffer) {
+        barrier::trace_to_fill(&self.gpu, cmd);
+        // SAFETY: cmd is being recorded on this device, and the buffer outlives the submission.
+        unsafe { self.gpu.device.cmd_fill_buffer(cmd, self.handle, 0, vk::WHOLE_SIZE, 0) };
+        barrier::fill_to_trace(&self.gpu, cmd);
+    }
+
+    /// The content as a vector of `T`, copied back through a mapped buffer.
+    ///
+    /// The buffer must have been made with `TRANSFER_SRC`; bytes beyond a whole `T` are left out.
+    ///
+    /// # Errors
+    /// If the copy fails.
+    pub fn read<T: Pod>(&self) -> Result<Vec<T>> {
+        let mut copy = read_back(&self.gpu, "readback", self.size, |cmd, to| {
+            let region = vk::BufferCopy::default().size(self.size);
+            barrier::before_readback(&self.gpu, cmd);
+            // SAFETY: both buffers outlive the submission, which is waited for.
+            unsafe { self.gpu.device.cmd_copy_buffer(cmd, self.handle, to, &[region]) };
+        })?;
+        let whole = self.size as usize / size_of::<T>() * size_of::<T>();
+        Ok(bytemuck::pod_collect_to_vec(&copy.mapped_bytes()[..whole]))
+    }
+
+    /// The bytes of a mapped buffer.
+    ///
+    /// # Panics
+    /// If the buffer lives in device memory only.
+    pub(in crate::gpu) fn mapped_bytes(&mut self) -> &mut [u8] {
+        let memory = self.memory.as_mut().expect("a live buffer has its memory");
+        let bytes = memory.allocation.mapped_slice_mut().expect("the buffer was made mapped");
+        &mut bytes[..self.size as usize]
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for, so the device no longer uses the buffer.
+        unsafe { self.gpu.device.destroy_buffer(self.handle, None) };
+    }
+}
+
+/// Where parts of these sizes lie one after the other, each at a multiple of `alignment`, and what they take.
+pub(in crate::gpu) fn offsets(sizes: impl Iterator<Item = u64>, alignment: u64) -> (Vec<u64>, u64) {
+    let mut end = 0u64;
+    let offsets = sizes.map(|size| {
+        let offset = end.next_multiple_of(alignment);
+        end = offset + size;
+        offset
+    });
+    (offsets.collect(), end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_begins_where_it_may_and_ends_before_the_next() {
+        assert_eq!(offsets([1, 256, 300, 7].into_iter(), 256), (vec![0, 256, 512, 1024], 1031));
+    }
+}

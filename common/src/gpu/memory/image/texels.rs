@@ -1,0 +1,54 @@
+//! Textures: images whose texels come from the host, many in one copy.
+
+use anyhow::{Result, ensure};
+use ash::vk;
+
+use super::{Gpu, Image, mipmaps};
+use crate::gpu::memory::staging::Staging;
+
+/// What a texture holds.
+#[derive(Clone, Copy)]
+pub struct Texels<'a> {
+    /// What messages call it.
+    pub name: &'a str,
+    /// Texels in a row, and rows.
+    pub extent: vk::Extent2D,
+    /// Four bytes a texel, rows from the top.
+    pub rgba: &'a [u8],
+    /// Whether RGB is sRGB encoded.
+    pub srgb: bool,
+}
+
+impl Image {
+    /// Textures, ready to be sampled: their texels go through one staging buffer, in bands of rows where they
+    /// are larger than that. With `mipmaps` each has all mip levels, which the device makes.
+    ///
+    /// # Errors
+    /// If texels are not four bytes a pixel, a side is out of range, or memory is short.
+    pub fn textures(gpu: &Gpu, all: &[Texels], mipmaps: bool) -> Result<Vec<Self>> {
+        let blank = |one| blank(gpu, one, mipmaps);
+        let images: Vec<_> = all.iter().map(blank).collect::<Result<_>>()?;
+        let mut staging = Staging::new(gpu, all.iter().map(|one| one.rgba.len()).sum())?;
+        for (image, texels) in images.iter().zip(all) {
+            staging.fill_image(image, texels.rgba)?;
+        }
+        staging.submit()?;
+        if mipmaps {
+            mipmaps::make(gpu, &images)?;
+        }
+        Ok(images)
+    }
+}
+
+fn blank(gpu: &Gpu, texels: &Texels, mipmaps: bool) -> Result<Image> {
+    let Texels { name, extent, rgba, srgb } = *texels;
+    let needed = 4 * extent.width as usize * extent.height as usize;
+    ensure!(rgba.len() == needed, "texture '{name}' has {} bytes, not {needed}", rgba.len());
+    let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
+    let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+    if !mipmaps {
+        return Image::new(gpu, name, extent, format, format, usage, 1);
+    }
+    let usage = usage | vk::ImageUsageFlags::TRANSFER_SRC;
+    Image::new(gpu, name, extent, format, format, usage, mipmaps::levels(extent))
+}

@@ -1,0 +1,147 @@
+//! The texture table: every texture of a scene in one array, which any shader indexes by number.
+
+use anyhow::{Result, ensure};
+use ash::vk;
+
+use crate::gpu::{Gpu, Image, Texels};
+
+/// What each texture is to shaders.
+const TYPE: vk::DescriptorType = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+
+/// Set 1 of every pipeline that reads textures: binding 0, an array of combined image samplers.
+pub struct TextureTable {
+    /// The layout of the set.
+    pub layout: vk::DescriptorSetLayout,
+    /// The set.
+    pub set: vk::DescriptorSet,
+    pool: vk::DescriptorPool,
+    sampler: vk::Sampler,
+    images: Vec<Image>,
+    gpu: Gpu,
+}
+
+impl TextureTable {
+    /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly. With
+    /// `mipmaps` they have all mip levels, and a lookup between two levels blends them.
+    ///
+    /// # Errors
+    /// If the device has no room for so many.
+    pub fn new(gpu: &Gpu, textures: &[Texels], mipmaps: bool) -> Result<Self> {
+        // Neither an array of no textures is allowed nor a slot that was never filled.
+        let extent = vk::Extent2D { width: 1, height: 1 };
+        let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
+        let textures = if textures.is_empty() { &none } else { textures };
+        let count = textures.len() as u32;
+        fits(count, gpu.limits.max_textures(), &gpu.name)?;
+        let images = Image::textures(gpu, textures, mipmaps)?;
+        let sizes = [vk::DescriptorPoolSize { ty: TYPE, descriptor_count: count }];
+        let pool_info = vk::DescriptorPoolCreateInfo::default()
+            .flags(vk::DescriptorPoolCreateFlags::UPDATE_AFTER_BIND)
+            .max_sets(1)
+            .pool_sizes(&sizes);
+        let mut sampler_info = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR);
+        if mipmaps {
+            let between_levels = vk::SamplerMipmapMode::LINEAR;
+            sampler_info = sampler_info.mipmap_mode(between_levels).max_lod(vk::LOD_CLAMP_NONE);
+        }
+        let mut table = Self {
+            layout: Self::layout(gpu, count)?,
+            set: vk::DescriptorSet::null(),
+            pool: vk::DescriptorPool::null(),
+            sampler: vk::Sampler::null(),
+            images,
+            gpu: gpu.clone(),
+        };
+        // SAFETY: the device is alive; whatever was made is destroyed with the table.
+        unsafe {
+            table.pool = gpu.device.create_descriptor_pool(&pool_info, None)?;
+            table.sampler = gpu.device.create_sampler(&sampler_info, None)?;
+            let layouts = [table.layout];
+            let allocate = vk::DescriptorSetAllocateInfo::default()
+                .descriptor_pool(table.pool)
+                .set_layouts(&layouts);
+            table.set = gpu.device.allocate_descriptor_sets(&allocate)?[0];
+        }
+        let infos = table.images.iter().map(|image| vk::DescriptorImageInfo {
+            sampler: table.sampler,
+            image_view: image.view,
+            image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        });
+        let infos: Vec<_> = infos.collect();
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(table.set)
+            .descriptor_type(TYPE)
+            .image_info(&infos);
+        // SAFETY: the set is not in use; the images live beside it.
+        unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
+        let name = "texture table";
+        gpu.name_object(table.set, name);
+        gpu.name_object(table.layout, name);
+        gpu.name_object(table.pool, name);
+        gpu.name_object(table.sampler, name);
+        Ok(table)
+    }
+
+    /// How many textures it has; at least one.
+    pub fn count(&self) -> u32 {
+        self.images.len() as u32
+    }
+
+    /// The layout of a table of `count` textures.
+    ///
+    /// # Errors
+    /// If the device has no memory left.
+    pub fn layout(gpu: &Gpu, count: u32) -> Result<vk::DescriptorSetLayout> {
+        let bindings = [vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(TYPE)
+            .descriptor_count(count)
+            .stage_flags(vk::ShaderStageFlags::ALL)];
+        // Nothing is written after it is bound. But of descriptors that may be, a device must take
+        // 500,000, and of others no more than 16 (`maxPerStageDescriptorSamplers`).
+        let flags = [vk::DescriptorBindingFlags::UPDATE_AFTER_BIND];
+        let mut flags =
+            vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
+        let info = vk::DescriptorSetLayoutCreateInfo::default()
+            .flags(vk::DescriptorSetLayoutCreateFlags::UPDATE_AFTER_BIND_POOL)
+            .bindings(&bindings)
+            .push_next(&mut flags);
+        // SAFETY: the device is alive; the layout is the caller's.
+        Ok(unsafe { gpu.device.create_descriptor_set_layout(&info, None)? })
+    }
+}
+
+fn fits(count: u32, most: u32, device: &str) -> Result<()> {
+    ensure!(
+        count <= most,
+        "the scene has {count} textures, and {device} takes {most}: leave out some, or join them"
+    );
+    Ok(())
+}
+
+impl Drop for TextureTable {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for.
+        unsafe {
+            self.gpu.device.destroy_descriptor_pool(self.pool, None);
+            self.gpu.device.destroy_descriptor_set_layout(self.layout, None);
+            self.gpu.device.destroy_sampler(self.sampler, None);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_textures_than_a_device_takes_are_refused_by_number() {
+        fits(500_000, 500_000, "a GPU").unwrap();
+        let error = fits(500_001, 500_000, "a GPU").unwrap_err().to_string();
+        assert!(
+            error.starts_with("the scene has 500001 textures, and a GPU takes 500000"),
+            "{error}"
+        );
+    }
+}

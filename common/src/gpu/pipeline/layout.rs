@@ -1,0 +1,200 @@
+//! The layout of structures that Rust writes and shaders read.
+//!
+//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields, and
+//! with them what they are made of and lead to by address. When a pipeline is made, each is held against
+//! the structure of the same name in the SPIR-V: a field that was moved, or is missing on one side, is an
+//! error that names it, not a strange picture.
+
+use std::marker::PhantomData;
+
+/// A device address inside a structure for shaders, who see a `buffer_reference` there: of one `T`, or of
+/// many in a row.
+///
+/// What lies there is held against the shaders as is the structure that the address is in. Of plain numbers,
+/// a `T` need not be said.
+///
+/// Its alignment is that of `u32`, so that a structure needs no padding at its end; the shader wants a
+/// multiple of 8, which the comparison of offsets enforces.
+#[repr(transparent)]
+pub struct Address<T = ()>([u32; 2], PhantomData<fn() -> T>);
+
+impl<T> From<ash::vk::DeviceAddress> for Address<T> {
+    fn from(address: ash::vk::DeviceAddress) -> Self {
+        Self([address as u32, (address >> 32) as u32], PhantomData)
+    }
+}
+
+impl<T> From<Address<T>> for ash::vk::DeviceAddress {
+    fn from(Address([low, high], _): Address<T>) -> Self {
+        Self::from(low) | Self::from(high) << 32
+    }
+}
+
+impl<T> Default for Address<T> {
+    /// Nowhere.
+    fn default() -> Self {
+        0.into()
+    }
+}
+
+impl<T> Clone for Address<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Address<T> {}
+
+impl<T> std::fmt::Debug for Address<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+// SAFETY: it is two u32 and nothing else.
+unsafe impl<T: 'static> bytemuck::Zeroable for Address<T> {}
+// SAFETY: it is two u32 and nothing else.
+unsafe impl<T: 'static> bytemuck::Pod for Address<T> {}
+
+/// What a field of a structure for shaders may be.
+pub trait ShaderType {
+    /// Adds what shaders know of it under the same name: by default nothing.
+    fn reach(_: &mut Known) {}
+}
+
+/// Structures and enumerations that Rust has declared, and shaders have too.
+#[derive(Clone, Default, Hash)]
+pub struct Known {
+    pub(in crate::gpu) structs: Vec<StructLayout>,
+    pub(in crate::gpu) enums: Vec<EnumLayout>,
+}
+
+impl Known {
+    /// What a structure is made of and leads to, itself included.
+    pub fn of<T: ShaderType>() -> Self {
+        let mut known = Self::default();
+        T::reach(&mut known);
+        known
+    }
+
+    /// The structures.
+    pub fn structs(&self) -> &[StructLayout] {
+        &self.structs
+    }
+
+    /// Adds a structure, and says whether it is new.
+    pub fn add_struct(&mut self, layout: StructLayout) -> bool {
+        let is_new = self.structs.iter().all(|known| known.name != layout.name);
+        if is_new {
+            self.structs.push(layout);
+        }
+        is_new
+    }
+
+    /// Adds an enumeration.
+    pub fn add_enum(&mut self, layout: EnumLayout) {
+        if !self.enums.contains(&layout) {
+            self.enums.push(layout);
+        }
+    }
+}
+
+macro_rules! plain {
+    ($($type:ty),+) => { $(impl ShaderType for $type {})+ };
+}
+plain!((), f32, i32, u32, glam::Mat3, glam::UVec2, glam::UVec3, glam::Vec2, glam::Vec3, glam::Vec4);
+
+impl<T: ShaderType> ShaderType for Address<T> {
+    fn reach(known: &mut Known) {
+        T::reach(known);
+    }
+}
+
+impl<T: ShaderType, const N: usize> ShaderType for [T; N] {
+    fn reach(known: &mut Known) {
+        T::reach(known);
+    }
+}
+
+/// One field: name, offset in bytes.
+pub type Field = (&'static str, usize);
+
+/// A structure shared with shaders. Implemented by [`shader_struct!`](crate::shader_struct).
+pub trait ShaderStruct: bytemuck::Pod + ShaderType {
+    /// Its name and fields.
+    const LAYOUT: StructLayout;
+}
+
+/// The name and the fields of a Rust structure.
+#[derive(Clone, Copy, Debug, Hash)]
+pub struct StructLayout {
+    /// The name, the same in GLSL.
+    pub name: &'static str,
+    /// The fields in order.
+    pub fields: &'static [Field],
+    /// Bytes of the whole structure.
+    pub size: usize,
+}
+
+/// The names of a Rust enumeration, in the order of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct EnumLayout {
+    /// The name in Rust.
+    pub name: &'static str,
+    /// What the names of the shaders' constants begin with; empty where shaders know none.
+    pub prefix: &'static str,
+    /// The variants in Rust.
+    pub variants: &'static [&'static str],
+    /// The words in the panel, for `--set` and in `--list-controls`.
+    pub words: &'static [&'static str],
+}
+
+/// Declares a `#[repr(C)]`, `Pod` structure that a shader has too, under the same names.
+///
+/// ```
+/// raybook::shader_struct! {
+///     /// What every ray of a frame needs.
+///     pub struct Push { pub origin: raybook::glam::Vec3, pub samples: u32 }
+/// }
+/// ```
+#[macro_export]
+macro_rules! shader_struct {
+    ($(#[$attribute:meta])* $access:vis struct $name:ident {
+        $($(#[$field_attribute:meta])* $field_access:vis $field:ident : $type:ty),+ $(,)?
+    }) => {
+        $(#[$attribute])*
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug)]
+        $access struct $name { $($(#[$field_attribute])* $field_access $field: $type),+ }
+
+        // What the derive macros of bytemuck would say. Those must be told this crate's name as text, and it has
+        // two names: its own, and `common` in the book.
+        const _: () = {
+            const fn are_plain<T: $crate::bytemuck::Pod>() -> usize {
+                ::std::mem::size_of::<T>()
+            }
+            let fields = 0 $(+ are_plain::<$type>())+;
+            assert!(fields == ::std::mem::size_of::<$name>(), "a gap lies between two fields");
+        };
+        // SAFETY: each field is plain data, for which all bytes 0 are a value; as checked above.
+        unsafe impl $crate::bytemuck::Zeroable for $name {}
+        // SAFETY: its layout is C's, each field is plain data, and no gap lies between them; as checked above.
+        unsafe impl $crate::bytemuck::Pod for $name {}
+
+        impl $crate::gpu::ShaderStruct for $name {
+            const LAYOUT: $crate::gpu::StructLayout = $crate::gpu::StructLayout {
+                name: stringify!($name),
+                fields: &[$((stringify!($field), ::std::mem::offset_of!($name, $field))),+],
+                size: ::std::mem::size_of::<$name>(),
+            };
+        }
+
+        impl $crate::gpu::ShaderType for $name {
+            fn reach(known: &mut $crate::gpu::Known) {
+                if known.add_struct(<Self as $crate::gpu::ShaderStruct>::LAYOUT) {
+                    $(<$type as $crate::gpu::ShaderType>::reach(known);)+
+                }
+            }
+        }
+    };
+}

@@ -1,0 +1,15 @@
+//! Files that somebody else made: OBJ models, MTL materials and PNG textures, read within limits, with a warning
+//! for what other loaders read past.
+
+mod index;
+mod limits;
+mod mtl;
+pub mod obj;
+mod obj_check;
+mod tally;
+pub mod text;
+mod texture;
+mod warnings;
+
+pub use obj::Model;
+pub use texture::Texture;

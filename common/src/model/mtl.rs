@@ -1,0 +1,282 @@
+//! The MTL files that materials come from.
+
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail, ensure};
+use glam::Vec3;
+
+use super::limits::Limits;
+use super::text::{
+    Folder, Named, Statement, Text, Unavailable, name, numbers, quoted, uncommented,
+};
+use super::texture::{Role, Texture, TextureFiles};
+use super::warnings::{Kind, Warnings};
+use crate::scene::material::Material;
+
+/// The most that a material may shine, as the largest strength of a light in a scene file: sums of many
+/// samples have to bear it.
+const BRIGHTEST: f32 = 1e6;
+
+/// The materials that an OBJ file has met so far.
+///
+/// MTL is read here and not by the parser of the OBJ file, which has no line numbers either, panics
+/// on the legal `Kd 0.5`, and leaves `Tr` and everything about textures to its caller.
+#[derive(Default)]
+pub(crate) struct MaterialLibrary {
+    /// The materials in the order of the files.
+    pub materials: Vec<Material>,
+    /// The textures they name.
+    textures: TextureFiles,
+    /// Where each was defined first.
+    found: HashMap<String, String>,
+    read: HashSet<PathBuf>,
+    /// Bytes of the files that were read.
+    bytes: u64,
+    /// The materials that have a colour of their own.
+    colored: HashSet<usize>,
+    given: Given,
+}
+
+/// What the current material has said, where one statement overrules or completes another.
+#[derive(Default)]
+struct Given {
+    any: bool,
+    opacity: bool,
+    /// It has been defined before.
+    again: bool,
+}
+
+impl MaterialLibrary {
+    /// Whether a file has defined the material.
+    pub fn defines(&self, material: &str) -> bool {
+        self.found.contains_key(material)
+    }
+
+    /// What to say of a material that no file defines.
+    pub fn undefined(&self, material: &str) -> String {
+        let known: Vec<_> = self.materials.iter().take(5).map(|m| quoted(&m.name)).collect();
+        let known = match self.materials.len() {
+            0 => "no material".to_owned(),
+            1..=5 => known.join(", "),
+            more => format!("{} and {} more", known.join(", "), more - 5),
+        };
+        let material = quoted(material);
+        format!("the material {material} is not defined; the mtllib files hold {known}")
+    }
+
+    /// The materials, and the textures that they index; those that cannot be had are warned of.
+    pub fn finish(self, limits: &Limits, warnings: &mut Warnings) -> (Vec<Material>, Vec<Texture>) {
+        let Self { mut materials, textures, colored, .. } = self;
+        let (textures, positions) = textures.load(limits, warnings);
+        for (number, material) in materials.iter_mut().enumerate() {
+            for slot in [&mut material.base_texture, &mut material.opacity_texture] {
+                *slot = slot.and_then(|file| positions[file]);
+            }
+            // The texture alone is meant, not half of it.
+            if material.base_texture.is_some() && !colored.contains(&number) {
+                material.base_color = Vec3::ONE;
+            }
+        }
+        (materials, textures)
+    }
+
+    /// Reads an MTL file. Keywords that these samples do not use are passed over.
+    ///
+    /// # Errors
+    /// On a value that is wrong, with file and line.
+    pub fn read(
+        &mut self,
+        file: &Named,
+        folder: &Folder,
+        limits: &Limits,
+        warnings: &mut Warnings,
+    ) -> Result<()> {
+        if !self.read.insert(file.path.clone()) {
+            return Ok(());
+        }
+        let text = Text::read(&file.path, file.shown.clone(), limits.mtl_bytes)?;
+        self.bytes += text.size() as u64;
+        ensure!(
+            self.bytes <= limits.mtl_bytes,
+            "{}: is too large: with the MTL files before it {} bytes, at most {} are read",
+            file.shown,
+            self.bytes,
+            limits.mtl_bytes
+        );
+        self.given = Given::default();
+        for statement in text.statements() {
+            self.statement(&statement, file, folder, warnings)
+                .map_err(|error| statement.at(error))?;
+            let most = limits.materials;
+            ensure!(
+                self.materials.len() <= most,
+                statement.at(format!("more than {most} materials, the most that are read"))
+            );
+        }
+        Ok(())
+    }
+
+    fn statement(
+        &mut self,
+        statement: &Statement,
+        file: &Named,
+        folder: &Folder,
+        warnings: &mut Warnings,
+    ) -> Result<()> {
+        let (keyword, rest) = statement.split()?;
+        if keyword == "newmtl" {
+            return self.start(material_name(keyword, rest)?, statement, warnings);
+        }
+        const READ: [&str; 11] =
+            ["Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "map_d"];
+        if !READ.contains(&keyword) {
+            return Ok(());
+        }
+        ensure!(self.given.any, "{keyword} stands before the first newmtl");
+        if self.given.again {
+            return Ok(());
+        }
+        let mut pass_over = |what: &str| {
+            let what = || format!("{keyword} has {what}, which is not supported");
+            warnings.add(Kind::Option, statement, what);
+        };
+        let given = &mut self.given;
+        let position = self.materials.len().saturating_sub(1);
+        let material = self.materials.last_mut().context("no material")?;
+        match keyword {
+            "Kd" | "Ks" | "Ke" | "Tf" => {
+                let Some(color) = color(keyword, rest, &mut pass_over)? else { return Ok(()) };
+                let most = color.max_element();
+                ensure!(
+                    most <= BRIGHTEST,
+                    "{keyword} is {most:?}; it cannot be more than {BRIGHTEST}"
+                );
+                match keyword {
+                    "Kd" => {
+                        material.base_color = color;
+                        self.colored.insert(position);
+                    }
+                    "Ks" => material.specular = color,
+                    "Tf" => material.transmission = color,
+                    _ => material.emission = color,
+                }
+            }
+            "Ns" => material.shininess = number(keyword, rest, f32::MAX)?,
+            "Ni" => material.refraction = number(keyword, rest, f32::MAX)?,
+            "d" => {
+                let value = rest.strip_prefix("-halo").inspect(|_| pass_over("the option -halo"));
+                material.opacity = number(keyword, value.unwrap_or(rest), 1.0)?;
+                given.opacity = true;
+            }
+            "Tr" => {
+                // Old exporters wrote Tr as another name of d, so d decides where there are both.
+                let transparency = number(keyword, rest, 1.0)?;
+                if !given.opacity {
+                    material.opacity = 1.0 - transparency;
+                }
+            }
+            "illum" => {
+                let model = uncommented(rest).trim();
+                let number = model.parse().ok().filter(|number| *number <= 10);
+                material.illumination = number.with_context(|| {
+                    format!("illum {} is not a whole number from 0 to 10", quoted(model))
+                })?;
+            }
+            _ => {
+                let named = after_options(rest, &mut pass_over);
+                let image = match folder.find(keyword, named, Some(file)) {
+                    Err(error) if error.is::<Unavailable>() => {
+                        warnings.add(Kind::Texture, statement, || error);
+                        return Ok(());
+                    }
+                    image => image?,
+                };
+                let (slot, role) = match keyword {
+                    "map_Kd" => (&mut material.base_texture, Role::Color),
+                    _ => (&mut material.opacity_texture, Role::Opacity),
+                };
+                *slot = Some(self.textures.add(image, role, statement.place()));
+            }
+        }
+        Ok(())
+    }
+
+    fn start(&mut self, name: &str, statement: &Statement, warnings: &mut Warnings) -> Result<()> {
+        self.given = Given { any: true, ..Given::default() };
+        if let Some(first) = self.found.get(name) {
+            let what = || format!("the material {} is defined at {first} already", quoted(name));
+            warnings.add(Kind::Definition, statement, what);
+            self.given.again = true;
+            return Ok(());
+        }
+        self.found.insert(name.to_owned(), statement.place());
+        self.materials.push(Material { name: name.to_owned(), ..Material::default() });
+        Ok(())
+    }
+}
+
+/// The name of a material. Exporters leave it out, and then in both files: the OBJ file's use is of what
+/// the MTL file defines. tobj takes no empty one.
+///
+/// # Errors
+/// If it is too long.
+pub(crate) fn material_name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
+    if rest.is_empty() { Ok("(no name)") } else { name(keyword, rest) }
+}
+
+/// Three numbers from 0, or one for all three; `None` if it is given in a form that is passed over.
+fn color(keyword: &str, rest: &str, pass_over: &mut impl FnMut(&str)) -> Result<Option<Vec3>> {
+    let first = rest.split_whitespace().next().unwrap_or_default();
+    if matches!(first, "spectral" | "xyz") {
+        pass_over(&format!("the form {first}"));
+        return Ok(None);
+    }
+    let mut values = [0.0; 3];
+    let color = match numbers(rest, &mut values)? {
+        1 => Vec3::splat(values[0]),
+        3 => Vec3::from(values),
+        count => bail!("{keyword} has {count} numbers; a colour has 3, or 1 for a grey"),
+    };
+    ensure!(color.min_element() >= 0.0, "{keyword} has a negative number; a colour has none");
+    Ok(Some(color))
+}
+
+/// The name of a texture, which stands after the options.
+fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str)) -> &'a str {
+    let mut rest = rest;
+    while let Some(option) = rest.split_whitespace().next().filter(|word| word.starts_with('-')) {
+        // How many words an option takes at least; of offset, scale and turbulence, only the first is due.
+        let (least, most) = match option {
+            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-colorspace"
+            | "-imfchan" | "-texres" | "-type" => (1, 1),
+            "-mm" => (2, 2),
+            "-o" | "-s" | "-t" => (1, 3),
+            // No option, but a name that starts so.
+            _ => break,
+        };
+        pass_over(&format!("the option {option}"));
+        rest = rest[option.len()..].trim_start();
+        for taken in 0..most {
+            let word = rest.split_whitespace().next().unwrap_or_default();
+            if taken >= least && word.parse::<f32>().is_err() {
+                break;
+            }
+            rest = rest[word.len()..].trim_start();
+        }
+    }
+    rest
+}
+
+/// One number from 0 to `most`.
+fn number(keyword: &str, rest: &str, most: f32) -> Result<f32> {
+    let mut values = [0.0; 1];
+    ensure!(numbers(rest, &mut values)? == 1, "{keyword} is not followed by a number");
+    let [value] = values;
+    ensure!(value >= 0.0, "{keyword} is {value}; it cannot be negative");
+    ensure!(value <= most, "{keyword} is {value}; it cannot be more than {most}");
+    Ok(value)
+}
+
+#[cfg(test)]
+mod tests;

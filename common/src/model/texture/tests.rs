@@ -1,0 +1,240 @@
+//! Textures that load, and those that are warned of.
+
+use super::super::obj::tests::{TRIANGLE, load_files};
+use super::*;
+use crate::scene::material::Material;
+use image::{GrayImage, ImageFormat, RgbImage, RgbaImage};
+use std::io::Cursor;
+
+fn encoded(image: impl Into<DynamicImage>) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+/// A PNG file of rows of `width` texels.
+pub fn png(texels: &[[u8; 4]], width: u32) -> Vec<u8> {
+    let height = texels.len() as u32 / width;
+    encoded(RgbaImage::from_raw(width, height, texels.concat()).unwrap())
+}
+
+fn opaque_png(texels: &[[u8; 3]]) -> Vec<u8> {
+    encoded(RgbImage::from_raw(texels.len() as u32, 1, texels.concat()).unwrap())
+}
+
+fn load(mtl: &str, files: &[(&str, &[u8])]) -> Result<(Vec<Material>, Vec<Texture>), String> {
+    let obj = format!("mtllib m.mtl\n{TRIANGLE}");
+    let mut all: Vec<(&str, &[u8])> =
+        vec![("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
+    all.extend_from_slice(files);
+    load_files(&all, &Limits::DEFAULT).map(|model| (model.materials, model.textures))
+}
+
+/// Line 2 of `m.mtl` is warned of by a line that starts so, and the colour is the plain one.
+#[track_caller]
+fn warned(line: &str, file: &[u8], start: &str) {
+    let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let mtl = format!("newmtl a\n{line}\n");
+    let files: [(&str, &[u8]); 3] =
+        [("model.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("t.png", file)];
+    let model = load_files(&files, &Limits::DEFAULT).unwrap();
+    let [warning] = &model.warnings[..] else { panic!("{:?}", model.warnings) };
+    let end = "; the plain colour stands for it (1 in all)";
+    assert!(warning.starts_with(&format!("m.mtl:2: {start}")), "{warning}");
+    assert!(warning.ends_with(end), "{warning}");
+    let plain = Material { name: "a".to_owned(), ..Material::default() };
+    assert_eq!((model.materials, model.textures), (vec![plain], vec![]));
+}
+
+#[test]
+fn rows_come_from_the_top_and_alpha_is_kept() {
+    let texels = [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12], [13, 14, 15, 16]];
+    let (materials, textures) =
+        load("newmtl a\nmap_Kd my tex\\t 1.png\n", &[("my tex/t 1.png", &png(&texels, 2))])
+            .unwrap();
+    let rgba = texels.concat();
+    let name = "my tex/t 1.png".to_owned();
+    assert_eq!(textures, [Texture { name, width: 2, height: 2, rgba, srgb: true }]);
+    assert_eq!(materials[0].base_texture, Some(0));
+    assert_eq!(materials[0].base_color, glam::Vec3::ONE);
+}
+
+#[test]
+fn paths_start_at_the_mtl_file_and_names_at_the_obj_file() {
+    let obj = format!("mtllib sub/m.mtl\n{TRIANGLE}");
+    let texel = png(&[[1, 2, 3, 4]], 1);
+    let files: [(&str, &[u8]); 3] = [
+        ("model.obj", obj.as_bytes()),
+        ("sub/m.mtl", b"newmtl a\nKd 0.5 0.5 0.5\nmap_Kd t.png\n"),
+        ("sub/t.png", &texel),
+    ];
+    let model = load_files(&files, &Limits::DEFAULT).unwrap();
+    assert_eq!(model.textures[0].name, "sub/t.png");
+    assert_eq!(model.materials[0].base_color, glam::Vec3::splat(0.5));
+}
+
+#[test]
+fn alpha_is_luminance_only_where_opacity_has_no_alpha() {
+    let opaque = opaque_png(&[[255, 255, 255], [0, 255, 0], [80, 80, 80]]);
+    let alpha =
+        |texture: &Texture| texture.rgba.iter().skip(3).step_by(4).copied().collect::<Vec<_>>();
+    let files: [(&str, &[u8]); 1] = [("t.png", &opaque)];
+
+    let (_, color) = load("newmtl a\nmap_Kd t.png\n", &files).unwrap();
+    assert_eq!((alpha(&color[0]), color[0].srgb), (vec![255; 3], true));
+    let (materials, opacity) = load("newmtl a\nmap_d t.png\n", &files).unwrap();
+    assert_eq!((alpha(&opacity[0]), opacity[0].srgb), (vec![255, 182, 80], false));
+    assert!(materials[0].has_cutout() && materials[0].base_texture.is_none());
+    let (materials, both) = load("newmtl a\nmap_d t.png\nmap_Kd ./t.png\n", &files).unwrap();
+    assert_eq!((both.len(), alpha(&both[0]), both[0].srgb), (1, vec![255, 182, 80], true));
+    assert_eq!((materials[0].base_texture, materials[0].opacity_texture), (Some(0), Some(0)));
+
+    let clear = png(&[[255, 255, 255, 7]], 1);
+    let (_, own) = load("newmtl a\nmap_d t.png\n", &[("t.png", &clear)]).unwrap();
+    assert_eq!(own[0].rgba, [255, 255, 255, 7]);
+    let grey = encoded(GrayImage::from_raw(1, 1, vec![99]).unwrap());
+    let (_, grey) = load("newmtl a\nmap_d t.png\n", &[("t.png", &grey)]).unwrap();
+    assert_eq!(grey[0].rgba, [99; 4]);
+}
+
+#[test]
+fn files_that_are_wrong() {
+    let good = png(&[[1, 2, 3, 4]; 4096], 64);
+    warned("map_Kd gone.png", &good, "map_Kd names \"gone.png\", which is not there");
+    warned("map_d", &good, "map_d is not followed by a name");
+    let no_png = "the texture t.png: is not a PNG file; convert it to one";
+    warned("map_Kd t.png", b"\xff\xd8\xff\xe0 a JPEG file", no_png);
+    warned("map_Kd t.png", b"", no_png);
+    warned("map_Kd .", b"", "map_Kd names \".\", which is no file");
+    for cut in [9, 40, good.len() / 2, good.len() - 20] {
+        let start = "the texture t.png: cannot be decoded, it is damaged or cut off: ";
+        warned("map_d t.png", &good[..cut], start);
+    }
+}
+
+#[test]
+fn textures_after_one_that_is_wrong_keep_their_materials() {
+    let mtl = "newmtl a\nmap_Kd bad.png\nnewmtl b\nmap_Kd t.png\nmap_d bad.png\n";
+    let texel = png(&[[1, 2, 3, 4]], 1);
+    let (materials, textures) = load(mtl, &[("bad.png", b""), ("t.png", &texel)]).unwrap();
+    assert_eq!((textures.len(), textures[0].name.as_str()), (1, "t.png"));
+    assert_eq!((materials[0].base_texture, materials[1].base_texture), (None, Some(0)));
+    assert_eq!(materials[1].opacity_texture, None);
+    assert_eq!(materials[0].base_color, glam::Vec3::splat(0.5));
+    assert_eq!(materials[1].base_color, glam::Vec3::ONE);
+}
+
+#[test]
+fn paths_that_leave_the_folder() {
+    let outside = |name: &str| {
+        format!("map_Kd names {name:?}, outside the OBJ file's folder; copy it into the folder")
+    };
+    for name in ["../t.png", "a/../../t.png", "..\\t.png", "/etc/passwd", "D:/t.png"] {
+        warned(&format!("map_Kd {name}"), b"", &outside(name));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_that_leave_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    std::fs::create_dir(folder.path().join("in")).unwrap();
+    write("secret.png", &png(&[[0; 4]], 1));
+    write("in/model.obj", format!("mtllib m.mtl\n{TRIANGLE}").as_bytes());
+    write("in/m.mtl", b"newmtl a\nmap_Kd link.png\n");
+    let (link, obj) = (folder.path().join("in/link.png"), folder.path().join("in/model.obj"));
+    std::os::unix::fs::symlink("../secret.png", &link).unwrap();
+    let model = super::super::obj::load(&obj).unwrap();
+    let message = "in/m.mtl:2: map_Kd names \"link.png\", outside the OBJ file's folder";
+    assert!(model.warnings[0].contains(message), "{:?}", model.warnings);
+    assert!(model.textures.is_empty());
+
+    write("in/inside.png", &png(&[[0; 4]], 1));
+    std::fs::remove_file(&link).unwrap();
+    std::os::unix::fs::symlink("inside.png", &link).unwrap();
+    assert_eq!(super::super::obj::load(&obj).unwrap().textures[0].name, "inside.png");
+}
+
+#[test]
+fn textures_that_are_too_large() {
+    let wide = encoded(GrayImage::new(16385, 1));
+    let side = "the texture t.png: is 16385 x 1 texels, at most 16384 x 16384 are read";
+    warned("map_Kd t.png", &wide, side);
+
+    // Two textures of 576 bytes; the second still takes as much beside it while it is read.
+    let small = png(&[[0; 4]; 144], 12);
+    let deep = encoded(DynamicImage::new_rgba16(12, 12));
+    for (most, second, need) in [(1000, &small, 576), (2000, &deep, 1728)] {
+        let limits = Limits { texture_bytes: most, ..Limits::DEFAULT };
+        let obj = format!("mtllib m.mtl\n{TRIANGLE}");
+        let mtl: &[u8] = b"newmtl a\nmap_Kd a.png\nmap_d b.png\n";
+        let obj = ("model.obj", obj.as_bytes());
+        let all = [obj, ("m.mtl", mtl), ("a.png", &small), ("b.png", second)];
+        let model = load_files(&all, &limits).unwrap();
+        let words = format!(
+            "m.mtl:3: the texture b.png: is 12 x 12 texels, which take {need} bytes to decode; all \
+             textures together may take {most}, of which {} are left; the plain colour stands for it (1 \
+             in all)",
+            most - 576
+        );
+        assert_eq!(model.warnings, [words]);
+        assert_eq!(model.textures.len(), 1);
+    }
+}
+
+/// A chunk of a PNG file, as PNG, third edition, 5.3 has it.
+fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let content = [kind, data].concat();
+    let crc = crc32fast::hash(&content).to_be_bytes();
+    [&(data.len() as u32).to_be_bytes()[..], &content, &crc].concat()
+}
+
+#[test]
+fn a_row_that_no_decoder_has_room_for_is_too_wide_and_no_text() {
+    let mut wide = png(&[[1, 2, 3, 4]], 1);
+    let header = [&(1u32 << 30).to_be_bytes()[..], &wide[20..29]].concat();
+    wide.splice(8..33, chunk(b"IHDR", &header));
+    let words = "the texture t.png: is 1073741824 x 1 texels, at most 16384 x 16384 are read";
+    warned("map_Kd t.png", &wide, words);
+}
+
+#[test]
+fn a_palette_of_half_a_colour_is_no_mistake_of_the_program() {
+    let plain = png(&[[1, 2, 3, 4]], 1);
+    let header = chunk(b"IHDR", &[0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0]);
+    let with =
+        |palette: &[u8]| [&plain[..8], &header, &chunk(b"PLTE", palette), &plain[33..]].concat();
+    for (palette, size) in [(&b"abcd"[..], 4), (&[0; 767], 767), (b"a", 1)] {
+        let words = format!(
+            "the texture t.png: cannot be decoded, it is damaged or cut off: its palette has {size} \
+             bytes, no multiple of 3"
+        );
+        warned("map_Kd t.png", &with(palette), &words);
+    }
+    let other = [&plain[..8], &chunk(b"CgBI", b"abcd"), &plain[8..]].concat();
+    let words =
+        "the texture t.png: cannot be decoded, it is damaged or cut off: its first chunk is";
+    warned("map_Kd t.png", &other, words);
+}
+
+#[test]
+fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() {
+    let plain = png(&[[1, 2, 3, 4]], 1);
+    // The header's chunk ends here.
+    let (start, end) = plain.split_at(33);
+    let with = |chunk: Vec<u8>| [start, &chunk, end].concat();
+    let mut packed =
+        flate2::write::ZlibEncoder::new(b"p\0\0".to_vec(), flate2::Compression::best());
+    let zeros = vec![0; 1 << 20];
+    for _ in 0..(2 * BESIDE_BYTES) >> 20 {
+        std::io::Write::write_all(&mut packed, &zeros).unwrap();
+    }
+    let profile = with(chunk(b"iCCP", &packed.finish().unwrap()));
+    let (_, textures) = load("newmtl a\nmap_Kd t.png\n", &[("t.png", &profile)]).unwrap();
+    assert_eq!(textures[0].rgba, [1, 2, 3, 4]);
+    let text = with(chunk(b"tEXt", &[b"a\0".to_vec(), vec![b'a'; BESIDE_BYTES as usize]].concat()));
+    let words = "the texture t.png: has texts of more than 16777216 bytes beside its texels; save it \
+                 without";
+    warned("map_Kd t.png", &text, words);
+}

@@ -1,0 +1,79 @@
+//! What is wrong with a model, but not so wrong that it cannot be shown: a line for each kind.
+
+use std::fmt::Display;
+
+use super::text::Statement;
+
+/// A kind of fault, and what is done about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// An MTL file that is named and not there.
+    Library,
+    /// A second definition of a material.
+    Definition,
+    /// A material that no MTL file defines.
+    Material,
+    /// A texture that is missing, outside the model's folder, or no picture.
+    Texture,
+    /// An option or a form of a statement that is not supported.
+    Option,
+    /// A texture coordinate out of range.
+    Coordinate,
+    /// A normal out of range.
+    Normal,
+    /// A statement of another format.
+    Keyword,
+}
+
+impl Kind {
+    /// What stands for what is missing.
+    fn instead(self) -> &'static str {
+        match self {
+            Self::Library => "its materials are not known",
+            Self::Definition => "the first definition stands",
+            Self::Material => "a grey stands for it",
+            Self::Texture => "the plain colour stands for it",
+            Self::Option => "it is passed over",
+            Self::Coordinate => "the corner has none",
+            Self::Normal => "the triangle's own stands for it",
+            Self::Keyword => "the line is passed over",
+        }
+    }
+}
+
+/// The faults that a model was shown in spite of. A file may have millions: of each kind, the first is
+/// told and the others are counted.
+#[derive(Default)]
+pub(crate) struct Warnings(Vec<Warning>);
+
+struct Warning {
+    kind: Kind,
+    first: String,
+    count: usize,
+}
+
+impl Warnings {
+    /// Notes a fault of a statement.
+    pub fn add<E: Display>(&mut self, kind: Kind, statement: &Statement, what: impl FnOnce() -> E) {
+        self.add_many(kind, 1, || statement.at(what()).to_string());
+    }
+
+    /// Notes `count` faults of a kind; `first` says where the first is and what, on one line.
+    pub fn add_many(&mut self, kind: Kind, count: usize, first: impl FnOnce() -> String) {
+        match self.0.iter_mut().find(|warning| warning.kind == kind) {
+            Some(warning) => warning.count += count,
+            None => self.0.push(Warning { kind, first: first(), count }),
+        }
+    }
+
+    /// A line for each kind, in the order of their firsts.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |Warning { kind, first, count }: &Warning| {
+            format!("{first}; {} ({count} in all)", kind.instead())
+        };
+        self.0.iter().map(line).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

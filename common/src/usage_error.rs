@@ -1,0 +1,15 @@
+//! The error that means "wrong arguments": a program ends with exit code 2 instead of 1.
+
+use std::fmt;
+
+/// A wrong argument, in one line that says what would be right.
+#[derive(Debug)]
+pub struct UsageError(pub String);
+
+impl fmt::Display for UsageError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for UsageError {}

@@ -1,0 +1,49 @@
+//! What a program may not name where ray tracing is hidden, and a validation layer as old as 1.3.239 does not see.
+
+use ash::vk::{self, BufferUsageFlags as UsageError, PipelineStageFlags2 as Stage};
+use layer::below;
+
+use crate::faults;
+
+/// The usages of buffers that are of ray tracing (VUID-VkBufferCreateInfo-None-09499).
+const USAGES: u32 = UsageError::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR.as_raw()
+    | UsageError::ACCELERATION_STRUCTURE_STORAGE_KHR.as_raw()
+    | UsageError::SHADER_BINDING_TABLE_KHR.as_raw();
+
+/// The stages that are (VUID-VkMemoryBarrier2-srcStageMask-07946, -10751, and the same of the other barriers).
+const STAGES: u64 =
+    Stage::ACCELERATION_STRUCTURE_BUILD_KHR.as_raw() | Stage::RAY_TRACING_SHADER_KHR.as_raw();
+
+pub unsafe extern "system" fn create_buffer(
+    device: vk::Device,
+    info: *const vk::BufferCreateInfo,
+    allocator: *const vk::AllocationCallbacks,
+    buffer: *mut vk::Buffer,
+) -> vk::Result {
+    // SAFETY: the arguments are the caller's.
+    unsafe {
+        if faults::has("no-ray-tracing") && (*info).usage.as_raw() & USAGES != 0 {
+            return vk::Result::ERROR_VALIDATION_FAILED_EXT;
+        }
+        (below::device(device).core.fp_v1_0().create_buffer)(device, info, allocator, buffer)
+    }
+}
+
+pub unsafe extern "system" fn barrier(
+    commands: vk::CommandBuffer,
+    info: *const vk::DependencyInfo,
+) {
+    // SAFETY: the arguments are the caller's; each list has as many members as it says, if any.
+    unsafe {
+        if faults::has("no-ray-tracing") {
+            let vk::DependencyInfo { memory_barrier_count, p_memory_barriers, .. } = *info;
+            for at in 0..memory_barrier_count as usize {
+                let one = &*p_memory_barriers.add(at);
+                let stages = one.src_stage_mask | one.dst_stage_mask;
+                // No barrier can fail: the process ends with the message.
+                assert!(stages.as_raw() & STAGES == 0, "a barrier names {stages:?}");
+            }
+        }
+        (below::device(commands).core.fp_v1_3().cmd_pipeline_barrier2)(commands, info);
+    }
+}
