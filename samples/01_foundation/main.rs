@@ -811,11 +811,11 @@ impl<'a> Gpu<'a> {
             );
         }
         let (size, scratch) = (sizes.acceleration_structure_size, sizes.build_scratch_size);
-        use vk::BufferUsageFlags as UsageError;
-        let addressed = UsageError::SHADER_DEVICE_ADDRESS;
-        let storage = UsageError::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
+        use vk::BufferUsageFlags as Usage;
+        let addressed = Usage::SHADER_DEVICE_ADDRESS;
+        let storage = Usage::ACCELERATION_STRUCTURE_STORAGE_KHR | addressed;
         let storage = self.buffer("an acceleration structure", size, storage, Place::Device, 1)?;
-        let usage = UsageError::STORAGE_BUFFER | addressed;
+        let usage = Usage::STORAGE_BUFFER | addressed;
         let space = self.buffer("scratch", scratch, usage, Place::Device, scratch_alignment)?;
         let create = vk::AccelerationStructureCreateInfoKHR::default()
             .ty(level)

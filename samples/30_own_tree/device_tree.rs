@@ -1,7 +1,7 @@
 //! What a build on the device leaves there, and the memory that it needs meanwhile.
 
 use anyhow::{Result, ensure};
-use ash::vk::BufferUsageFlags as UsageError;
+use ash::vk::BufferUsageFlags as Usage;
 use common::glam::Vec3;
 use common::gpu::{Address, Buffer, Gpu};
 
@@ -77,9 +77,9 @@ impl DeviceTree {
             count <= MOST_TRIANGLES,
             "{count} triangles are too many for one tree, {MOST_TRIANGLES} the most"
         );
-        let usage = UsageError::STORAGE_BUFFER
-            | UsageError::SHADER_DEVICE_ADDRESS
-            | UsageError::TRANSFER_SRC;
+        let usage = Usage::STORAGE_BUFFER
+            | Usage::SHADER_DEVICE_ADDRESS
+            | Usage::TRANSFER_SRC;
         let make = |name: &str, bytes: u64| Buffer::new(gpu, name, bytes, usage);
         let nodes_count = nodes_count(count);
         Ok(Self {
@@ -154,7 +154,7 @@ impl Scratch {
             size += part.next_multiple_of(common::gpu::ADDRESS_ALIGNMENT);
             offset
         });
-        let usage = UsageError::STORAGE_BUFFER | UsageError::SHADER_DEVICE_ADDRESS;
+        let usage = Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS;
         let buffer = Buffer::new(gpu, "scratch of trees", size, usage)?;
         let [extents, keys, other_keys, values, counts, totals, boxes] =
             offsets.map(|offset| buffer.address + offset);

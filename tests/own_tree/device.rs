@@ -8,7 +8,7 @@ mod shapes;
 
 use std::sync::Arc;
 
-use ash::vk::BufferUsageFlags as UsageError;
+use ash::vk::BufferUsageFlags as Usage;
 use common::gpu::{Buffer, Gpu, GpuOptions, Requirements};
 use common::scene::{Mesh, Vertex, input_usage};
 use glam::{Vec2, Vec3};
@@ -36,7 +36,7 @@ pub struct Uploaded {
 impl Uploaded {
     fn new(gpu: &Gpu, shape: &Shape) -> Self {
         let vertices: Vec<Vertex> = shape.vertices.iter().map(|at| vertex(*at)).collect();
-        let usage = UsageError::STORAGE_BUFFER | UsageError::SHADER_DEVICE_ADDRESS;
+        let usage = Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS;
         Self::upload(gpu, &vertices, &shape.triangles, usage)
     }
 

@@ -1,14 +1,14 @@
 //! What a program may not name where ray tracing is hidden, and a validation layer as old as 1.3.239 does not see.
 
-use ash::vk::{self, BufferUsageFlags as UsageError, PipelineStageFlags2 as Stage};
+use ash::vk::{self, BufferUsageFlags as Usage, PipelineStageFlags2 as Stage};
 use layer::below;
 
 use crate::faults;
 
 /// The usages of buffers that are of ray tracing (VUID-VkBufferCreateInfo-None-09499).
-const USAGES: u32 = UsageError::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR.as_raw()
-    | UsageError::ACCELERATION_STRUCTURE_STORAGE_KHR.as_raw()
-    | UsageError::SHADER_BINDING_TABLE_KHR.as_raw();
+const USAGES: u32 = Usage::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR.as_raw()
+    | Usage::ACCELERATION_STRUCTURE_STORAGE_KHR.as_raw()
+    | Usage::SHADER_BINDING_TABLE_KHR.as_raw();
 
 /// The stages that are (VUID-VkMemoryBarrier2-srcStageMask-07946, -10751, and the same of the other barriers).
 const STAGES: u64 =

@@ -11,8 +11,8 @@ use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail};
-use ash::vk::BufferUsageFlags as UsageError;
-use common::UsageError as Wrong;
+use ash::vk::BufferUsageFlags as Usage;
+use common::UsageError;
 use common::app::{Args, Clicked, Run};
 use common::gpu::{Buffer, Gpu, GpuOptions};
 use common::output;
@@ -62,14 +62,14 @@ impl Options {
     ///
     /// # Errors
     /// With what is wrong.
-    pub fn check(&self, args: &Args) -> Result<(), Wrong> {
+    pub fn check(&self, args: &Args) -> Result<(), UsageError> {
         let (width, height) = (args.size.width, args.size.height);
         match self.pixel {
-            Some(Which::Clicked) if args.headless => Err(Wrong(
+            Some(Which::Clicked) if args.headless => Err(UsageError(
                 "--pixel click is for a window; without one, name a pixel, such as --pixel 480,300"
                     .to_owned(),
             )),
-            Some(Which::At([x, y])) if x >= width || y >= height => Err(Wrong(format!(
+            Some(Which::At([x, y])) if x >= width || y >= height => Err(UsageError(format!(
                 "pixel {x},{y} lies outside the picture of {width}x{height}: the last is {},{}",
                 width - 1,
                 height - 1
@@ -98,10 +98,10 @@ impl Probe {
     /// # Errors
     /// If memory is short.
     pub fn open(&self, gpu: &Gpu) -> Result<()> {
-        let usage = UsageError::SHADER_DEVICE_ADDRESS
-            | UsageError::STORAGE_BUFFER
-            | UsageError::TRANSFER_SRC
-            | UsageError::TRANSFER_DST;
+        let usage = Usage::SHADER_DEVICE_ADDRESS
+            | Usage::STORAGE_BUFFER
+            | Usage::TRANSFER_SRC
+            | Usage::TRANSFER_DST;
         let log = Buffer::new(gpu, "ray log", 4 * (WORDS + 1), usage)?;
         self.stages.place(log.address);
         *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = Some((gpu.clone(), log));

@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::ptr::NonNull;
 
 use anyhow::{Context, Result, ensure};
-use ash::vk::{self, BufferUsageFlags as UsageError};
+use ash::vk::{self, BufferUsageFlags as Usage};
 use bytemuck::Pod;
 use gpu_allocator::MemoryLocation;
 
@@ -35,7 +35,7 @@ pub struct Buffer {
 impl Buffer {
     /// The usage of what shaders read or write by address.
     pub const ADDRESSED: UsageError = UsageError::from_raw(
-        UsageError::SHADER_DEVICE_ADDRESS.as_raw() | UsageError::STORAGE_BUFFER.as_raw(),
+        Usage::SHADER_DEVICE_ADDRESS.as_raw() | Usage::STORAGE_BUFFER.as_raw(),
     );
 
     /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
@@ -73,7 +73,7 @@ impl Buffer {
         // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
         let sizes = arrays.iter().map(|array| size_of_val(array.as_ref()).max(1) as u64);
         let (offsets, size) = offsets(sizes, ADDRESS_ALIGNMENT);
-        let buffer = Self::new(gpu, name, size, usage | UsageError::TRANSFER_DST)?;
+        let buffer = Self::new(gpu, name, size, usage | Usage::TRANSFER_DST)?;
         let mut staging = Staging::new(gpu, size as usize)?;
         for (array, &offset) in arrays.iter().zip(&offsets) {
             staging.fill_buffer(&buffer, offset, bytemuck::cast_slice(array.as_ref()))?;
@@ -90,7 +90,7 @@ impl Buffer {
         size: u64,
         at: MemoryLocation,
     ) -> Result<Self> {
-        Self::make(gpu, name, size, UsageError::TRANSFER_SRC | UsageError::TRANSFER_DST, at)
+        Self::make(gpu, name, size, Usage::TRANSFER_SRC | Usage::TRANSFER_DST, at)
     }
 
     fn make(
@@ -115,7 +115,7 @@ impl Buffer {
         let mut buffer = Self { handle, size, address: 0, memory: None, gpu: gpu.clone() };
         // SAFETY: as above.
         let mut requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
-        let addressed = usage.contains(UsageError::SHADER_DEVICE_ADDRESS);
+        let addressed = usage.contains(Usage::SHADER_DEVICE_ADDRESS);
         let alignment = if addressed { gpu.limits.address_alignment() } else { 1 };
         requirements.alignment = requirements.alignment.max(alignment);
         let no_memory = || format!("no memory for the buffer '{name}' of {size} bytes");
