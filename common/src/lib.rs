@@ -5,6 +5,7 @@
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
 //! - [`model`]: OBJ, MTL and PNG files, read within limits and with warnings
 //! - [`scene`]: what is rendered: camera, light, mesh, material, chess, upload
+//! - [`exit`]: how a program ends
 //! - [`files`], [`output`], [`UsageError`]: files written whole; what a program says; the error that means "wrong
 //!   arguments"
 //! - [`paths`]: the crate that a program belongs to
@@ -22,6 +23,7 @@ extern crate self as common;
 use device as _;
 
 pub mod app;
+pub mod exit;
 pub mod files;
 pub mod gpu;
 pub mod model;
@@ -32,7 +34,7 @@ pub mod scene;
 mod usage_error;
 pub mod workers;
 
-pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants};
+pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants, run};
 pub use usage_error::UsageError;
 // The crates whose types are in the signatures of this one: a program needs no versions of its own.
 pub use {anyhow, ash, bytemuck, glam};

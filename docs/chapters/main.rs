@@ -65,7 +65,7 @@ use start::Start;
 use survey::command::Survey;
 
 fn main() -> ExitCode {
-    instruments::exit::exit_code(|| {
+    common::exit::exit_code(|| {
         // Whoever asks for a chapter that is not there has given a wrong argument.
         run(&parse()?).map_err(|error| match error.downcast() {
             Ok(Unknown(line)) => UsageError(line).into(),
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<()> {
-    instruments::exit::watch();
+    common::exit::watch();
     let project = Project::open(&arguments.root)?;
     match &arguments.command {
         Command::List { json } => print(&chapter_list::list(&project, *json)?),

@@ -14,10 +14,11 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use ash::{Device, Entry, Instance, ext, khr, vk};
 use common::UsageError;
 use common::app::{Args, Picture};
+use common::exit::finish;
 use common::gpu::ensure_threads;
 use common::gpu::shader::compile;
 use common::output::{complain, print};
-use instruments::{Milliseconds, Report, check_files, finish};
+use instruments::{Milliseconds, Report, check_files};
 use vk::{AccessFlags2 as Access, ImageLayout as Layout, PipelineStageFlags2 as Stage};
 
 const NAME: &str = env!("CARGO_BIN_NAME");

@@ -17,7 +17,7 @@ use common::scene::{
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.

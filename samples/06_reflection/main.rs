@@ -19,7 +19,7 @@ use glam::Vec3;
 use recursion::Recursion;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How often a path may be reflected at most.

@@ -19,7 +19,7 @@ use common::{Controls, Frame, Sample, Setup, bytemuck};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 common::shader_enum! {

@@ -22,7 +22,7 @@ use shapes::{SceneKind, ShapeAddresses};
 use shapes_on_gpu::{Build, ShapesOnGpu};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

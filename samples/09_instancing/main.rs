@@ -21,7 +21,7 @@ use pieces::Pieces;
 use top_level::{FLAGS, PieceRecord, SEEN};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -18,7 +18,7 @@ use common::scene::{
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

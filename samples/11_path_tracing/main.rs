@@ -22,7 +22,7 @@ use glam::UVec3;
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How often a path may be reflected at most. If each surface takes 5 % of

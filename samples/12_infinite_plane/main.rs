@@ -23,7 +23,7 @@ use plane::{InfinitePlane, Inside};
 use scenes::{Lights, Preset, PresetName};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -24,7 +24,7 @@ use glam::DVec3;
 use micromaps::{Build, Micromap, Micromaps};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -25,7 +25,7 @@ use strands::StrandAddresses;
 use strands_on_gpu::{Build, Shape, StrandsOnGpu};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -28,7 +28,7 @@ use scenes::{Preset, PresetName};
 use solids::{Build, Solids, SolidsOnGpu};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -29,7 +29,7 @@ use shutter::Between;
 use world::World;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

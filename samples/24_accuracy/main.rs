@@ -41,7 +41,7 @@ use probe::Probe;
 use specimen::Specimen;
 
 fn main() -> ExitCode {
-    instruments::finish(|| {
+    common::exit::finish(|| {
         let (args, options, lab) = instruments::parse_with::<Lab>(env!("CARGO_BIN_NAME"))?;
         lab.start(&args, options)
     })

@@ -34,7 +34,7 @@ use serde_json::Value;
 use world::World;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 const PIPELINE_EVERYTHING: u32 = 1;

@@ -17,7 +17,7 @@ use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 const MAX_DEPTH: u32 = 8;

@@ -25,7 +25,7 @@ use glass::{Glass, media_at};
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How many surfaces a path may leave at most: clear glass ends none.

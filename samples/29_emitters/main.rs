@@ -26,7 +26,7 @@ use lit_scene::LitScene;
 use scenes::{SceneName, Sky, Staged};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How often light may be reflected at most.

@@ -77,9 +77,7 @@ impl DeviceTree {
             count <= MOST_TRIANGLES,
             "{count} triangles are too many for one tree, {MOST_TRIANGLES} the most"
         );
-        let usage = Usage::STORAGE_BUFFER
-            | Usage::SHADER_DEVICE_ADDRESS
-            | Usage::TRANSFER_SRC;
+        let usage = Usage::STORAGE_BUFFER | Usage::SHADER_DEVICE_ADDRESS | Usage::TRANSFER_SRC;
         let make = |name: &str, bytes: u64| Buffer::new(gpu, name, bytes, usage);
         let nodes_count = nodes_count(count);
         Ok(Self {

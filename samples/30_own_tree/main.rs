@@ -16,7 +16,7 @@ use glam::{Vec2, Vec3};
 use own_tree::{Builder, OwnScene, Trees};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

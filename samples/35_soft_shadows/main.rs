@@ -14,7 +14,7 @@ use common::{Controls, Frame, Lighting, Sample, Setup, Variant, Variants};
 use glam::Vec3;
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 struct Demo {

@@ -24,7 +24,7 @@ use pieces::Pieces;
 use top_level::{FLAGS, PieceRecord, SEEN, TopLevelBuild};
 
 fn main() -> ExitCode {
-    instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
+    common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
 /// How far the camera goes before the set is placed anew.

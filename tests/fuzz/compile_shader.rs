@@ -3,10 +3,10 @@
 
 use std::process::ExitCode;
 
+use common::exit::finish;
 use common::gpu::DriverShim;
 use common::gpu::shader::Shader;
 use instruments::arithmetic::Arithmetic;
-use instruments::finish;
 
 fn main() -> ExitCode {
     finish(|| {

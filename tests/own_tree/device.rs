@@ -45,7 +45,7 @@ impl Uploaded {
         Self::upload(gpu, &mesh.vertices, &mesh.triangles, input_usage())
     }
 
-    fn upload(gpu: &Gpu, vertices: &[Vertex], triangles: &[[u32; 3]], usage: UsageError) -> Self {
+    fn upload(gpu: &Gpu, vertices: &[Vertex], triangles: &[[u32; 3]], usage: Usage) -> Self {
         Self {
             vertices: Buffer::with_data(gpu, "vertices", vertices, usage).unwrap(),
             triangles: Buffer::with_data(gpu, "triangles", triangles, usage).unwrap(),

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use anyhow::Result;
+use clap::{ArgMatches, Args as _, Command};
 use common::UsageError;
-use common::app::{self, Args, Clicked, Files, Picture, Run, RunHooks};
-use common::gpu::{Gpu, GpuOptions};
+use common::app::{self, Args, Clicked, Picture, Program, Run, RunHooks};
+use common::gpu::GpuOptions;
 use common::output;
 
 use crate::compare::{self, Comparison};
@@ -23,23 +24,45 @@ pub struct Instruments {
     resumed: Option<Sums>,
     gather: Option<Gather>,
     comparison: Option<Comparison>,
-    compiled_for: Vec<compile_for::CompiledFor>,
     probe: Option<Probe>,
+}
+
+/// Every instrument, for a program to run with.
+pub fn all() -> Instruments {
+    Instruments::new(Options::default())
 }
 
 impl Instruments {
     /// Instruments that have seen nothing yet.
     pub fn new(options: Options) -> Self {
         let probe = options.pixel.pixel.map(|_| Probe::default());
-        Self {
-            options,
-            probe,
-            compared: None,
-            resumed: None,
-            gather: None,
-            comparison: None,
-            compiled_for: Vec::new(),
+        Self { options, probe, compared: None, resumed: None, gather: None, comparison: None }
+    }
+
+    /// Does what can be done before a device is opened; `false` if that was all.
+    ///
+    /// # Errors
+    /// With what is wrong.
+    pub fn prepare(&mut self, program: &Program, args: &mut Args) -> Result<bool> {
+        if args.list_devices {
+            return Ok(true);
         }
+        let Options { report, compare, sums, compile_for, pixel, .. } = &self.options;
+        if compile_for.answer_compile_for {
+            compile_for::answer(&(program.requirements)())?;
+            return Ok(false);
+        }
+        let no_window = compare.compare.is_some()
+            || sums.samples.is_some()
+            || compile_for.compile_for.is_some()
+            || matches!(pixel.pixel, Some(Which::At(_)));
+        args.headless |= no_window;
+        if args.headless || args.list_controls {
+            report.check()?;
+            self.resumed = resumed(sums)?;
+            self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
+        }
+        Ok(true)
     }
 
     /// Prints a table, unless standard output is the report's.
@@ -62,29 +85,18 @@ pub fn check_files(args: &Args, options: &Options) -> Result<()> {
             "this program plays no frames: --animate is for chapters that do, such as 14_animation";
         return Err(UsageError(why.to_owned()).into());
     }
-    app::files::check(args, &Instruments::new(options.clone()))?;
+    app::files::check(args)?;
     Ok(options.report.check()?)
 }
 
 impl RunHooks for Instruments {
-    fn needs_no_window(&self) -> bool {
-        let Options { compare, sums, compile_for, pixel, .. } = &self.options;
-        let named = matches!(pixel.pixel, Some(Which::At(_)));
-        named
-            || compare.compare.is_some()
-            || sums.samples.is_some()
-            || compile_for.compile_for.is_some()
+    fn options(&self, command: Command) -> Command {
+        Options::augment_args(command)
     }
 
-    fn files(&self) -> Files<'_> {
-        let Options { report, sums, .. } = &self.options;
-        let (save, resume) = (sums.save.as_deref(), sums.resume.as_deref());
-        let outputs = [("--report", report.file()), ("--save", save)];
-        let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
-        let inputs = resume.map(|file| ("--resume", file));
-        // Only sums are written into the file from which they come.
-        let updated = Some(("--resume", "--save"));
-        Files { inputs: inputs.into_iter().collect(), outputs: outputs.collect(), updated }
+    fn asked(&mut self, program: &Program, matches: &ArgMatches, args: &mut Args) -> Result<bool> {
+        *self = Self::new(Options::read(matches, args)?);
+        self.prepare(program, args)
     }
 
     fn device(&self, options: &mut GpuOptions) {
@@ -98,22 +110,6 @@ impl RunHooks for Instruments {
         }
     }
 
-    fn opened(&self, gpu: &Gpu) -> Result<()> {
-        self.probe.as_ref().map_or(Ok(()), |probe| probe.open(gpu))
-    }
-
-    fn clicked(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
-        self.probe.as_ref().map(|probe| probe.clicked(trace)).transpose()
-    }
-
-    fn check(&mut self, _: &Args) -> Result<()> {
-        let Options { report, compare, sums, .. } = &self.options;
-        report.check()?;
-        self.resumed = resumed(sums)?;
-        self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
-        Ok(())
-    }
-
     fn begin(&mut self, run: &mut Run) -> Result<()> {
         if let (Some(probe), Some(Which::At(pixel))) = (&self.probe, self.options.pixel.pixel) {
             probe.frames(run, pixel)?;
@@ -125,6 +121,7 @@ impl RunHooks for Instruments {
         }
         if let Some(samples) = self.options.sums.samples.clone() {
             let gather = Gather::begin(&self.options.sums, samples, run, self.resumed.take())?;
+            run.between_bands = gather.stop();
             // Samples are pictures alone: their mean is the sums'.
             (run.frames, run.apart) = (gather.missing().ranges().to_vec(), true);
             self.gather = Some(gather);
@@ -132,33 +129,31 @@ impl RunHooks for Instruments {
         Ok(())
     }
 
-    fn band(&mut self) -> Result<()> {
-        self.gather.as_ref().map_or(Ok(()), Gather::heed)
-    }
-
     fn frame(&mut self, run: &Run, index: u32) -> Result<()> {
         self.gather.as_mut().map_or(Ok(()), |gather| gather.add(&run.gpu, &run.image, index))
     }
 
-    fn picture(&mut self, run: &Run) -> Result<Option<Picture>> {
+    fn end(&mut self, run: &Run) -> Result<Option<Picture>> {
         let sums = self.gather.take().map(Gather::finish).transpose()?;
         if let Some(comparison) = &self.comparison {
             let (name, driver) = (&run.gpu.name, &run.gpu.driver);
             self.print(&format!("{name} · {driver}\n\n{}", comparison.table()))?;
         }
+        let mut compiled_for = Vec::new();
         if let Some(family) = self.options.compile_for.compile_for {
-            let descs = run.gpu.statistics().descs;
-            self.compiled_for = compile_for::compile_for(family, &descs)?;
-            self.print(&compile_for::table(&self.compiled_for))?;
+            compiled_for = compile_for::compile_for(family, &run.gpu.statistics().descs)?;
+            self.print(&compile_for::table(&compiled_for))?;
+        }
+        // Its buffer goes before the device.
+        self.probe = None;
+        if let Some(path) = &self.options.report.report {
+            let comparison = self.comparison.take();
+            Report { comparison, compiled_for, ..Report::of(run)? }.save(path)?;
         }
         Ok(sums.filter(|_| run.args.out.is_some()).map(|sums| sums.mean()))
     }
 
-    fn end(&mut self, run: &Run) -> Result<()> {
-        self.probe.iter().for_each(Probe::close);
-        let Some(path) = &self.options.report.report else { return Ok(()) };
-        let comparison = self.comparison.take();
-        let compiled_for = std::mem::take(&mut self.compiled_for);
-        Report { comparison, compiled_for, ..Report::of(run)? }.save(path)
+    fn clicked(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
+        self.probe.as_ref().map(|probe| probe.clicked(trace)).transpose()
     }
 }

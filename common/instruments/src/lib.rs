@@ -6,7 +6,6 @@
 //! - [`compile_for`]: `--compile-for`, what a GPU's compiler makes of a sample's pipelines
 //! - [`arithmetic`]: `--arithmetic worst`, as inexact as Vulkan lets any driver be
 //! - [`pixel`]: `--pixel`, the rays of one pixel as text
-//! - [`exit`]: how a program ends
 //!
 //! They meet the framework in two places. [`Instruments`] is a [`RunHooks`](common::app::RunHooks): it sees each frame
 //! and the end. [`Arithmetic`](arithmetic::Arithmetic) is an [`DriverShim`](common::gpu::DriverShim): it changes
@@ -19,49 +18,26 @@ use device as _;
 pub mod arithmetic;
 pub mod compare;
 pub mod compile_for;
-pub mod exit;
 mod instruments;
 mod options;
 pub mod pixel;
 pub mod report;
 pub mod sums;
 
-use std::process::ExitCode;
-
 use anyhow::Result;
 use common::Sample;
 use common::app::{Args, Program};
 
-pub use exit::finish;
-pub use instruments::{Instruments, check_files};
+pub use instruments::{Instruments, all, check_files};
 pub use options::{Options, command, parse, parse_with};
 pub use report::{Milliseconds, Report};
 
-/// Runs a sample as a program, with every instrument at hand: reads the arguments, renders, and turns errors
-/// into one line.
-///
-/// Exit codes: as [`finish`].
-pub fn run<S: Sample>(name: &'static str) -> ExitCode {
-    finish(|| {
-        let (args, options) = parse(name)?;
-        start::<S>(name, &args, options)
-    })
-}
-
-/// Does what the arguments ask of a sample; the part of [`run`] after they are read.
+/// Does what arguments ask of a sample, for a program that has read them itself.
 ///
 /// # Errors
 /// Whatever went wrong.
 pub fn start<S: Sample>(name: &'static str, args: &Args, options: Options) -> Result<()> {
-    if options.compile_for.answer_compile_for && !args.list_devices {
-        return compile_for::answer(&S::requirements());
-    }
-    if !args.headless {
-        exit::compile_process::want();
-    }
-    let program = Program::of::<S>(name);
-    match options.are_none() {
-        true => program.start(args, &mut ()),
-        false => program.start(args, &mut Instruments::new(options)),
-    }
+    let (program, mut args) = (Program::of::<S>(name), args.clone());
+    let mut hooks = Instruments::new(options);
+    if hooks.prepare(&program, &mut args)? { program.start(&args, &mut hooks) } else { Ok(()) }
 }

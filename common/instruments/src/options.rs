@@ -1,7 +1,10 @@
 //! The options of all instruments, beside those of every sample.
 
+use std::path::Path;
+
+use clap::{ArgMatches, Args as _, FromArgMatches};
 use common::UsageError;
-use common::app::Args;
+use common::app::{Args, Files, usage_error};
 
 use crate::arithmetic::Arithmetic;
 use crate::{compare, compile_for, pixel, report, sums};
@@ -47,6 +50,26 @@ impl Options {
         !(told || rendered || compiled || printed) && arithmetic.or_seeded() == Arithmetic::Driver
     }
 
+    /// Reads them from a command line, and names the files that they read and write.
+    ///
+    /// # Errors
+    /// If they do not go together.
+    pub fn read(matches: &ArgMatches, args: &mut Args) -> Result<Self, UsageError> {
+        let options = Self::from_arg_matches(matches).map_err(|error| usage_error(&error))?;
+        if !options.are_none() {
+            options.check(args)?;
+        }
+        let Self { report, sums, .. } = &options;
+        let (save, resume) = (sums.save.clone(), sums.resume.clone());
+        let outputs = [("--report", report.file().map(Path::to_owned)), ("--save", save)];
+        let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
+        // Sums alone are written into the file that they come from.
+        let updated = Some(("--resume", "--save"));
+        let inputs = resume.map(|file| ("--resume", file)).into_iter().collect();
+        args.files = Files { inputs, outputs: outputs.collect(), updated };
+        Ok(options)
+    }
+
     /// Refuses options that do not go together.
     fn check(&self, args: &Args) -> Result<(), UsageError> {
         let asked = args.list_controls || self.compile_for.compile_for.is_some();
@@ -65,25 +88,21 @@ pub fn command() -> clap::Command {
 /// # Errors
 /// One line that says what is wrong and where to look.
 pub fn parse(name: &'static str) -> Result<(Args, Options), UsageError> {
-    let (args, options, ()) = parse_with(name)?;
+    let (args, options, NoMore {}) = parse_with(name)?;
     Ok((args, options))
 }
+
+#[derive(clap::Args)]
+struct NoMore {}
 
 /// As [`parse`], for a sample with arguments of its own.
 ///
 /// # Errors
 /// As [`parse`].
 pub fn parse_with<Own: clap::Args>(name: &'static str) -> Result<(Args, Options, Own), UsageError> {
-    #[derive(clap::Args)]
-    struct More<Own: clap::Args> {
-        #[command(flatten)]
-        own: Own,
-        #[command(flatten)]
-        options: Options,
-    }
-    let (args, More { options, own }) = Args::parse_with(name)?;
-    if !options.are_none() {
-        options.check(&args)?;
-    }
+    let (mut args, matches) =
+        Args::parse(name, |command| Options::augment_args(Own::augment_args(command)))?;
+    let own = Own::from_arg_matches(&matches).map_err(|error| usage_error(&error))?;
+    let options = Options::read(&matches, &mut args)?;
     Ok((args, options, own))
 }

@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 
 use ash::vk;
-use clap::Parser;
 use clap::builder::NonEmptyStringValueParser;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command, CommandFactory, FromArgMatches, Parser};
+
+use super::files::Files;
 
 use crate::UsageError;
 use crate::gpu::{GpuOptions, Requirements, named_device};
@@ -26,9 +29,13 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value = "1", value_parser = frames, allow_hyphen_values = true)]
     pub frames: u32,
 
-    /// Whether --frames was given: without it, a window stays open
+    /// True if --frames was given: without it, a window stays open
     #[arg(skip)]
     pub frames_given: bool,
+
+    /// Files that are read and written besides --scene and --out
+    #[arg(skip)]
+    pub files: Files,
 
     /// Write the last frame (with --headless; in a window, F2 writes one): .png (8-bit sRGB) or .exr (linear, unclamped)
     #[arg(long, value_name = "FILE")]
@@ -87,37 +94,42 @@ impl Args {
         }
     }
 
-    /// Parses the process's arguments, and others beside them.
+    /// Parses the process's arguments, with the options that `more` adds.
     ///
     /// Prints the help and ends the process if that is asked for.
     ///
     /// # Errors
     /// One line that says what is wrong and where to look.
-    pub fn parse_with<More: clap::Args>(name: &'static str) -> Result<(Self, More), UsageError> {
-        use clap::{CommandFactory, FromArgMatches, parser::ValueSource};
+    pub fn parse(
+        name: &'static str,
+        more: impl FnOnce(Command) -> Command,
+    ) -> Result<(Self, ArgMatches), UsageError> {
         let command = Self::command().name(name);
-        // Arguments of a sample's own would bring their own first line of the help.
+        // Options that are added would bring their own first line of the help.
         let about = command.get_about().cloned().unwrap_or_default();
-        let command = More::augment_args(command).about(about);
-        let matches = command.try_get_matches().and_then(|matches| {
+        let matches = more(command).about(about).try_get_matches();
+        let parsed = matches.and_then(|matches| {
             let mut args = Self::from_arg_matches(&matches)?;
             args.device = args.device.or_else(|| named_device().map(str::to_owned));
             args.frames_given = matches.value_source("frames") == Some(ValueSource::CommandLine);
-            Ok((args, More::from_arg_matches(&matches)?))
+            Ok((args, matches))
         });
-        let (args, more) = matches.map_err(|error| {
-            if !error.use_stderr() {
-                output::print_and_exit(&error.to_string());
-            }
-            // clap spreads an error over a paragraph; its first block says it all.
-            let text = error.to_string();
-            let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
-            let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
-            UsageError(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
-        })?;
+        let (args, matches) = parsed.map_err(|error| usage_error(&error))?;
         args.one_scene()?;
-        Ok((args, more))
+        Ok((args, matches))
     }
+}
+
+/// An error of the command line in one line; prints the help and ends the process if that is asked for.
+pub fn usage_error(error: &clap::Error) -> UsageError {
+    if !error.use_stderr() {
+        output::print_and_exit(&error.to_string());
+    }
+    // clap spreads an error over a paragraph; its first block says it all.
+    let text = error.to_string();
+    let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+    let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
+    UsageError(format!("{}; --help lists the options", line.trim_start_matches("error: ")))
 }
 
 fn size(text: &str) -> Result<vk::Extent2D, String> {

@@ -1,23 +1,35 @@
 //! The files that a run reads and writes, refused before the work.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use ash::vk;
 
-use super::run_hooks::Files;
-use super::{Args, Format, RunHooks};
+use super::{Args, Format};
 use crate::UsageError;
 use crate::files;
 use crate::gpu::Gpu;
 use crate::model::text;
+
+/// Files, each with the option that names it.
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    /// Files that are read.
+    pub inputs: Vec<(&'static str, PathBuf)>,
+    /// Files that are written.
+    pub outputs: Vec<(&'static str, PathBuf)>,
+    /// The options of an input and an output that may be one file: it is brought up to date.
+    pub updated: Option<(&'static str, &'static str)>,
+}
 
 /// Refuses before the work what would be refused after it: a file that cannot be written, or that is named
 /// twice.
 ///
 /// # Errors
 /// With the file, and why.
-pub fn check(args: &Args, watch: &dyn RunHooks) -> Result<()> {
+pub fn check(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
-    let Files { inputs, outputs, updated } = all(args, watch);
+    let Files { inputs, outputs, updated } = all(args);
     for (i, (name, file)) in outputs.iter().enumerate() {
         files::check_writable(file)?;
         let inputs = inputs.iter().filter(|(input, _)| updated != Some((*input, *name)));
@@ -31,10 +43,10 @@ pub fn check(args: &Args, watch: &dyn RunHooks) -> Result<()> {
 }
 
 /// The files that a run reads and writes.
-fn all<'a>(args: &'a Args, watch: &'a dyn RunHooks) -> Files<'a> {
-    let Files { mut inputs, mut outputs, updated } = watch.files();
-    inputs.splice(0..0, args.scene.as_deref().map(|file| ("--scene", file)));
-    outputs.splice(0..0, args.out.as_deref().map(|file| ("--out", file)));
+fn all(args: &Args) -> Files {
+    let Files { mut inputs, mut outputs, updated } = args.files.clone();
+    inputs.splice(0..0, args.scene.clone().map(|file| ("--scene", file)));
+    outputs.splice(0..0, args.out.clone().map(|file| ("--out", file)));
     Files { inputs, outputs, updated }
 }
 
@@ -42,9 +54,9 @@ fn all<'a>(args: &'a Args, watch: &'a dyn RunHooks) -> Files<'a> {
 ///
 /// # Errors
 /// With the file.
-pub fn check_scene(args: &Args, watch: &dyn RunHooks) -> Result<(), UsageError> {
+pub fn check_scene(args: &Args) -> Result<(), UsageError> {
     let opened = text::opened();
-    let mut outputs = all(args, watch).outputs.into_iter();
+    let mut outputs = all(args).outputs.into_iter();
     match outputs.find(|(_, file)| opened.iter().any(|read| files::same(read, file))) {
         Some((name, file)) => {
             Err(UsageError(format!("{name} names '{}', a file of the scene", file.display())))

@@ -12,16 +12,15 @@ use super::{Args, Program, Progress, Run, RunHooks, files};
 /// # Errors
 /// On wrong arguments ([`UsageError`](crate::UsageError)), if anything fails, or if validation had something to
 /// say.
-pub fn run(program: &Program, args: &Args, watch: &mut dyn RunHooks) -> Result<()> {
+pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<()> {
     let start = Instant::now();
-    files::check(args, watch)?;
+    files::check(args)?;
     animated::check(args)?;
-    watch.check(args)?;
-    let mut run = Run::new(program, args, watch, start)?;
+    let mut run = Run::new(program, args, hooks, start)?;
     if args.list_controls {
         return run.list_controls();
     }
-    watch.begin(&mut run)?;
+    hooks.begin(&mut run)?;
     let mut animated = args.animate.then(|| Animated::begin(&mut run)).transpose()?;
     run.sample.changed(&run.gpu)?;
     let frames = run.frames.clone();
@@ -31,22 +30,21 @@ pub fn run(program: &Program, args: &Args, watch: &mut dyn RunHooks) -> Result<(
         if let (true, Some(playback)) = (number > 0, run.sample.playback()) {
             playback.advance(1);
         }
-        run.render(index, &mut || watch.band())?;
-        watch.frame(&run, index)?;
+        run.render(index)?;
+        hooks.frame(&run, index)?;
         if let Some(animated) = &mut animated {
             animated.add(&run.picture()?)?;
         }
         progress.step();
     }
     drop(progress);
-    let picture = watch.picture(&run)?;
+    let picture = hooks.end(&run)?;
     if let Some(out) = &args.out {
         match animated {
             Some(animated) => animated.save(out)?,
             None => picture.map_or_else(|| run.picture(), Ok)?.save(out)?,
         }
     }
-    watch.end(&run)?;
     run.close()
 }
 

@@ -5,23 +5,28 @@ use std::process::ExitCode;
 use anyhow::Result;
 
 use super::{Args, RunHooks, Sample, Setup, headless, window};
-use crate::UsageError;
 use crate::gpu::{self, Gpu, Requirements};
-use crate::{output, paths};
+use crate::{exit, output, paths};
 
-/// Runs a sample of the crate in the folder `home` as a program: reads the arguments, renders, and turns errors
-/// into one line. [`run!`](crate::run) calls it.
+/// Runs a sample as a program: reads the arguments, renders in a window or without one, and turns errors into one
+/// line.
 ///
-/// Exit codes: 0 done, 1 failed, 2 wrong arguments.
-pub fn run<S: Sample>(name: &'static str, home: &str) -> ExitCode {
+/// Exit codes: as [`exit::finish`].
+pub fn run<S: Sample>(name: &'static str, mut hooks: impl RunHooks) -> ExitCode {
+    exit::finish(|| {
+        let program = Program::of::<S>(name);
+        let (mut args, matches) = Args::parse(name, |command| hooks.options(command))?;
+        if hooks.asked(&program, &matches, &mut args)? {
+            program.start(&args, &mut hooks)?;
+        }
+        Ok(())
+    })
+}
+
+/// As [`run`], for a sample of the crate in the folder `home`; [`run!`](crate::run!) calls it.
+pub fn run_at<S: Sample>(name: &'static str, home: &str) -> ExitCode {
     paths::set(home);
-    let run = || {
-        let (args, ()) = Args::parse_with(name)?;
-        Program::of::<S>(name).start(&args, &mut ())
-    };
-    let Err(error) = run() else { return ExitCode::SUCCESS };
-    output::complain(&output::line_of(&error));
-    if error.is::<UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+    run::<S>(name, ())
 }
 
 /// Runs a [`Sample`](crate::Sample) as the program of a crate outside the book: `raybook::run!(Demo)` is all of
@@ -29,7 +34,7 @@ pub fn run<S: Sample>(name: &'static str, home: &str) -> ExitCode {
 #[macro_export]
 macro_rules! run {
     ($sample:ty) => {
-        $crate::app::run::<$sample>(env!("CARGO_BIN_NAME"), env!("CARGO_MANIFEST_DIR"))
+        $crate::app::run_at::<$sample>(env!("CARGO_BIN_NAME"), env!("CARGO_MANIFEST_DIR"))
     };
 }
 
@@ -54,13 +59,14 @@ impl Program {
     ///
     /// # Errors
     /// Whatever went wrong.
-    pub fn start(&self, args: &Args, watch: &mut dyn RunHooks) -> Result<()> {
+    pub fn start(&self, args: &Args, hooks: &mut dyn RunHooks) -> Result<()> {
         if args.list_devices {
             return list_devices(&(self.requirements)());
         }
-        match args.headless || args.list_controls || watch.needs_no_window() {
-            true => headless::run(self, args, watch),
-            false => window::open(self, args, watch),
+        if args.headless || args.list_controls {
+            headless::run(self, args, hooks)
+        } else {
+            window::open(self, args, hooks)
         }
     }
 }

@@ -28,6 +28,8 @@ pub struct Run<'a> {
     pub times: Vec<Vec<f64>>,
     /// From the start of the run to the end of the first frame.
     pub first_frame: Duration,
+    /// Asked after each band but the last of a frame: an error ends the frame there.
+    pub between_bands: Box<dyn Fn() -> Result<()>>,
     bands: Bands,
     timer: Timer,
     start: Instant,
@@ -43,18 +45,17 @@ impl<'a> Run<'a> {
     pub fn new(
         program: &Program,
         args: &'a Args,
-        watch: &dyn RunHooks,
+        hooks: &dyn RunHooks,
         start: Instant,
     ) -> Result<Self> {
         let mut options = args.device((program.requirements)());
-        watch.device(&mut options);
+        hooks.device(&mut options);
         let gpu = Gpu::new(&options)?;
-        watch.opened(&gpu)?;
         files::check_size(&gpu, args.size)?;
         let setup = Setup::new(args);
         let mut sample = (program.make)(&gpu, &setup)?;
         setup.check()?;
-        files::check_scene(args, watch)?;
+        files::check_scene(args)?;
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         Ok(Self {
             name: program.name,
@@ -65,6 +66,7 @@ impl<'a> Run<'a> {
             apart: false,
             times: Vec::new(),
             first_frame: Duration::ZERO,
+            between_bands: Box::new(|| Ok(())),
             bands: Bands::default(),
             timer: Timer::new(&gpu)?,
             start,
@@ -86,17 +88,17 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Renders the frame with this number; `band` is called after each band.
+    /// Renders the frame with this number.
     ///
     /// # Errors
-    /// If the sample or the device fails, or the first error of `band`.
-    pub fn render(&mut self, index: u32, band: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+    /// If the sample or the device fails, or the first error of [`Run::between_bands`].
+    pub fn render(&mut self, index: u32) -> Result<()> {
         let accumulated = if self.apart { 0 } else { index };
-        let Self { sample, image, bands, timer, gpu, .. } = self;
+        let Self { sample, image, bands, timer, gpu, between_bands, .. } = self;
         bands.begin(image.extent, true);
         while bands.trace(&mut **sample, (gpu, timer, None), (image, index, accumulated))?.is_some()
         {
-            band()?;
+            between_bands()?;
         }
         self.times.push(self.bands.times.clone());
         if self.first_frame.is_zero() {

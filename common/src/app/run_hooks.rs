@@ -1,55 +1,31 @@
-//! What may watch a run: instruments, each with options of its own.
-
-use std::path::Path;
+//! Hooks into a run: what instruments see of it, and may change.
 
 use anyhow::Result;
+use clap::{ArgMatches, Command};
 
-use super::{Args, Picture, Run};
-use crate::gpu::{Gpu, GpuOptions};
+use super::{Args, Picture, Program, Run};
+use crate::gpu::GpuOptions;
 
-/// What sees each frame of a run, and its end. `()` watches nothing.
-///
-/// The methods are called in the order in which they stand here.
+/// Hooks into a run, called in the order in which they stand here. `()` has none.
 pub trait RunHooks {
-    /// Whether a window would be of no use to what was asked for.
-    fn needs_no_window(&self) -> bool {
-        false
+    /// Adds options to the command line.
+    fn options(&self, command: Command) -> Command {
+        command
     }
 
-    /// The files that are read and written besides those of [`Args`], each with its option.
-    fn files(&self) -> Files<'_> {
-        Files::default()
-    }
-
-    /// Changes what a device is opened with: features that are asked for, the driver that is emulated.
-    fn device(&self, _: &mut GpuOptions) {}
-
-    /// A device is opened, and nothing is made on it yet.
-    ///
-    /// # Errors
-    /// Whatever went wrong.
-    fn opened(&self, _: &Gpu) -> Result<()> {
-        Ok(())
-    }
-
-    /// In a window, a pixel was clicked with Ctrl held: what may have `trace` trace it alone, and then says what
-    /// became of it.
-    ///
-    /// # Errors
-    /// Whatever went wrong, here and in `trace`.
-    fn clicked(&self, _trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
-        Ok(None)
-    }
-
-    /// Refuses what is known to be wrong before a device is opened.
+    /// Reads these options, refuses what is wrong before a device is opened, and changes what is asked for, such
+    /// as the files that are written. `false` if nothing is left to do.
     ///
     /// # Errors
     /// With what is wrong.
-    fn check(&mut self, _: &Args) -> Result<()> {
-        Ok(())
+    fn asked(&mut self, _: &Program, _: &ArgMatches, _: &mut Args) -> Result<bool> {
+        Ok(true)
     }
 
-    /// The sample is made and set; which frames are rendered may still be changed.
+    /// Changes what a device is opened with: features, or the driver's shim.
+    fn device(&self, _: &mut GpuOptions) {}
+
+    /// Sees a sample that is made and set; which frames are rendered may still be changed.
     ///
     /// # Errors
     /// Whatever went wrong, here and below.
@@ -57,15 +33,7 @@ pub trait RunHooks {
         Ok(())
     }
 
-    /// A band of a frame is done, and perhaps not the last.
-    ///
-    /// # Errors
-    /// As [`RunHooks::begin`]; then no further one is traced.
-    fn band(&mut self) -> Result<()> {
-        Ok(())
-    }
-
-    /// A frame is done.
+    /// Sees a frame that is done.
     ///
     /// # Errors
     /// As [`RunHooks::begin`].
@@ -73,20 +41,21 @@ pub trait RunHooks {
         Ok(())
     }
 
-    /// The last frame is done; the picture of the run, where it is not that frame.
+    /// Sees the end of the last frame; returns the picture of the run, where it is not that frame.
     ///
     /// # Errors
     /// As [`RunHooks::begin`].
-    fn picture(&mut self, _: &Run) -> Result<Option<Picture>> {
+    fn end(&mut self, _: &Run) -> Result<Option<Picture>> {
         Ok(None)
     }
 
-    /// The picture is written.
+    /// Sees a pixel of a window that was clicked with Ctrl held. `trace` traces it alone; the text says what
+    /// became of it.
     ///
     /// # Errors
-    /// As [`RunHooks::begin`].
-    fn end(&mut self, _: &Run) -> Result<()> {
-        Ok(())
+    /// Whatever went wrong, here and in `trace`.
+    fn clicked(&self, _trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
+        Ok(None)
     }
 }
 
@@ -98,15 +67,4 @@ pub struct Clicked {
     pub pixel: [u32; 2],
     /// Columns and rows of the picture.
     pub size: [u32; 2],
-}
-
-/// Files, each with the option that names it.
-#[derive(Default)]
-pub struct Files<'a> {
-    /// What is read.
-    pub inputs: Vec<(&'static str, &'a Path)>,
-    /// What is written.
-    pub outputs: Vec<(&'static str, &'a Path)>,
-    /// The options of an input and an output that may be one file: it is brought up to date.
-    pub updated: Option<(&'static str, &'static str)>,
 }

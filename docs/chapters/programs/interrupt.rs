@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use anyhow::{Result, bail};
-use instruments::exit::Interrupt;
+use common::exit::Interrupt;
 
 static INTERRUPT: OnceLock<Interrupt> = OnceLock::new();
 

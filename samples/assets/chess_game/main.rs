@@ -12,10 +12,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
 use common::UsageError;
+use common::exit::finish;
 use common::files::write_whole;
 use common::model::text::shown;
 use common::output;
-use instruments::finish;
 
 /// The game of the book: Morphy's at the opera.
 const MOVES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/assets/games/opera.txt");

@@ -20,10 +20,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
 use common::UsageError;
+use common::exit::finish;
 use common::files::write_whole;
 use common::output;
 use image::ImageFormat;
-use instruments::finish;
 
 use crate::mesh::Mesh;
 use crate::obj::Object;

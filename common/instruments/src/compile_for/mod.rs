@@ -20,7 +20,7 @@ use absent::Answer;
 use common::gpu::{Executable, PipelineDesc, Requirements};
 use common::output;
 
-use crate::exit::child::{self, Crashed};
+use common::exit::child::{self, Crashed};
 
 /// What is asked of compilers.
 #[derive(Clone, Debug, Default, clap::Args)]

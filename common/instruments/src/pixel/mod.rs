@@ -8,13 +8,12 @@ mod log;
 mod stages;
 
 use std::fmt::Write;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use ash::vk::BufferUsageFlags as Usage;
 use common::UsageError;
 use common::app::{Args, Clicked, Run};
-use common::gpu::{Buffer, Gpu, GpuOptions};
+use common::gpu::GpuOptions;
 use common::output;
 
 use self::log::{Log, WORDS};
@@ -83,7 +82,12 @@ impl Options {
 #[derive(Default)]
 pub struct Probe {
     stages: Arc<Stages>,
-    opened: Mutex<Option<(Gpu, Buffer)>>,
+}
+
+impl Drop for Probe {
+    fn drop(&mut self) {
+        self.stages.close();
+    }
 }
 
 impl Probe {
@@ -91,26 +95,6 @@ impl Probe {
     pub fn device(&self, options: &mut GpuOptions) {
         options.prints = true;
         options.driver_shim = self.stages.clone();
-    }
-
-    /// Makes the log on a device.
-    ///
-    /// # Errors
-    /// If memory is short.
-    pub fn open(&self, gpu: &Gpu) -> Result<()> {
-        let usage = Usage::SHADER_DEVICE_ADDRESS
-            | Usage::STORAGE_BUFFER
-            | Usage::TRANSFER_SRC
-            | Usage::TRANSFER_DST;
-        let log = Buffer::new(gpu, "ray log", 4 * (WORDS + 1), usage)?;
-        self.stages.place(log.address);
-        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = Some((gpu.clone(), log));
-        Ok(())
-    }
-
-    /// Frees the log.
-    pub fn close(&self) {
-        self.opened.lock().unwrap_or_else(PoisonError::into_inner).take();
     }
 
     /// Prints the rays of a pixel, frame after frame.
@@ -149,7 +133,7 @@ impl Probe {
 
     /// What shaders write down while `trace` traces a pixel.
     fn told(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<String> {
-        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let opened = self.stages.opened();
         let Some((gpu, log)) = &*opened else { bail!("no device was opened") };
         let layer = gpu.validation();
         layer.take_printed();

@@ -1,12 +1,12 @@
 //! Shaders that write down what they do: the chapter's text, with lines before and after it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::Result;
-use ash::vk::ShaderStageFlags as Kind;
+use ash::vk::{BufferUsageFlags as Usage, ShaderStageFlags as Kind};
 use common::gpu::shader::{self, StageText, to_spirv};
-use common::gpu::{DriverShim, contraction};
+use common::gpu::{Buffer, DriverShim, Gpu, contraction};
 
 use super::log::{ANY_HIT, BACK, HIT, MANY, MISS, PRINT, RAY, WORDS};
 
@@ -38,12 +38,19 @@ pub struct Stages {
     /// Where the log lies on the device.
     address: AtomicU64,
     known: Mutex<Vec<Known>>,
+    /// The log and its device, which holds this: [`Stages::close`] parts them.
+    opened: Mutex<Option<(Gpu, Buffer)>>,
 }
 
 impl Stages {
-    /// From now on, shaders write to this address.
-    pub fn place(&self, address: u64) {
-        self.address.store(address, Ordering::Relaxed);
+    /// The log and its device.
+    pub fn opened(&self) -> MutexGuard<'_, Option<(Gpu, Buffer)>> {
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Frees the log.
+    pub fn close(&self) {
+        self.opened().take();
     }
 
     /// The shaders that were changed until now; an entry of the log names one by its number.
@@ -67,6 +74,17 @@ impl Stages {
 }
 
 impl DriverShim for Stages {
+    fn opened(&self, gpu: &Gpu) -> Result<()> {
+        let usage = Usage::SHADER_DEVICE_ADDRESS
+            | Usage::STORAGE_BUFFER
+            | Usage::TRANSFER_SRC
+            | Usage::TRANSFER_DST;
+        let log = Buffer::new(gpu, "ray log", 4 * (WORDS + 1), usage)?;
+        self.address.store(log.address, Ordering::Relaxed);
+        *self.opened() = Some((gpu.clone(), log));
+        Ok(())
+    }
+
     fn words(&self, stage: &StageText) -> Result<Vec<u32>> {
         let address = self.address.load(Ordering::Relaxed);
         let text = logging(shader::stage(stage.path)?, &stage.text, self.number(stage), address);

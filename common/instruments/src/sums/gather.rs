@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Weak};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -14,9 +15,9 @@ use ash::vk;
 use glam::UVec2;
 
 use super::{Header, Origin, SampleSet, Spoiled, Sums, range};
-use crate::exit::{Interrupt, Stopped};
 use common::UsageError;
 use common::app::{Args, Run, controls};
+use common::exit::{Interrupt, Stopped};
 use common::gpu::{
     Address, Binding, Buffer, ComputePipeline, Descriptor, Gpu, Image, PipelineDesc, barrier,
 };
@@ -102,11 +103,11 @@ pub struct Gather {
     /// The file, and how often it is written.
     save: Option<(PathBuf, Duration)>,
     saved: Instant,
-    interrupt: Option<Interrupt>,
+    interrupt: Option<Arc<Interrupt>>,
     /// What is gone on with, for messages.
     resumed: String,
     /// Whether this run has added a sample; the shaders are checked then.
-    has_added: bool,
+    has_added: Arc<AtomicBool>,
 }
 
 /// Reads what `--resume` names, and refuses before the work what would be refused after it.
@@ -153,7 +154,7 @@ impl Gather {
                 UsageError(format!("{name} takes no --samples{when}: {why}; {which}")).into()
             );
         }
-        let interrupt = options.save.as_ref().map(|_| Interrupt::listen());
+        let interrupt = options.save.as_ref().map(|_| Arc::new(Interrupt::listen()));
         let origin = origin(run)?;
         let gpu = &run.gpu;
         let pixels = args.size.width as usize * args.size.height as usize;
@@ -176,7 +177,7 @@ impl Gather {
             saved: Instant::now(),
             interrupt,
             resumed: file,
-            has_added: false,
+            has_added: Arc::default(),
         })
     }
 
@@ -185,18 +186,21 @@ impl Gather {
         &self.missing
     }
 
-    /// To be asked while a sample is rendered: the first one of a run need not be waited for.
+    /// For [`Run::between_bands`]: the first sample of a run need not be waited for.
     ///
     /// # Errors
     /// [`Stopped`] if a signal has come before there is anything new to save.
-    pub fn heed(&self) -> Result<()> {
-        let came = self.interrupt.as_ref().is_some_and(Interrupt::came);
-        match came && !self.has_added {
-            true => {
-                Err(Stopped("stopped before the first sample: nothing is saved".to_owned()).into())
+    pub fn stop(&self) -> Box<dyn Fn() -> Result<()>> {
+        let interrupt = self.interrupt.as_ref().map_or_else(Weak::new, Arc::downgrade);
+        let has_added = self.has_added.clone();
+        Box::new(move || {
+            let came = interrupt.upgrade().is_some_and(|interrupt| interrupt.came());
+            if came && !has_added.load(Ordering::Relaxed) {
+                let what = "stopped before the first sample: nothing is saved";
+                return Err(Stopped(what.to_owned()).into());
             }
-            false => Ok(()),
-        }
+            Ok(())
+        })
     }
 
     /// Adds the sample of this number, which is the picture; writes the file if that is due.
@@ -217,7 +221,7 @@ impl Gather {
         })?;
         let added = self.header.samples.add(&(index..index + 1).into());
         added.map_err(|both| anyhow!("samples {both} are there already"))?;
-        let stop = self.interrupt.as_ref().is_some_and(Interrupt::came);
+        let stop = self.interrupt.as_ref().is_some_and(|interrupt| interrupt.came());
         let Some((file, every)) = &self.save else { return Ok(()) };
         if stop || self.saved.elapsed() >= *every {
             let kept = self.read()?.save_unless_behind(file)?;
@@ -236,7 +240,7 @@ impl Gather {
     /// Holds the shaders against those of the sums so far. They are known only now: a sample makes its
     /// pipelines when it renders.
     fn check_shaders(&mut self, gpu: &Gpu) -> Result<()> {
-        if std::mem::replace(&mut self.has_added, true) {
+        if self.has_added.swap(true, Ordering::Relaxed) {
             return Ok(());
         }
         let shaders = Some(crc_of(&gpu.statistics().descs));

@@ -35,6 +35,7 @@ use self::lost::{Choice, Lost};
 use self::session::Session;
 use super::{Args, Program, RunHooks};
 use crate::UsageError;
+use crate::exit::compile_process;
 
 /// Pixels of a window's side: X11 counts in signed 16 bits.
 const MOST_SIDE: u32 = 32_767;
@@ -52,8 +53,8 @@ enum Wake {
 /// # Errors
 /// On wrong arguments ([`UsageError`]), without a display, if anything fails, or if validation had something
 /// to say.
-pub fn open(program: &Program, args: &Args, watch: &dyn RunHooks) -> Result<()> {
-    if args.out.is_some() || !watch.files().outputs.is_empty() {
+pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> {
+    if args.out.is_some() || !args.files.outputs.is_empty() {
         let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
         return Err(UsageError(hint.to_owned()).into());
     }
@@ -64,9 +65,11 @@ pub fn open(program: &Program, args: &Args, watch: &dyn RunHooks) -> Result<()> 
         return Err(UsageError(most).into());
     }
     log_if_asked();
+    // A shader that is edited may crash the compiler; the window stays.
+    compile_process::want();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
-    let of = Of { program, args, watch };
+    let of = Of { program, args, hooks };
     let mut shows = Shows { of, proxy, shown: Shown::Nothing, outcome: Ok(()) };
     events.run_app(&mut shows).context("the window system failed")?;
     shows.outcome
@@ -109,7 +112,7 @@ enum Shown {
 struct Of<'a> {
     program: &'a Program,
     args: &'a Args,
-    watch: &'a dyn RunHooks,
+    hooks: &'a dyn RunHooks,
 }
 
 struct Shows<'a> {
@@ -194,7 +197,7 @@ impl ApplicationHandler<Wake> for Shows<'_> {
         match (&mut self.shown, event) {
             (Shown::Session(_), WindowEvent::CloseRequested) => events.exit(),
             (Shown::Session(session), WindowEvent::RedrawRequested) => {
-                match session.draw(self.of.watch) {
+                match session.draw(self.of.hooks) {
                     Ok(true) => {}
                     Ok(false) => events.exit(),
                     Err(error) => self.stop(events, error),

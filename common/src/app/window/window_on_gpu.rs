@@ -43,7 +43,7 @@ impl WindowOnGpu {
     ///
     /// # Errors
     /// If there is none that can, or the window shows no sRGB colour.
-    pub fn new(window: Window, Of { program, args, watch }: Of) -> Result<Self> {
+    pub fn new(window: Window, Of { program, args, hooks }: Of) -> Result<Self> {
         let handles = WindowHandles {
             display: window.display_handle().context("the window has no display")?.as_raw(),
             window: window.window_handle().context("the window has no handle")?.as_raw(),
@@ -51,9 +51,8 @@ impl WindowOnGpu {
         let requirements = (program.requirements)().window().compiler_figures_where_offered();
         let mut options = args.device(requirements);
         options.window = Some(handles);
-        watch.device(&mut options);
+        hooks.device(&mut options);
         let gpu = Gpu::new(&options)?;
-        watch.opened(&gpu)?;
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);

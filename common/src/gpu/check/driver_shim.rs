@@ -3,6 +3,7 @@
 use anyhow::Result;
 use glam::Vec3;
 
+use crate::gpu::Gpu;
 use crate::gpu::device::requirements::Requirements;
 use crate::gpu::pipeline::shader::StageText;
 
@@ -18,6 +19,14 @@ pub trait DriverShim: Send + Sync {
     /// What a device must have for it, beyond what the sample asks for.
     fn requirements(&self, asked: Requirements) -> Requirements {
         asked
+    }
+
+    /// Sees a device that is opened, before anything is made on it.
+    ///
+    /// # Errors
+    /// Whatever went wrong.
+    fn opened(&self, _: &Gpu) -> Result<()> {
+        Ok(())
     }
 
     /// The words of a stage, as the driver gets them.

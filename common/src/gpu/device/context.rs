@@ -130,7 +130,9 @@ impl Gpu {
         }
         let chosen = device::choose(found, options.device.or(device::named()))?;
         let cannot = format!("cannot open {}", chosen.name);
-        Self::open(vulkan, chosen, options).context(cannot)
+        let gpu = Self::open(vulkan, chosen, options).context(cannot)?;
+        gpu.driver_shim.opened(&gpu)?;
+        Ok(gpu)
     }
 
     /// Opens a device that was chosen.

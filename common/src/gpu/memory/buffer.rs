@@ -34,16 +34,15 @@ pub struct Buffer {
 
 impl Buffer {
     /// The usage of what shaders read or write by address.
-    pub const ADDRESSED: UsageError = UsageError::from_raw(
-        Usage::SHADER_DEVICE_ADDRESS.as_raw() | Usage::STORAGE_BUFFER.as_raw(),
-    );
+    pub const ADDRESSED: Usage =
+        Usage::from_raw(Usage::SHADER_DEVICE_ADDRESS.as_raw() | Usage::STORAGE_BUFFER.as_raw());
 
     /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
     /// what the device asks of any: [`Limits::address_alignment`](crate::gpu::Limits::address_alignment).
     ///
     /// # Errors
     /// If the device has no memory left for it.
-    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: UsageError) -> Result<Self> {
+    pub fn new(gpu: &Gpu, name: &str, size: u64, usage: Usage) -> Result<Self> {
         Self::make(gpu, name, size, usage, MemoryLocation::GpuOnly)
     }
 
@@ -51,7 +50,7 @@ impl Buffer {
     ///
     /// # Errors
     /// As [`Buffer::new`], or if the copy fails.
-    pub fn with_data<T: Pod>(gpu: &Gpu, name: &str, data: &[T], usage: UsageError) -> Result<Self> {
+    pub fn with_data<T: Pod>(gpu: &Gpu, name: &str, data: &[T], usage: Usage) -> Result<Self> {
         Ok(Self::with_arrays(gpu, name, [data], usage)?.0)
     }
 
@@ -67,7 +66,7 @@ impl Buffer {
         gpu: &Gpu,
         name: &str,
         arrays: impl IntoIterator<Item = A>,
-        usage: UsageError,
+        usage: Usage,
     ) -> Result<(Self, Vec<vk::DeviceAddress>)> {
         let arrays: Vec<A> = arrays.into_iter().collect();
         // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
@@ -93,13 +92,7 @@ impl Buffer {
         Self::make(gpu, name, size, Usage::TRANSFER_SRC | Usage::TRANSFER_DST, at)
     }
 
-    fn make(
-        gpu: &Gpu,
-        name: &str,
-        size: u64,
-        usage: UsageError,
-        at: MemoryLocation,
-    ) -> Result<Self> {
+    fn make(gpu: &Gpu, name: &str, size: u64, usage: Usage, at: MemoryLocation) -> Result<Self> {
         // Vulkan has no empty buffers; an empty mesh or table still wants an address.
         let size = size.max(1);
         let most = gpu.limits.max_buffer_size();

@@ -24,9 +24,9 @@ impl Session {
     ///
     /// # Errors
     /// If the sample, the device or the window system fails.
-    pub fn draw(&mut self, watch: &dyn RunHooks) -> Result<bool> {
+    pub fn draw(&mut self, hooks: &dyn RunHooks) -> Result<bool> {
         for _ in 0..TRIES {
-            if let Some(go_on) = self.try_to_draw(watch)? {
+            if let Some(go_on) = self.try_to_draw(hooks)? {
                 return Ok(go_on);
             }
         }
@@ -34,7 +34,7 @@ impl Session {
     }
 
     /// As [`Session::draw`]; nothing if the window changed meanwhile and shows no part of it.
-    fn try_to_draw(&mut self, watch: &dyn RunHooks) -> Result<Option<bool>> {
+    fn try_to_draw(&mut self, hooks: &dyn RunHooks) -> Result<Option<bool>> {
         let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
             // An event tells when there is something to see again.
@@ -48,7 +48,7 @@ impl Session {
             return Ok(Some(false));
         }
         if let Some(part) = outcome.clicked {
-            let told = watch.clicked(&mut || self.view.trace_pixel(part))?;
+            let told = hooks.clicked(&mut || self.view.trace_pixel(part))?;
             told.into_iter().for_each(|told| self.panel.tell(told));
         }
         let area = self.area(extent, drawing.pixels_per_point);

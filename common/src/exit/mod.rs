@@ -14,10 +14,10 @@ mod signals;
 
 use std::process::ExitCode;
 
+use crate::UsageError;
+use crate::gpu::shader::are_others;
+use crate::output;
 use anyhow::Result;
-use common::UsageError;
-use common::gpu::shader::are_others;
-use common::output;
 
 pub use self::signals::{Interrupt, Stopped, watch};
 

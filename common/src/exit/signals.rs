@@ -4,7 +4,7 @@
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use common::files;
+use crate::files;
 
 /// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
 static LISTENING: AtomicBool = AtomicBool::new(false);

@@ -3,7 +3,7 @@
 use std::panic::PanicHookInfo;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use common::output;
+use crate::output;
 
 /// Whether it was said why the process ends. What crashes on the way to its end has nothing to add.
 static SAID: AtomicBool = AtomicBool::new(false);

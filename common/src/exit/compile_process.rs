@@ -5,8 +5,8 @@ use anyhow::{Context, Result, anyhow};
 use serde::{Deserialize, Serialize};
 
 use super::child::{self, Crashed};
-use common::gpu::shader;
-use common::output;
+use crate::gpu::shader;
+use crate::output;
 
 /// The child's argument.
 const ASKED: &str = "--answer-compile";
