@@ -1,9 +1,13 @@
-//! A sample: what a chapter's program is to the framework.
+//! A sample: one chapter's program, and the frame that it renders.
+
+use std::sync::Arc;
 
 use anyhow::Result;
+use ash::vk;
 
-use super::{Controls, Frame, Playback, Setup};
-use crate::gpu::{Gpu, Requirements};
+use super::variants::Background;
+use super::{Controls, Playback, Setup};
+use crate::gpu::{Gpu, Image, Requirements};
 
 /// One chapter's program. The order of the items is the order of every chapter's `main.rs`.
 pub trait Sample: 'static {
@@ -70,5 +74,44 @@ pub trait Sample: 'static {
     /// If it cannot be read back.
     fn report(&self) -> Result<serde_json::Value> {
         Ok(serde_json::Value::Null)
+    }
+}
+
+/// A frame that is to be rendered: the device, the picture, and where commands go.
+pub struct Frame<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// Where commands are recorded.
+    pub cmd: vk::CommandBuffer,
+    /// Where the picture goes: linear RGBA, four 32-bit floats, layout `GENERAL`.
+    pub image: &'a Image,
+    /// The band of it that is to be traced: whole rows.
+    pub area: vk::Rect2D,
+    /// Frames since anything changed: 0 is the first after a start, a resize or a moved control. With
+    /// `--samples`, the number of a sample.
+    pub index: u32,
+    /// How many of the frames before belong to the same picture: all of them, or with `--samples` none, as
+    /// each sample is a picture alone.
+    pub accumulated: u32,
+    /// True before the first band of this frame was traced.
+    pub(super) first_band: bool,
+    /// Where pipelines are made while the old picture stays: in a window.
+    pub(super) background: Option<&'a Arc<Background>>,
+}
+
+impl Frame<'_> {
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.image.extent.width) / f64::from(self.image.extent.height)
+    }
+
+    /// The number of the frame that the picture begins with: 0, or with `--samples` this one's.
+    pub fn first(&self) -> u32 {
+        self.index - self.accumulated
+    }
+
+    /// True before the first band of this frame was traced.
+    pub fn is_first_band(&self) -> bool {
+        self.first_band
     }
 }
