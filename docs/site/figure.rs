@@ -19,7 +19,7 @@ use crate::color::escaped;
 pub const FRAME: (&str, &str) = ("figure.js", include_str!("figure.js"));
 
 /// Where figures lie.
-const FOLDER: &str = "docs/site/figures";
+const FOLDER: &str = "docs/site/interactive";
 
 /// The file of a figure's script on the site.
 pub fn address(name: &str) -> String {

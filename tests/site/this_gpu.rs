@@ -273,7 +273,7 @@ fn planted(file: &str, from: &str, to: &str) -> Value {
         fs::copy(root().join(path), to_path).unwrap();
     };
     for name in ["device.js", "device.frag", "device.txt"] {
-        copy(&Path::new("docs/site/figures").join(name));
+        copy(&Path::new("docs/site/interactive").join(name));
     }
     for shaders in ["shaders/common", "shaders/24_accuracy"] {
         for entry in fs::read_dir(root().join(shaders)).unwrap() {

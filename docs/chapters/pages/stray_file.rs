@@ -59,7 +59,7 @@ fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) 
         // Whether they are whole, their own check says.
         "diff" if [mistake::FOLDER, exercise::FOLDER].contains(&folder) => (true, ""),
         "json" if folder == card::FOLDER => (true, ""),
-        "js" | "frag" | "txt" if folder == "docs/site/figures" => {
+        "js" | "frag" | "txt" if folder == "docs/site/interactive" => {
             (texts.says(file, &format!("touch {stem}")), "no page has this figure")
         }
         _ if file.starts_with(record::FOLDER) => (true, ""),
