@@ -11,7 +11,7 @@ use common::usage::Usage;
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project};
 
-use super::answer::Answers;
+use super::answer::Answer;
 use super::expectation::Expectation;
 use super::proof::{Run, Step, steps};
 use super::variant::Exempt;
@@ -66,8 +66,8 @@ pub struct Exercise {
     pub hint: String,
     /// What the result teaches.
     pub why: Option<String>,
-    /// What answers the question of one that takes only looking.
-    pub answers: Answers,
+    /// The answer, of one that takes only looking.
+    pub answer: Option<Answer>,
     /// What proves that it is solved.
     pub steps: Vec<Step>,
     /// Which variants of the solution give the same picture.
@@ -149,7 +149,7 @@ impl Exercise {
         let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
         let why = patch.field_if_any("Why")?.map(|field| field.value);
         let answer = patch.field_if_any("Answer")?;
-        let wrong_answer = patch.field_if_any("Wrong")?;
+        let choices = patch.field_if_any("Choices")?;
         let same = patch.fields_of(&["Same"]);
         let same: Vec<Vec<Exempt>> =
             same.iter().map(|field| Exempt::parse(file, field)).collect::<Result<_, _>>()?;
@@ -157,9 +157,6 @@ impl Exercise {
         let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
         patch.no_other_field("an exercise")?;
         let what = match (takes, &answer, patch.is_empty()) {
-            (Takes::Look, Some(_), _) if wrong_answer.is_none() => {
-                Some(("nothing tells a wrong answer", "add `Wrong: …`"))
-            }
             (Takes::Look, Some(_), true) => None,
             (Takes::Look, None, _) => {
                 Some(("what takes only looking asks a question", "add `Answer: …`"))
@@ -168,6 +165,9 @@ impl Exercise {
                 Some(("what takes only looking has no diff", "write what it takes"))
             }
             (_, Some(_), _) => Some(("what is solved by a diff has no answer", "remove it")),
+            _ if choices.is_some() && answer.is_none() => {
+                Some(("what is solved by a diff has no choices", "remove them"))
+            }
             (_, _, true) => Some(("there is no diff that solves it", FORM)),
             (Takes::Shader, ..) if !patch.is_in_shaders() => {
                 Some(("the diff changes more than shaders", "write `Takes: Rust`"))
@@ -187,11 +187,15 @@ impl Exercise {
         if let Some((what, remedy)) = what {
             return wrong(line, what, remedy);
         }
-        let value = |field: Option<Field>| field.map(|field| field.value).unwrap_or_default();
-        let answers = Answers::of(&value(answer), &value(wrong_answer));
-        if let Some(what) = answers.fault(&check) {
-            return wrong(line, &what, "mend `Answer`, `Wrong` or `Check`");
-        }
+        let choices = choices.as_ref().map(|field| &*field.value);
+        let answer = answer.map(|field| (field.line, Answer::parse(&field.value, choices, &text)));
+        let answer = match answer {
+            Some((line, Err(what))) => {
+                return wrong(line, &what, "correct `Answer`, `Choices` or `Text`");
+            }
+            Some((_, Ok(answer))) => Some(answer),
+            None => None,
+        };
         let chapter = chapter.name.clone();
         let exercise = Self {
             chapter,
@@ -202,7 +206,7 @@ impl Exercise {
             check,
             hint,
             why,
-            answers,
+            answer,
             steps,
             same,
             patch,
@@ -251,8 +255,9 @@ impl Exercise {
     fn gives_itself_away(&self) -> Option<&str> {
         let Run::Program(arguments) = &self.steps.first()?.run else { return None };
         let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
+        let answer = self.answer.as_ref()?;
         let mut told = arguments.iter().filter(|word| !self.text.contains(&***word));
-        told.find(|word| self.answers.accept(&value(word))).map(String::as_str)
+        told.find(|word| answer.accept(&value(word)) == Ok(true)).map(String::as_str)
     }
 
     /// Its item in the list on its page. The answer to a question is folded away: one looks first.
