@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use manuscript::project::Project;
 use serde_json::Value;
 
-use super::card::{HardCases, Measured, Table};
+use super::card::{HardCase, HardCases, Measured, MeasuredRung};
 use super::command::{read, rows, told, words};
 
 /// The chapter.
@@ -35,27 +35,32 @@ pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)
 /// What the answers to the hard cases are called.
 const ANSWERS: &str = "cases.json";
 
-/// How often each rung was right.
-pub fn hard_cases(failed: Option<String>, folder: &Path) -> Table<HardCases> {
-    table(failed, || Ok(rows(&read(&folder.join(ANSWERS))?["rungs"])))
+/// The number of cases each rung is right on.
+pub fn hard_cases(failed: Option<String>, folder: &Path) -> HardCases {
+    let rungs = || Ok(rows::<HardCase>(&read(&folder.join(ANSWERS))?["rungs"]));
+    let (failed, rungs) = rungs_or_failure(failed, rungs);
+    HardCases::new(failed, rungs)
 }
 
-/// How far each rung was off, and what it took.
-pub fn measured(failed: Option<String>, folder: &Path) -> Table<Measured> {
-    table(failed, || errors_and_times(&read(&folder.join("accuracy.json"))?))
+/// The error of each rung, and its time.
+pub fn measured(failed: Option<String>, folder: &Path) -> Measured {
+    let rungs = || errors_and_times(&read(&folder.join("accuracy.json"))?);
+    let (failed, rungs) = rungs_or_failure(failed, rungs);
+    Measured { failed, rungs }
 }
 
-/// The rows that a run has left, or why there are none.
-fn table<Row>(failed: Option<String>, rungs: impl FnOnce() -> Result<Vec<Row>>) -> Table<Row> {
+/// The rungs that a run has left, and the reason for its failure if it failed or left none.
+fn rungs_or_failure<Rung>(
+    failed: Option<String>,
+    rungs: impl FnOnce() -> Result<Vec<Rung>>,
+) -> (Option<String>, Vec<Rung>) {
     match rungs() {
-        Ok(rungs) => Table { failed, rungs },
-        Err(error) => {
-            Table { failed: Some(failed.unwrap_or_else(|| told(&error))), rungs: Vec::new() }
-        }
+        Ok(rungs) => (failed, rungs),
+        Err(error) => (Some(failed.unwrap_or_else(|| told(&error))), Vec::new()),
     }
 }
 
-fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
+fn errors_and_times(report: &Value) -> Result<Vec<MeasuredRung>> {
     let rungs = report["rungs"].as_array().context("it has measured nothing")?;
     let row = |rung: &Value| {
         let text = |key: &str| rung[key].as_str().unwrap_or_default().to_owned();
@@ -64,7 +69,7 @@ fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
         let ratio = &rung["time"]["ratio"];
         let wrong = ["false_hits", "false_misses", "never_offered", "not_finite"];
         let wrong = errors.iter().flat_map(|row| wrong.map(|key| number(row, key))).sum::<f64>();
-        Measured {
+        MeasuredRung {
             primitive: text("primitive"),
             rung: text("rung"),
             name: text("name"),

@@ -1,7 +1,7 @@
 //! A report card: what every chapter did on one device.
 //!
-//! `chapters survey` makes it. Cards that readers send in lie in `docs/devices`, one file a device, and
-//! are held to what a card may say.
+//! `chapters survey` makes it, as Markdown with every detail and as JSON with what the book reads. The JSON of cards
+//! that readers send in is stored in `docs/devices`, one file per device, and checked.
 
 use common::gpu::Executable;
 use instruments::report::Limits;
@@ -37,11 +37,11 @@ pub struct Card {
     /// Every chapter, by number.
     pub chapters: Vec<ChapterResult>,
     /// The hard cases of chapter 24.
-    pub hard_cases: Table<HardCases>,
+    pub hard_cases: HardCases,
     /// A short measurement of chapter 24.
-    pub measured: Table<Measured>,
-    /// What its traversal computes, if that was asked for. In another arithmetic than the driver's it is all that
-    /// the card has.
+    pub measured: Measured,
+    /// The errors of its traversal, if they were measured. In another arithmetic than the driver's it is all that the
+    /// card has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atlas: Option<Atlas>,
 }
@@ -59,8 +59,18 @@ pub struct Device {
     pub name: String,
     /// Its driver, in its maker's words.
     pub driver: String,
+    /// Its version of Vulkan: major, minor, patch.
+    pub vulkan: [u32; 3],
     /// The limits that the chapters heed.
+    #[serde(skip)]
     pub limits: Limits,
+}
+
+impl Device {
+    /// A device with its limits.
+    pub fn new(name: String, driver: String, limits: Limits) -> Self {
+        Self { name, driver, vulkan: limits.vulkan, limits }
+    }
 }
 
 /// One chapter's line.
@@ -69,29 +79,35 @@ pub struct Device {
 pub struct ChapterResult {
     /// Its name, such as `02_basic`.
     pub name: String,
-    /// Why it fails; `None` if it passes.
+    /// The reason for its failure; `None` if it passes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
     /// The extension that it needs and the device does not offer; then nothing was run.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lacks: Option<String>,
-    /// How far its picture is from the golden one: the mean FLIP error.
+    /// The mean FLIP error of its picture against the golden one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_flip: Option<f32>,
-    /// How far it may be on this device, which rounds as Vulkan lets it; 1 where the picture shows the device's
-    /// own errors.
-    #[serde(default)]
+    /// The largest error that passes on this device, which rounds as Vulkan lets it; 1 where the picture shows the
+    /// device's own errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f32>,
     /// The device's time for a frame of the card's size, the median.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<f64>,
-    /// How many messages validation had.
+    /// The number of validation messages.
+    #[serde(skip)]
     pub validation_messages: usize,
-    /// What the device's own compiler says of the programs, if it tells.
+    /// The figures of the device's own compiler, if it tells any.
+    #[serde(skip)]
     pub compiler: Vec<Executable>,
-    /// What Mesa's compiler for AMD GPUs says of them (RDNA 3), if it is installed.
+    /// The figures of Mesa's compiler for AMD GPUs (RDNA 3), if it is installed.
+    #[serde(skip)]
     pub radv: Vec<Radv>,
 }
 
 /// A program, as Mesa's compiler for AMD GPUs sees it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--compile-for`")]
 pub struct Radv {
     pub stage: String,
@@ -103,21 +119,44 @@ pub struct Radv {
     pub latency: u64,
 }
 
-/// Rows of chapter 24, or why there are none.
+/// The hard cases of chapter 24, counted over all top rungs, which must be right in every case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Table<Row> {
-    /// Why it fails; `None` if it passes.
+#[serde(deny_unknown_fields, default)]
+pub struct HardCases {
+    /// The reason for a failure; `None` if they pass.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
-    /// A row a rung and way.
-    #[serde(default = "Vec::new")]
-    pub rungs: Vec<Row>,
+    /// The number of right answers of top rungs.
+    pub right: u64,
+    /// The number of their cases.
+    pub cases: u64,
+    /// The number of top rungs that the device cannot run.
+    pub missing: u64,
+    /// Every rung, in both ways.
+    #[serde(skip)]
+    pub rungs: Vec<HardCase>,
 }
 
-/// How often a rung is right on the hard cases.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+impl HardCases {
+    /// The counts of these rungs.
+    pub fn new(failed: Option<String>, rungs: Vec<HardCase>) -> Self {
+        let mut all = Self { failed, ..Self::default() };
+        for rung in rungs.iter().filter(|rung| rung.top) {
+            if rung.unavailable.is_some() {
+                all.missing += 1;
+            } else {
+                all.right += rung.right;
+                all.cases += rung.cases;
+            }
+        }
+        Self { rungs, ..all }
+    }
+}
+
+/// The number of hard cases a rung is right on.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--cases`")]
-pub struct HardCases {
+pub struct HardCase {
     pub primitive: String,
     pub rung: String,
     pub name: String,
@@ -129,30 +168,44 @@ pub struct HardCases {
     pub cases: u64,
     #[serde(default)]
     pub right: u64,
-    /// Why this device cannot run it.
+    /// The reason why this device cannot run it.
     #[serde(default)]
     pub unavailable: Option<String>,
 }
 
-/// How far a rung is off on random rays, over all families of them, and what it costs.
+/// A measurement of chapter 24 on random rays.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Measured {
+    /// The reason for a failure; `None` if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<String>,
+    /// Every rung.
+    pub rungs: Vec<MeasuredRung>,
+}
+
+/// The error of a rung on random rays, over all families of them, and its cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
-    /// What is asked.
+pub struct MeasuredRung {
+    /// The primitive that is intersected.
     pub primitive: String,
     /// The rung's place.
     pub rung: String,
+    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_ratio: Option<f64>,
     /// The rung's name.
+    #[serde(skip)]
     pub name: String,
     /// The largest error of all rays, in ULP.
+    #[serde(skip)]
     pub worst_ulp: f64,
-    /// Hits and misses that are wrong.
+    /// The number of wrong hits and misses.
+    #[serde(skip)]
     pub wrong: u64,
-    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
-    pub time_ratio: Option<f64>,
-    /// A quarter of the rounds lie below the first, and a quarter above the second; cards of before 2026-11-28
-    /// have none.
-    #[serde(default)]
+    /// The quartiles of the time's ratio over the rounds.
+    #[serde(skip)]
     pub time_quartiles: Option<[f64; 2]>,
 }
 
@@ -165,6 +218,14 @@ impl Card {
         let words: String = name.chars().map(letter).collect();
         let words = words.split_whitespace().chain(self.arithmetic());
         words.collect::<Vec<_>>().join("-")
+    }
+
+    /// Its JSON file.
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn json(&self) -> serde_json::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
     /// The arithmetic of its atlas, if that is not the driver's: then the card has nothing else.
@@ -336,6 +397,41 @@ mod tests {
         let card = Card { device: Some(device), ..Card::default() };
         assert_eq!(card.stem(), "amd-radeon-rx-7900-radv-navi31");
         assert_eq!(Card::default().stem(), "no-device");
+    }
+
+    /// A stored card has what the writer writes, and no more.
+    #[test]
+    fn stored_cards_are_as_the_survey_writes_them() {
+        let tool = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let project = Project::open(tool.ancestors().nth(2).expect("a project")).expect("its list");
+        let (cards, faults) = all(&project);
+        assert!(faults.is_empty() && cards.len() >= 4);
+        for card in cards {
+            let stored = project.read(&format!("{FOLDER}/{}.json", card.stem())).expect("a card");
+            let written = card.json().expect("JSON");
+            let differs = stored.lines().zip(written.lines()).find(|(one, other)| one != other);
+            assert_eq!(differs, None, "{}", card.stem());
+            assert_eq!(stored.len(), written.len(), "{}", card.stem());
+        }
+    }
+
+    #[test]
+    fn hard_cases_are_counted_over_top_rungs() {
+        let rung = |top, right, unavailable: Option<&str>| HardCase {
+            top,
+            right,
+            cases: 29,
+            unavailable: unavailable.map(str::to_owned),
+            ..HardCase::default()
+        };
+        let rungs = vec![
+            rung(true, 29, None),
+            rung(true, 28, None),
+            rung(false, 3, None),
+            rung(true, 0, Some("no 64-bit floats")),
+        ];
+        let all = HardCases::new(None, rungs);
+        assert_eq!((all.right, all.cases, all.missing), (57, 58, 1));
     }
 
     #[test]

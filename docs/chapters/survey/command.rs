@@ -173,15 +173,15 @@ impl Survey<'_> {
                 }
                 accuracy::RANDOM_RAYS => card.measured = accuracy::measured(failed, folder.path()),
                 _ => {
-                    let (atlas, text) = atlas::found(failed, folder.path());
+                    let (atlas, device, text) = atlas::found(failed, folder.path());
                     drawn = Some(card_page::atlas(&text));
-                    card.device = card.device.or_else(|| atlas.of_device());
+                    card.device = card.device.or(device);
                     card.atlas = Some(atlas);
                 }
             }
         }
         let stem = card.stem();
-        let json = serde_json::to_string_pretty(&card)? + "\n";
+        let json = card.json()?;
         common::files::write_whole(&out.join(format!("{stem}.json")), json.as_bytes())?;
         let text = card_page::card(&card) + drawn.as_deref().unwrap_or_default();
         common::files::write_whole(&out.join(format!("{stem}.md")), text.as_bytes())?;
@@ -426,10 +426,10 @@ pub fn read(report: &Path) -> Result<Value> {
 }
 
 /// The device of a report that has its limits.
-fn device(report: &Value) -> Option<Device> {
+pub fn device(report: &Value) -> Option<Device> {
     let text = |key: &str| report[key].as_str().map(str::to_owned);
     let limits = serde_json::from_value(report["limits"].clone()).ok()?;
-    Some(Device { name: text("device")?, driver: text("driver")?, limits })
+    Some(Device::new(text("device")?, text("driver")?, limits))
 }
 
 /// The rows of a list, those of another shape left out.
