@@ -101,7 +101,7 @@ impl<'a> NewChapter<'a> {
         Ok(files.into_iter().map(|(path, _)| path).collect())
     }
 
-    /// What to do next.
+    /// The next steps.
     pub fn next(&self) -> String {
         let (name, module) = (&self.chapter.name, self.chapter.module());
         format!(

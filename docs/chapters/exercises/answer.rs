@@ -23,7 +23,7 @@ impl Answer {
     /// Reads the fields `Answer` and `Choices` of an exercise whose question is `text`.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The fault of the fields.
     pub fn parse(answer: &str, choices: Option<&str>, text: &str) -> Result<Self, String> {
         let Some(choices) = choices else {
             let interval = Interval::exactly(&answer.split_whitespace().collect::<Vec<_>>());

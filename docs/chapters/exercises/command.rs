@@ -22,7 +22,7 @@ use crate::programs::command_line::quoted;
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 
-/// What is asked.
+/// The arguments of `cargo chapters exercise`.
 #[derive(Debug, Args)]
 pub struct ExerciseArguments {
     /// An exercise, such as 05.2, or a chapter
@@ -49,7 +49,7 @@ pub struct ExerciseArguments {
     /// Answer the question of an exercise that takes only looking: a number, or one of the words it lists
     #[arg(long, value_name = "ANSWER", group = "what", allow_hyphen_values = true)]
     answer: Option<String>,
-    /// Where your copy of the shaders lies [default: target/exercises/NN.k]
+    /// Put your copy of the shaders there [default: target/exercises/NN.k]
     #[arg(long, value_name = "FOLDER")]
     folder: Option<PathBuf>,
     /// Open no window
@@ -237,11 +237,12 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
     }
 }
 
-/// What to add to a failure once the target may be shown.
+/// The addition to a failure's line once the target may be shown.
 pub fn offer(exercise: &Exercise, progress: &Progress) -> String {
-    match progress.shows_target(exercise) {
-        true => format!("; --target shows the target of {exercise}"),
-        false => String::new(),
+    if progress.shows_target(exercise) {
+        format!("; --target shows the target of {exercise}")
+    } else {
+        String::new()
     }
 }
 

@@ -17,14 +17,14 @@ use super::proof::{Run, Step, steps};
 use super::variant::Exempt;
 use crate::patches::patch::{self, Field, Patch};
 
-/// Where the exercises lie.
+/// The folder of the exercises.
 pub const FOLDER: &str = "docs/exercises";
 
-/// What a file of an exercise looks like.
+/// The form of an exercise's file.
 pub const FORM: &str = "write a title, a blank line, `Takes: shader`, `Minutes: 5`, `Text`, `Check`, `Hint`, `Run` with its \
     `Expect` lines, a blank line, the diff that solves it";
 
-/// What an exercise takes.
+/// The kind of work an exercise needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// No edit: settings, eyes, and an answer.
@@ -54,23 +54,23 @@ pub struct Exercise {
     pub chapter: String,
     /// Its number in the chapter, from 1.
     pub number: usize,
-    /// What it takes.
+    /// The kind of work it needs.
     pub takes: Takes,
-    /// How long it takes a reader, waiting included.
+    /// The minutes a reader needs, waiting included.
     pub minutes: u32,
-    /// What is to be done.
+    /// The task.
     pub text: String,
-    /// What is seen once it is done.
+    /// The result, once it is done.
     pub check: String,
-    /// What helps.
+    /// A hint.
     pub hint: String,
-    /// What the result teaches.
+    /// The lesson of the result.
     pub why: Option<String>,
     /// The answer, of one that takes only looking.
     pub answer: Option<Answer>,
-    /// What proves that it is solved.
+    /// The runs that prove it solved.
     pub steps: Vec<Step>,
-    /// Which variants of the solution give the same picture.
+    /// The variants of the solution that give the same picture.
     pub same: Vec<Exempt>,
     /// Its title, and what solves it.
     pub patch: Patch,
@@ -114,11 +114,10 @@ impl Exercise {
         }
         let names: Vec<String> = found.iter().map(Self::to_string).collect();
         found.retain(|exercise| number.parse() == Ok(exercise.number));
-        match found.is_empty() {
-            true => {
-                Err(Usage(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
-            }
-            false => Ok(found),
+        if found.is_empty() {
+            Err(Usage(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+        } else {
+            Ok(found)
         }
     }
 
@@ -221,7 +220,7 @@ impl Exercise {
         }
     }
 
-    /// What it takes, in words.
+    /// The kind of work it needs, in words.
     pub fn takes(&self) -> String {
         let word = Takes::WORDS.iter().find(|(takes, _)| *takes == self.takes);
         let word = word.map_or("", |(_, word)| word);
@@ -229,12 +228,12 @@ impl Exercise {
         format!("{word}{test}")
     }
 
-    /// How long it takes, in words.
+    /// The time it needs, in words.
     pub fn time(&self) -> String {
         format!("{} minute{}", self.minutes, if self.minutes == 1 { "" } else { "s" })
     }
 
-    /// Whether tests tell that it is solved.
+    /// Returns whether tests decide if it is solved.
     pub fn runs_tests(&self) -> bool {
         self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
     }
@@ -305,7 +304,7 @@ pub fn list(project: &Project, chapter: &Chapter) -> String {
     )
 }
 
-/// What is wrong with the files: a number left out, a diff that does not fit.
+/// The faults of the files: a number left out, a diff that does not fit.
 pub fn check(project: &Project) -> Vec<Fault> {
     let (exercises, mut faults) = Exercise::all(project);
     let there: BTreeSet<(&str, usize)> =

@@ -1,4 +1,4 @@
-//! What a report card has of chapter 24: the hard cases, and a short measurement on random rays.
+//! A report card's part of chapter 24: the hard cases, and a short measurement on random rays.
 
 use std::path::Path;
 
@@ -12,14 +12,14 @@ use super::command::{read, rows, told, words};
 /// The chapter.
 pub const NAME: &str = "24_accuracy";
 
-/// What is told of its two runs.
+/// The names of its two runs in the progress lines.
 pub const HARD_CASES: &str = "hard cases";
 pub const RANDOM_RAYS: &str = "random rays";
 
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
 
-/// What it is asked, where the project has it: hard cases, then random rays. Their answers go to a folder.
+/// Its runs, where the project has it: hard cases, then random rays. Their answers go to a folder.
 pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
     if project.named(NAME).is_none() {
         return Vec::new();
@@ -32,7 +32,7 @@ pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)
     vec![(HARD_CASES, cases), (RANDOM_RAYS, measure)]
 }
 
-/// What the answers to the hard cases are called.
+/// The file of the answers to the hard cases.
 const ANSWERS: &str = "cases.json";
 
 /// The number of cases each rung is right on.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::atlas::{self, Atlas};
 
-/// Where the cards lie.
+/// The folder of the cards.
 pub const FOLDER: &str = "docs/devices";
 
 /// A report card.
@@ -27,7 +27,7 @@ pub struct Card {
     pub commit: Option<String>,
     /// The device; `None` if no chapter found one.
     pub device: Option<Device>,
-    /// Whether the chapters ran under validation.
+    /// True if the chapters ran under validation.
     pub validated: bool,
     /// The largest mean FLIP error that passes on the software driver, which made the golden pictures.
     pub tolerance: f32,
@@ -162,7 +162,7 @@ pub struct HardCase {
     pub name: String,
     /// `direct` or `traced`.
     pub way: String,
-    /// Whether every case must be right.
+    /// True if every case must be right.
     pub top: bool,
     #[serde(default)]
     pub cases: u64,
@@ -234,25 +234,25 @@ impl Card {
         (!["", atlas::DRIVER].contains(&arithmetic)).then_some(arithmetic)
     }
 
-    /// How many of the chapters pass.
+    /// The number of chapters that pass.
     pub fn passed(&self) -> usize {
         let passes = |chapter: &&ChapterResult| chapter.failed.is_none() && chapter.lacks.is_none();
         self.chapters.iter().filter(passes).count()
     }
 
-    /// How many of the chapters the device could run.
+    /// The number of chapters that the device could run.
     pub fn offered(&self) -> usize {
         self.chapters.iter().filter(|chapter| chapter.lacks.is_none()).count()
     }
 
-    /// Whether anything fails.
+    /// Returns whether anything fails.
     pub fn fails(&self) -> bool {
         let atlas = self.atlas.as_ref().and_then(|atlas| atlas.failed.as_ref());
         let tables = [self.hard_cases.failed.as_ref(), self.measured.failed.as_ref(), atlas];
         self.passed() < self.offered() || tables.into_iter().any(|failed| failed.is_some())
     }
 
-    /// What it must not say, or says wrongly; nothing if it is a card.
+    /// The faults of a card; none if it is valid.
     fn wrong(&self, project: &Project, text: &str) -> Vec<String> {
         let mut wrong = Vec::new();
         let digits = self.date.split('-').map(|part| part.parse::<u32>().map_or(0, |_| part.len()));
@@ -293,7 +293,7 @@ impl Card {
     }
 }
 
-/// How paths begin that say whose machine it is.
+/// The beginnings of paths that say whose machine it is.
 const PRIVATE: [&str; 6] = ["/home/", "/Users/", "\\Users\\", "/root/", "/tmp/", "/mnt/"];
 
 /// A line without the paths of this machine: of each, only its last part. A path with blanks stands in
@@ -305,9 +305,10 @@ pub fn without_paths(line: &str) -> String {
         let mark = if index == 0 { "" } else { "'" };
         text.push_str(mark);
         let is_path = quoted && (piece.starts_with(['/', '\\']) || piece.get(1..2) == Some(":"));
-        match is_path {
-            true => text.push_str(piece.rsplit(['/', '\\']).next().unwrap_or_default()),
-            false => text.push_str(&words_without_paths(piece)),
+        if is_path {
+            text.push_str(piece.rsplit(['/', '\\']).next().unwrap_or_default())
+        } else {
+            text.push_str(&words_without_paths(piece))
         }
     }
     text
@@ -317,9 +318,10 @@ fn words_without_paths(line: &str) -> String {
     let part = |word: &str| -> String {
         let at = word.find(['/', '\\']);
         let absolute = at.is_some_and(|at| at == 0 && word.len() > 1 || word[..at].ends_with(':'));
-        match absolute {
-            true => word.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
-            false => word.to_owned(),
+        if absolute {
+            word.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
+        } else {
+            word.to_owned()
         }
     };
     let marks = |c: char| [' ', '"', '(', ')', '[', ']', '<', '>', '=', ',', ';', '`'].contains(&c);

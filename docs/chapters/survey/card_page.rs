@@ -107,7 +107,7 @@ pub fn atlas(text: &str) -> String {
     format!("\n#{}", text.replace("\n## ", "\n### "))
 }
 
-/// What the device's compiler counts, summed over a chapter's programs.
+/// The figures of the device's compiler, summed over a chapter's programs.
 fn compiler(chapter: &ChapterResult) -> String {
     let mut sums: Vec<(&str, f64)> = Vec::new();
     for (name, value) in chapter.compiler.iter().flat_map(|program| &program.statistics) {
@@ -121,7 +121,7 @@ fn compiler(chapter: &ChapterResult) -> String {
     if words.is_empty() { "–".to_owned() } else { words }
 }
 
-/// What RADV counts: sums, and the most registers of a program.
+/// The figures of RADV: sums, and the most registers of a program.
 fn radv(chapter: &ChapterResult) -> String {
     if chapter.radv.is_empty() {
         return "–".to_owned();
