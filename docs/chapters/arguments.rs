@@ -1,4 +1,4 @@
-//! What is asked of the tool: its commands and their arguments.
+//! The commands of the tool, and their arguments.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::exercises::command::ExerciseArguments;
 #[derive(Debug, Parser)]
 #[command(name = "chapters", disable_version_flag = true)]
 pub struct Arguments {
-    /// What is asked
+    /// The command to run
     #[command(subcommand)]
     pub command: Command,
 
@@ -105,7 +105,7 @@ pub enum Command {
         /// Use this device: a number of --list-devices or a part of its name
         #[arg(long, value_name = "N|NAME")]
         device: Option<String>,
-        /// Where the card goes, as Markdown and as JSON
+        /// Put the card there, as Markdown and as JSON
         #[arg(long, value_name = "FOLDER", default_value = "target/survey")]
         out: PathBuf,
         /// Stop a program after so many whole seconds, 1 to 86400
@@ -135,7 +135,7 @@ pub enum Command {
         /// List the mistakes
         #[arg(long)]
         list: bool,
-        /// Where the copy goes [default: target/mistakes/NAME]
+        /// Put the copy there [default: target/mistakes/NAME]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
         /// Run it and hold it to what its file claims; without a name, every one that is in shaders alone
@@ -157,7 +157,7 @@ pub enum Command {
     },
     /// Make a website of the book with mdBook, to be read from a file or from any folder of a server
     Book {
-        /// Where it goes: a folder that this command made before, or that is empty or new [default: book]
+        /// Put it there: a folder that this command made before, or that is empty or new [default: book]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
@@ -197,7 +197,7 @@ fn own_project() -> PathBuf {
 /// Reads the arguments.
 ///
 /// # Errors
-/// What is wrong with them, in one line.
+/// The fault of the arguments, in one line.
 pub fn parse() -> Result<Arguments> {
     Arguments::try_parse().map_err(|error| {
         if !error.use_stderr() {

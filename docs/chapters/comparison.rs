@@ -44,16 +44,16 @@ pub fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Which two chapters these are, and what the newer one teaches.
+/// The two chapters, and the lesson of the newer one.
 pub fn heading(old: &Chapter, new: &Chapter) -> String {
     let title = format!("{} → {}", old.heading(), new.heading());
     format!("{}\n{}: {}\n", paint(TITLE, &title), new.title, new.teaches)
 }
 
-/// How many files a reader is sent to first.
+/// The number of files a reader is sent to first.
 const FIRST: usize = 3;
 
-/// Where to begin, if there are many files: the program, then those with the most new lines.
+/// The files to begin with, if there are many: the program, then those with the most new lines.
 pub fn read_first(diffs: &[FileDiff]) -> String {
     let is_main = |diff: &FileDiff| diff.role == "main.rs";
     let mut first: Vec<&FileDiff> = diffs.iter().filter(|diff| diff.added() > 0).collect();
@@ -86,7 +86,7 @@ pub fn changes(old: &Chapter, new: &Chapter, diffs: &[FileDiff], context: usize)
     out
 }
 
-/// How many lines each file gained and lost, and the sum.
+/// The number of lines each file gained and lost, and the sum.
 pub fn statistics(diffs: &[FileDiff]) -> String {
     if diffs.is_empty() {
         return "\nNothing differs.\n".to_owned();
@@ -134,7 +134,7 @@ fn file_line(diff: &FileDiff) -> String {
     paint(FILE, &name)
 }
 
-/// Where a group of changes lies: its line, and the function or section around it.
+/// The place of a group of changes: its line, and the function or section around it.
 fn place(diff: &FileDiff, group: &[DiffOp]) -> String {
     let Some(first) = group.first() else { return String::new() };
     let (side, at) = match &diff.new.path {
@@ -173,10 +173,8 @@ fn show_op(out: &mut String, diff: &FileDiff, op: &DiffOp, names: Names) {
         return;
     }
     let (old_texts, new_texts) = by_word(old, new, names);
-    let painted = |line: &Line, text: String| match line.moved {
-        true => paint(MOVED, &line.text),
-        false => text,
-    };
+    let painted =
+        |line: &Line, text: String| if line.moved { paint(MOVED, &line.text) } else { text };
     for (line, text) in old.iter().zip(old_texts) {
         let _ = writeln!(out, "{}", row(Some(line), None, &painted(line, text)));
     }

@@ -112,10 +112,7 @@ fn run(arguments: &Arguments) -> Result<()> {
             let limit = Limit::waited(Duration::from_secs(*limit));
             let atlas = atlas.then(|| arithmetic.name());
             let survey = Survey { programs: &programs, device: device.as_deref(), limit, atlas };
-            match list {
-                true => print(&survey.list()),
-                false => survey.run(out),
-            }
+            if *list { print(&survey.list()) } else { survey.run(out) }
         }
         Command::Mistake { name, list, out, check } => {
             mistakes::command::run(&project, name.as_deref(), *list, out.as_deref(), *check)

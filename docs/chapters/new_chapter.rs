@@ -101,7 +101,7 @@ impl<'a> NewChapter<'a> {
         Ok(files.into_iter().map(|(path, _)| path).collect())
     }
 
-    /// What to do next.
+    /// The next steps.
     pub fn next(&self) -> String {
         let (name, module) = (&self.chapter.name, self.chapter.module());
         format!(
@@ -206,8 +206,8 @@ impl<'a> NewChapter<'a> {
         let from = &self.from.name;
         format!(
             "Compare it with its parent\n\nTakes: look\nMinutes: 2\nText: Render this chapter and {from} with the same \
-             arguments. Does a pixel differ?\nCheck: No: the pictures are the same to the bit.\nHint: The chapter \
-             is still a copy. WRITE another exercise once it is not.\nRun:\nExpect: same as {from}\nAnswer: no\nWrong: yes\n"
+             arguments. How many pixels differ?\nCheck: None: the pictures are the same to the bit.\nHint: The chapter \
+             is still a copy. WRITE another exercise once it is not.\nRun:\nExpect: same as {from}\nAnswer: 0\n"
         )
     }
 

@@ -1,7 +1,7 @@
 //! `chapters nightly`: the tests that plain `cargo test` leaves out, one test program after the other, each with its
 //! time, and then `chapters verify`.
 //!
-//! Why a test is left out says how it is run, by its first words:
+//! The reason why a test is left out says how it is run, by its first words:
 //!
 //! - `nightly: WHY; quick: NAME`: here. The test NAME is quick and finds the same fault where it is simple.
 //! - `nightly only: WHY`: here, and nothing quick would find its fault.

@@ -8,11 +8,11 @@ use common::UsageError;
 use common::files::{NewFolder, write_all};
 use manuscript::project::Project;
 
-/// Where the template lies. It is a member of the workspace, under this name.
+/// The folder of the template. It is a member of the workspace, under this name.
 const TEMPLATE: &str = "docs/chapters/start/template";
 const NAME: &str = "my_tracer";
 
-/// What makes the template a member: a crate of its own has other such files.
+/// The lines that make the template a member: a crate of its own has other such files.
 const OF_THE_MEMBER: [&str; 2] = ["Cargo.toml", "tests.rs"];
 
 /// Names that Rust or Cargo keeps, and that of the framework.
@@ -26,7 +26,7 @@ pub struct Start<'a> {
     project: &'a Project,
     folder: PathBuf,
     name: String,
-    /// Where the framework comes from: a Git repository, else this checkout.
+    /// The source of the framework: a Git repository, else this checkout.
     git: Option<&'a str>,
 }
 
@@ -144,7 +144,7 @@ impl<'a> Start<'a> {
         Ok(found)
     }
 
-    /// What to do next.
+    /// The next steps.
     pub fn next(&self) -> String {
         format!("cd {}\ncargo run\ncargo test\n", self.folder.display())
     }

@@ -30,7 +30,7 @@ use crate::values::{budget, given};
 /// The most edited chapters whose pictures a quick run compares.
 const FEW: usize = 6;
 
-/// How far a channel may be off on the driver that made a picture, of 255: a software driver compiles for the
+/// The largest error of a channel on the driver that made a picture, of 255: a software driver compiles for the
 /// processor that it finds, and two of these round a filtered colour differently.
 const STEP: u8 = 1;
 
@@ -48,7 +48,7 @@ enum Item<'a> {
 struct Verdict {
     /// The differences, each a line with its remedy.
     differences: Vec<String>,
-    /// What could not be compared here.
+    /// The things that could not be compared here.
     notes: Vec<String>,
 }
 

@@ -291,11 +291,11 @@ Expect: fails
         r#"Think of another
 
 Takes: look
-Text: Write `two.rgen` after exercise 1. Is there a file `two.rgen` now?
+Text: Write `two.rgen` after exercise 1. Is there a file `two.rgen` now, yes or no?
 Check: yes: `two.rgen` is there.
 Hint: You have written it.
+Choices: yes | no
 Answer: yes
-Wrong: no
 Minutes: 2
 "#,
     ),
@@ -325,13 +325,13 @@ Minutes: 1
         r#"Look at a normal
 
 Takes: look
-Text: `--set show=normal` colours by normal. Which way does a green face look?
+Text: `--set show=normal` colours by normal. Which way does a green face look, up or down?
 Check: It looks up.
 Hint: Green is y.
 Run: --set show=normal --size 50x30
 Expect: differs by 0.05 from --size 50x30
-Answer: up | +y | to the sky | 40 to 44
-Wrong: down
+Choices: down | up
+Answer: up
 Minutes: 2
 "#,
     ),

@@ -381,8 +381,6 @@ pub const KEY_F1: u32 = 0xffbe;
 pub const KEY_F2: u32 = 0xffbf;
 /// F5.
 pub const KEY_F5: u32 = 0xffc2;
-/// Return.
-pub const KEY_RETURN: u32 = 0xff0d;
 /// Escape.
 pub const KEY_ESCAPE: u32 = 0xff1b;
 /// Tab.

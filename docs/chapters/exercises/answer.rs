@@ -1,121 +1,92 @@
-//! Whether an answer is right: by the words that matter in it, and not by every word.
-//!
-//! An alternative is a set of key words. An answer is read clause by clause, and the first clause that holds all
-//! words of an alternative decides. What is denied there, as in "not red", does not count as said. Where an
-//! alternative has commas, its sets are said one after the other, each in a part of its own.
+//! The answer to an exercise that takes only looking: a number, or one of the words that its question lists.
 
-use super::clause::{Part, clauses, denies, parts, words};
 use super::interval::{Interval, number};
 
-/// What answers a question, and what does not.
-#[derive(Clone, Debug, Default)]
-pub struct Answers {
-    /// Alternatives of which one is enough.
-    pub right: Vec<String>,
-    /// Alternatives of which one is too much.
-    pub wrong: Vec<String>,
+/// The number of words a question may list.
+const WORDS: std::ops::RangeInclusive<usize> = 2..=4;
+
+/// The right answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// A number in this range.
+    Number(Interval),
+    /// One of the listed words.
+    Word {
+        /// All of them, in the question's order.
+        choices: Vec<String>,
+        /// The index of the right one.
+        right: usize,
+    },
 }
 
-/// Key words: sets that are said one after the other.
-type Keys = Vec<Vec<String>>;
-
-impl Answers {
-    /// The alternatives of two fields.
-    pub fn of(right: &str, wrong: &str) -> Self {
-        let all = |text: &str| {
-            text.split('|').map(|one| one.trim().to_owned()).filter(|one| !one.is_empty()).collect()
+impl Answer {
+    /// Reads the fields `Answer` and `Choices` of an exercise whose question is `text`.
+    ///
+    /// # Errors
+    /// The fault of the fields.
+    pub fn parse(answer: &str, choices: Option<&str>, text: &str) -> Result<Self, String> {
+        let Some(choices) = choices else {
+            let interval = Interval::exactly(&answer.split_whitespace().collect::<Vec<_>>());
+            let not = || format!("'{answer}' is not a number, and no `Choices` are listed");
+            return interval.map(Self::Number).ok_or_else(not);
         };
-        Self { right: all(right), wrong: all(wrong) }
+        let choices: Vec<String> = choices.split('|').map(|word| word.trim().to_owned()).collect();
+        if !WORDS.contains(&choices.len()) {
+            return Err(format!("`Choices` lists {}, not two to four", choices.len()));
+        }
+        if let Some(word) = choices.iter().find(|word| word.is_empty() || !text.contains(&**word)) {
+            return Err(format!("the question does not name the choice '{word}'"));
+        }
+        let mut is_answer = choices.iter().map(|word| same(word, answer));
+        match (is_answer.position(|is| is), is_answer.any(|is| is)) {
+            (Some(right), false) => Ok(Self::Word { choices, right }),
+            (Some(_), true) => Err(format!("`Choices` lists '{answer}' twice")),
+            (None, _) => Err(format!("`Choices` does not list the answer '{answer}'")),
+        }
     }
 
-    /// What is wrong with them: they do not take the book's own words, or take what is wrong.
-    pub fn fault(&self, check: &str) -> Option<String> {
-        if self.right.is_empty() {
-            return None;
-        }
-        if !self.accept(check) {
-            return Some("its own `Check` is not accepted as an answer".to_owned());
-        }
-        let taken = self.wrong.iter().find(|wrong| self.accept(wrong));
-        taken.map(|wrong| format!("the wrong answer '{wrong}' is accepted"))
-    }
-
-    /// Whether an answer is right.
-    pub fn accept(&self, answer: &str) -> bool {
-        let whole = words(answer);
-        if self.right.iter().any(|right| !whole.is_empty() && words(right) == whole) {
-            return true;
-        }
-        clauses(answer).iter().find_map(|clause| self.judge(clause)).unwrap_or(false)
-    }
-
-    /// Whether a clause answers, and rightly; `None` if it does not answer.
-    fn judge(&self, clause: &str) -> Option<bool> {
-        let parts = parts(clause);
-        let mut said: Vec<&str> = parts.iter().flat_map(|part| part.said()).collect();
-        let intervals: Vec<Interval> = self.right.iter().filter_map(|one| interval(one)).collect();
-        let numbers = numbers(clause);
-        if !intervals.is_empty() && !numbers.is_empty() {
-            // Every number must fit: who names two has not decided.
-            let fits = |number: &f64| intervals.iter().any(|amount| amount.holds(*number));
-            return Some(numbers.iter().all(fits) && !self.is_wrong(&parts, &said, 0));
-        }
-        let all = self.right.iter().filter(|one| interval(one).is_none()).map(|one| keys(one));
-        let held = all.filter(|keys| holds(&parts, &said, keys));
-        let longest = held.max_by_key(length);
-        // `wide foot` is wrong where `foot` is right, for it says more.
-        let length = longest.as_ref().map_or(0, length);
-        let mut wrong = self.is_wrong(&parts, &said, length);
-        // `random` is wrong where `naive random` is right, and only where it stands alone.
-        for key in longest.iter().flatten().flatten() {
-            if let Some(at) = said.iter().position(|word| word == key) {
-                said.remove(at);
+    /// Returns whether an answer is right.
+    ///
+    /// # Errors
+    /// If it is neither a number nor a listed word: which of them the question takes.
+    pub fn accept(&self, given: &str) -> Result<bool, String> {
+        match self {
+            Self::Number(interval) => {
+                let number = number(given.trim());
+                number.map(|number| interval.holds(number)).ok_or_else(|| self.form())
+            }
+            Self::Word { choices, right } => {
+                let index = choices.iter().position(|word| same(word, given));
+                index.map(|index| index == *right).ok_or_else(|| self.form())
             }
         }
-        wrong |= self.is_wrong(&parts, &said, 0);
-        (wrong || longest.is_some()).then_some(!wrong)
     }
 
-    /// Whether a wrong alternative of more than some words is said.
-    fn is_wrong(&self, parts: &[Part], said: &[&str], words: usize) -> bool {
-        let all = self.wrong.iter().map(|wrong| keys(wrong));
-        all.filter(|wrong| length(wrong) > words).any(|wrong| holds(parts, said, &wrong))
+    /// The answers that the question takes, in words.
+    pub fn form(&self) -> String {
+        match self {
+            Self::Number(_) => "a number".to_owned(),
+            Self::Word { choices, .. } => {
+                let quoted: Vec<String> = choices.iter().map(|word| format!("'{word}'")).collect();
+                let (last, others) = quoted.split_last().expect("two words or more");
+                format!("{} or {last}", others.join(", "))
+            }
+        }
     }
-}
 
-fn length(keys: &Keys) -> usize {
-    keys.iter().flatten().count()
-}
-
-/// The key words of an alternative.
-fn keys(alternative: &str) -> Keys {
-    let sets = alternative.split(", ").map(words);
-    sets.filter(|set| !set.is_empty()).collect()
-}
-
-/// Whether all key words are said; what denies must be said in one part.
-fn holds(parts: &[Part], said: &[&str], keys: &Keys) -> bool {
-    match &keys[..] {
-        [set] if !set.iter().any(|key| denies(key)) => set.iter().all(|key| said.contains(&&**key)),
-        sets => {
-            let mut parts = parts.iter();
-            !sets.is_empty() && sets.iter().all(|set| parts.any(|part| part.holds(set)))
+    /// The right answer, in words.
+    pub fn right(&self) -> String {
+        match self {
+            Self::Number(interval) => interval.to_string(),
+            Self::Word { choices, right } => choices[*right].clone(),
         }
     }
 }
 
-/// The numbers that a clause says: of a sum what it comes to, behind the last `=`.
-fn numbers(clause: &str) -> Vec<f64> {
-    let result = parts(clause.rsplit('=').next().unwrap_or(clause));
-    result.iter().flat_map(Part::said).filter_map(value).collect()
-}
-
-fn value(word: &str) -> Option<f64> {
-    if word == "zero" { Some(0.0) } else { number(word) }
-}
-
-fn interval(alternative: &str) -> Option<Interval> {
-    Interval::exactly(&alternative.split_whitespace().collect::<Vec<_>>())
+/// Compares two answers without regard to case and spaces.
+fn same(one: &str, other: &str) -> bool {
+    let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
+    plain(one) == plain(other)
 }
 
 #[cfg(test)]
@@ -127,82 +98,77 @@ mod tests {
     use super::super::exercise::{Exercise, Takes};
     use super::*;
 
-    fn accepted(right: &str, wrong: &str, answers: &[&str]) -> Vec<bool> {
-        let of = Answers::of(right, wrong);
-        answers.iter().map(|answer| of.accept(answer)).collect()
+    #[test]
+    fn a_number_is_compared_as_a_number() {
+        let answer = Answer::parse("1,580 to 1,600", None, "").unwrap();
+        assert_eq!(
+            ["1580", "1,600", " 1582.5 ", "1.6e3"].map(|n| answer.accept(n)),
+            [Ok(true), Ok(true), Ok(true), Ok(true)]
+        );
+        assert_eq!(
+            ["160", "1601", "-1580"].map(|n| answer.accept(n)),
+            [Ok(false), Ok(false), Ok(false)]
+        );
+        for other in ["", "many", "1580 or 1600", "1580 to 1600", "about 1590", "NaN"] {
+            assert_eq!(answer.accept(other), Err("a number".to_owned()), "{other}");
+        }
     }
 
     #[test]
-    fn what_matters_is_found_in_any_order_and_form() {
-        let right = ["up", "Up.", "+y", "White  King", "the king is white", "it looks up, I think"];
-        assert_eq!(accepted("up | +y | the white king", "down", &right), [true; 6]);
-        let touch =
-            ["at the edge where the squares touch", "where they touch", "the touching edges"];
-        assert_eq!(accepted("edge | touch", "middle", &touch), [true; 3]);
-        let wrong = ["", "king", "y", "the", "down"];
-        assert_eq!(accepted("up | +y | the white king", "down", &wrong), [false; 5]);
+    fn a_word_is_one_of_those_that_are_listed() {
+        let text = "Which mode: `random`, `naive random` or neither?";
+        let answer = Answer::parse("naive random", Some("random | naive random | neither"), text);
+        let answer = answer.unwrap();
+        assert_eq!(
+            [" Naive  Random", "random", "NEITHER"].map(|word| answer.accept(word)),
+            [Ok(true), Ok(false), Ok(false)]
+        );
+        for other in ["", "naive", "not random", "random or naive random", "1"] {
+            let form = "'random', 'naive random' or 'neither'".to_owned();
+            assert_eq!(answer.accept(other), Err(form), "{other}");
+        }
     }
 
     #[test]
-    fn what_is_denied_is_not_said() {
-        let wrong = ["not red", "it is not red", "it isn't red", "red is not seen", "never red"];
-        assert_eq!(accepted("red", "black", &wrong), [false; 5]);
-        let right = ["it is red", "red, not black", "not black but red", "red and not black"];
-        assert_eq!(accepted("red", "black", &right), [true; 4]);
-        let none = ["no", "no idea", "not sure", "no, none differs", "none", "nothing differs"];
-        let expected = [true, false, false, true, true, false];
-        assert_eq!(accepted("no | none", "yes", &none), expected);
+    fn an_answer_that_nobody_could_give_is_refused() {
+        let text = "Is it red, green, blue, black or white?";
+        for (answer, choices, what) in [
+            ("red", None, "'red' is not a number, and no `Choices` are listed"),
+            ("red", Some("red"), "`Choices` lists 1, not two to four"),
+            ("red", Some("red|green|blue|black|white"), "`Choices` lists 5, not two to four"),
+            ("red", Some("red | grey"), "the question does not name the choice 'grey'"),
+            ("red", Some("red |"), "the question does not name the choice ''"),
+            ("red", Some("blue | green"), "`Choices` does not list the answer 'red'"),
+            ("red", Some("red | blue | red"), "`Choices` lists 'red' twice"),
+        ] {
+            assert_eq!(Answer::parse(answer, choices, text), Err(what.to_owned()));
+        }
     }
 
+    /// Every exercise of the book that asks a question takes its own answer and no other.
     #[test]
-    fn who_says_both_has_not_answered() {
-        let both = ["along x or Morton", "x, Morton", "Morton. Along x", "Morton and x"];
-        assert_eq!(accepted("along x | x", "Morton", &both), [false; 4]);
-        let own = ["naive random", "`naive random`. In `random` nothing changes.", "random"];
-        assert_eq!(accepted("naive random | naive", "random", &own), [true, true, false]);
-    }
-
-    #[test]
-    fn the_first_of_two_decides_where_one_comes_after_the_other() {
-        let right = ["small", "first the small, then the large", "small, while large ones stay"];
-        assert_eq!(accepted("small", "large", &right), [true; 3]);
-        let wrong = ["first the large, then the small", "the large before the small"];
-        assert_eq!(accepted("small", "large", &wrong), [false; 2]);
-        let sides = ["white inside, black outside", "black outside, white inside", "foot, no"];
-        assert_eq!(accepted("white inside, black", "outside", &sides), [false; 3]);
-        let whole = accepted("inside | white inside, black outside", "outside", &sides);
-        assert_eq!(whole, [true, false, false]);
-        let foot = ["at the foot", "wide at the foot", "does not end at the foot"];
-        assert_eq!(accepted("foot", "wide foot", &foot), [true, false, false]);
-    }
-
-    #[test]
-    fn numbers_are_compared_as_numbers() {
-        let right =
-            ["40", "44.0", "42.5", "about 42 frames", "about 42: 16 are too few", "1,600", "1600"];
-        assert_eq!(accepted("40 to 44 | 1,600", "", &right), [true; 7]);
-        let wrong = ["39", "45", "42 or 45", "40 to 50", "no"];
-        assert_eq!(accepted("40 to 44", "", &wrong), [false; 5]);
-        assert_eq!(accepted("0 | none", "", &["zero", "0 bytes", "none differ"]), [true; 3]);
-        let result = ["opacity=0.4", "1 - 0.6 = 0.4", "0.6 = 1 - 0.4"];
-        assert_eq!(accepted("0.4", "", &result), [true, true, false]);
-    }
-
-    #[test]
-    fn what_readers_say_is_judged_as_in_the_list() {
+    fn right_answers_pass_and_wrong_ones_fail() {
         let tool = Path::new(env!("CARGO_MANIFEST_DIR"));
         let project = Project::open(tool.ancestors().nth(2).unwrap()).unwrap();
-        let list = project.read("tests/data/answers.txt").unwrap();
-        let told = list.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-        let told: Vec<&str> = told.collect();
         for exercise in Exercise::whole(&project).unwrap() {
-            for (sign, right) in [("+", true), ("-", false)] {
-                let start = format!("{exercise} {sign} ");
-                let own = told.iter().find_map(|line| line.strip_prefix(&start));
-                assert_eq!(own.is_some(), exercise.takes == Takes::Look, "{start}");
-                for answer in own.into_iter().flat_map(|own| own.split(" / ")) {
-                    assert_eq!(exercise.answers.accept(answer), right, "{exercise}: {answer}");
+            assert_eq!(exercise.answer.is_some(), exercise.takes == Takes::Look, "{exercise}");
+            match &exercise.answer {
+                Some(answer @ Answer::Word { choices, right }) => {
+                    for (index, word) in choices.iter().enumerate() {
+                        assert_eq!(answer.accept(word), Ok(index == *right), "{exercise}: {word}");
+                    }
                 }
+                Some(answer @ Answer::Number(_)) => {
+                    let right = answer.right();
+                    let ends = right.split(" to ");
+                    assert!(ends.clone().all(|end| answer.accept(end) == Ok(true)), "{exercise}");
+                    let [low, high] = [ends.clone().next(), ends.last()]
+                        .map(|end| end.unwrap().parse::<f64>().unwrap());
+                    for wrong in [low - 1.0, high + 1.0, -low - 1.0] {
+                        assert_eq!(answer.accept(&wrong.to_string()), Ok(false), "{exercise}");
+                    }
+                }
+                None => {}
             }
         }
     }

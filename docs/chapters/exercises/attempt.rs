@@ -22,13 +22,13 @@ use crate::pictures::difference::marked;
 use crate::programs::program::Programs;
 use crate::programs::run_result::{RunResult, is_software};
 
-/// How long a program may take.
+/// The longest time of a program.
 pub const LIMIT: Limit = Limit::worked(120);
 
 /// The book's own pictures, each rendered once.
 pub struct Originals<'a> {
     programs: &'a Programs<'a>,
-    /// Where they were kept before the book's own files were edited.
+    /// The folder of pictures kept before the book's own files were edited.
     kept: Option<PathBuf>,
     known: Mutex<BTreeMap<(String, Vec<String>), Picture>>,
 }
@@ -68,9 +68,10 @@ impl<'a> Originals<'a> {
     fn meant(&self, exercise: &Exercise, run: &[String], other: &Other) -> (String, Vec<String>) {
         let mut arguments = other.arguments.clone().unwrap_or_else(|| run.to_vec());
         let named = |word: &String| self.programs.project.named(word).is_some();
-        let chapter = match arguments.first().is_some_and(named) {
-            true => arguments.remove(0),
-            false => exercise.chapter.clone(),
+        let chapter = if arguments.first().is_some_and(named) {
+            arguments.remove(0)
+        } else {
+            exercise.chapter.clone()
         };
         (chapter, sized(arguments))
     }
@@ -107,9 +108,9 @@ fn name(chapter: &str, arguments: &[String]) -> String {
     format!("{chapter}-{}.exr", fingerprint([chapter.as_bytes(), arguments.join("\n").as_bytes()]))
 }
 
-/// What an edition makes of an exercise.
+/// The outcome of an exercise under an edition.
 pub struct Verdict {
-    /// What is not as it should be; `None` if the exercise is solved.
+    /// The first expectation that is not met; `None` if the exercise is solved.
     pub missed: Option<Mismatch>,
     /// The picture of the run that showed it, else the first.
     pub picture: Option<Picture>,
@@ -123,11 +124,11 @@ pub struct Attempt<'a> {
     pub originals: &'a Originals<'a>,
     /// The exercise.
     pub exercise: &'a Exercise,
-    /// What solves it.
+    /// Its solution.
     pub solution: &'a Solution<'a>,
 }
 
-/// Which expectations of an exercise an edition is held to.
+/// The expectations of an exercise that an edition is checked against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Held {
     /// Those that tell whether a reader has solved it.
@@ -139,7 +140,7 @@ enum Held {
 }
 
 impl Attempt<'_> {
-    /// Whether an edition solves the exercise. What does not compile or run is not solved.
+    /// Checks whether an edition solves the exercise. Code that does not compile or run does not.
     ///
     /// # Errors
     /// If it cannot be told: a program is not built, the book's own run fails.
@@ -147,7 +148,7 @@ impl Attempt<'_> {
         self.verdict_of(edition, Held::Reader)
     }
 
-    /// Whether an edition solves the exercise as far as runs of the program tell.
+    /// Checks whether an edition solves the exercise as far as runs of the program tell.
     ///
     /// # Errors
     /// As [`Attempt::verdict`].
@@ -189,7 +190,7 @@ impl Attempt<'_> {
         Ok(Verdict { missed: None, picture: first })
     }
 
-    /// What is not as it should be about one run of the program.
+    /// The first expectation that one run of the program does not meet.
     fn missed(
         &self,
         (edition, held): (&Edition, Held),
@@ -213,14 +214,13 @@ impl Attempt<'_> {
             let said = if seen.said.is_empty() { status.to_string() } else { seen.said.clone() };
             return Ok(Some(said.into()));
         }
-        let other = |other: &Other| match other.own {
-            true => {
+        let other = |other: &Other| {
+            if other.own {
                 let command = edition.command(self.programs, &self.exercise.chapter)?;
                 let arguments = sized(other.arguments.clone().unwrap_or_default());
                 let seen = RunResult::of(command, &arguments, LIMIT)?;
                 seen.picture.with_context(|| format!("no picture: {}", seen.said))
-            }
-            false => {
+            } else {
                 let (chapter, arguments) = self.originals.meant(self.exercise, arguments, other);
                 self.originals.picture(&chapter, &arguments)
             }
@@ -259,9 +259,9 @@ impl Attempt<'_> {
         Ok(None)
     }
 
-    /// How far pictures of two pipelines may be apart that compute the same: Vulkan promises equal bits of identical
-    /// pipelines alone (appendix Invariance). The software driver keeps them all the same; in arithmetic of a
-    /// seed of their own its pipelines are as another device's. `None`: by no bit.
+    /// The largest difference between pictures of two pipelines that compute the same: Vulkan promises equal bits of
+    /// identical pipelines alone (appendix Invariance). The software driver makes all of them equal; in arithmetic of a
+    /// seed of their own its pipelines are as another device's. `None`: not a bit.
     fn near(&self, device: &str) -> Result<Option<Near>> {
         let chapter = &self.exercise.chapter;
         let to_the_bit = std::env::var_os("ARITHMETIC_SEED").is_none()

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-/// Where code still stands, in a line; `read` tells what a file holds.
+/// The place where code is still used, in a line; `read` returns the contents of a file.
 ///
 /// # Errors
 /// If a file cannot be read.

@@ -9,6 +9,7 @@ use common::output::print;
 use common::workers;
 use manuscript::project::Project;
 
+use super::answer::Answer;
 use super::attempt::{Attempt, Originals};
 use super::exercise::{Exercise, Takes};
 use super::formula::plain;
@@ -21,7 +22,7 @@ use crate::programs::command_line::quoted;
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 
-/// What is asked.
+/// The arguments of `cargo chapters exercise`.
 #[derive(Debug, Args)]
 pub struct ExerciseArguments {
     /// An exercise, such as 05.2, or a chapter
@@ -45,10 +46,10 @@ pub struct ExerciseArguments {
     /// Write the picture of the solution beside yours, once two attempts have failed
     #[arg(long, group = "what")]
     target: bool,
-    /// Answer the question of an exercise that takes only looking
-    #[arg(long, value_name = "WORDS", group = "what", allow_hyphen_values = true)]
+    /// Answer the question of an exercise that takes only looking: a number, or one of the words it lists
+    #[arg(long, value_name = "ANSWER", group = "what", allow_hyphen_values = true)]
     answer: Option<String>,
-    /// Where your copy of the shaders lies [default: target/exercises/NN.k]
+    /// Put your copy of the shaders there [default: target/exercises/NN.k]
     #[arg(long, value_name = "FOLDER")]
     folder: Option<PathBuf>,
     /// Open no window
@@ -143,7 +144,9 @@ impl ExerciseArguments {
     }
 
     fn look(&self, exercise: &Exercise, bench: &Workbench) -> Result<()> {
-        let answer = format!("Your answer: cargo chapters exercise {exercise} --answer WORDS\n");
+        let form = exercise.answer.as_ref().map_or_else(String::new, Answer::form);
+        let answer =
+            format!("Your answer, {form}: cargo chapters exercise {exercise} --answer ANSWER\n");
         if !self.headless && has_display() {
             print(&answer)?;
             return bench.window()?.closed();
@@ -157,11 +160,11 @@ impl ExerciseArguments {
             let why = exercise.why.as_deref().map(plain);
             let why = why.map_or_else(String::new, |why| format!("\nWhy: {why}\n"));
             let check = plain(&exercise.check);
-            // The other alternatives are ways to say the same.
-            let answer = exercise.answers.right.first().map_or("", String::as_str);
-            return match exercise.takes {
-                Takes::Look => print(&format!("Answer: {answer}\nCheck: {check}\n{why}")),
-                _ => print(&format!("{}\nCheck: {check}\n{why}", exercise.patch.diff())),
+            return match &exercise.answer {
+                Some(answer) => {
+                    print(&format!("Answer: {}\nCheck: {check}\n{why}", answer.right()))
+                }
+                None => print(&format!("{}\nCheck: {check}\n{why}", exercise.patch.diff())),
             };
         }
         if exercise.takes == Takes::Look {
@@ -218,7 +221,7 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
         if progress.has(exercise) {
             return print(&solved(exercise));
         }
-        bail!("{exercise} is not solved yet: it asks a question; answer it with --answer WORDS");
+        bail!("{exercise} is not solved yet: it asks a question; answer it with --answer");
     }
     bench.set_up()?;
     match bench.missed()? {
@@ -234,11 +237,12 @@ fn check(exercise: &Exercise, bench: &Workbench, progress: &mut Progress) -> Res
     }
 }
 
-/// What to add to a failure once the target may be shown.
+/// The addition to a failure's line once the target may be shown.
 pub fn offer(exercise: &Exercise, progress: &Progress) -> String {
-    match progress.shows_target(exercise) {
-        true => format!("; --target shows the target of {exercise}"),
-        false => String::new(),
+    if progress.shows_target(exercise) {
+        format!("; --target shows the target of {exercise}")
+    } else {
+        String::new()
     }
 }
 
@@ -257,12 +261,15 @@ fn target(exercise: &Exercise, bench: &Workbench, progress: &Progress) -> Result
 }
 
 fn answer_to(exercise: &Exercise, answer: &str, progress: &mut Progress) -> Result<()> {
-    if exercise.takes != Takes::Look {
+    let Some(right) = &exercise.answer else {
         let what =
             format!("exercise {exercise} asks no question; --check tells whether it is solved");
         return Err(UsageError(what).into());
-    }
-    if !exercise.answers.accept(answer) {
+    };
+    let is_right = right
+        .accept(answer)
+        .map_err(|form| UsageError(format!("'{answer}' is no answer: {exercise} takes {form}")))?;
+    if !is_right {
         bail!("'{answer}' is not the answer; --hint helps");
     }
     progress.note(exercise)?;

@@ -11,20 +11,20 @@ use common::UsageError;
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project};
 
-use super::answer::Answers;
+use super::answer::Answer;
 use super::expectation::Expectation;
 use super::proof::{Run, Step, steps};
 use super::variant::Exempt;
 use crate::patches::patch::{self, Field, Patch};
 
-/// Where the exercises lie.
+/// The folder of the exercises.
 pub const FOLDER: &str = "docs/exercises";
 
-/// What a file of an exercise looks like.
+/// The form of an exercise's file.
 pub const FORM: &str = "write a title, a blank line, `Takes: shader`, `Minutes: 5`, `Text`, `Check`, `Hint`, `Run` with its \
     `Expect` lines, a blank line, the diff that solves it";
 
-/// What an exercise takes.
+/// The kind of work an exercise needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// No edit: settings, eyes, and an answer.
@@ -54,23 +54,23 @@ pub struct Exercise {
     pub chapter: String,
     /// Its number in the chapter, from 1.
     pub number: usize,
-    /// What it takes.
+    /// The kind of work it needs.
     pub takes: Takes,
-    /// How long it takes a reader, waiting included.
+    /// The minutes a reader needs, waiting included.
     pub minutes: u32,
-    /// What is to be done.
+    /// The task.
     pub text: String,
-    /// What is seen once it is done.
+    /// The result, once it is done.
     pub check: String,
-    /// What helps.
+    /// A hint.
     pub hint: String,
-    /// What the result teaches.
+    /// The lesson of the result.
     pub why: Option<String>,
-    /// What answers the question of one that takes only looking.
-    pub answers: Answers,
-    /// What proves that it is solved.
+    /// The answer, of one that takes only looking.
+    pub answer: Option<Answer>,
+    /// The runs that prove it solved.
     pub steps: Vec<Step>,
-    /// Which variants of the solution give the same picture.
+    /// The variants of the solution that give the same picture.
     pub same: Vec<Exempt>,
     /// Its title, and what solves it.
     pub patch: Patch,
@@ -114,12 +114,10 @@ impl Exercise {
         }
         let names: Vec<String> = found.iter().map(Self::to_string).collect();
         found.retain(|exercise| number.parse() == Ok(exercise.number));
-        match found.is_empty() {
-            true => {
-                Err(UsageError(format!("no exercise '{name}'; there is {}", names.join(", ")))
-                    .into())
-            }
-            false => Ok(found),
+        if found.is_empty() {
+            Err(UsageError(format!("no exercise '{name}'; there is {}", names.join(", "))).into())
+        } else {
+            Ok(found)
         }
     }
 
@@ -150,7 +148,7 @@ impl Exercise {
         let (text, check, hint) = (text_of("Text")?, text_of("Check")?, text_of("Hint")?);
         let why = patch.field_if_any("Why")?.map(|field| field.value);
         let answer = patch.field_if_any("Answer")?;
-        let wrong_answer = patch.field_if_any("Wrong")?;
+        let choices = patch.field_if_any("Choices")?;
         let same = patch.fields_of(&["Same"]);
         let same: Vec<Vec<Exempt>> =
             same.iter().map(|field| Exempt::parse(file, field)).collect::<Result<_, _>>()?;
@@ -158,9 +156,6 @@ impl Exercise {
         let steps = steps(file, patch.fields_of(&["Run", "Expect"]))?;
         patch.no_other_field("an exercise")?;
         let what = match (takes, &answer, patch.is_empty()) {
-            (Takes::Look, Some(_), _) if wrong_answer.is_none() => {
-                Some(("nothing tells a wrong answer", "add `Wrong: …`"))
-            }
             (Takes::Look, Some(_), true) => None,
             (Takes::Look, None, _) => {
                 Some(("what takes only looking asks a question", "add `Answer: …`"))
@@ -169,6 +164,9 @@ impl Exercise {
                 Some(("what takes only looking has no diff", "write what it takes"))
             }
             (_, Some(_), _) => Some(("what is solved by a diff has no answer", "remove it")),
+            _ if choices.is_some() && answer.is_none() => {
+                Some(("what is solved by a diff has no choices", "remove them"))
+            }
             (_, _, true) => Some(("there is no diff that solves it", FORM)),
             (Takes::Shader, ..) if !patch.is_in_shaders() => {
                 Some(("the diff changes more than shaders", "write `Takes: Rust`"))
@@ -188,11 +186,15 @@ impl Exercise {
         if let Some((what, remedy)) = what {
             return wrong(line, what, remedy);
         }
-        let value = |field: Option<Field>| field.map(|field| field.value).unwrap_or_default();
-        let answers = Answers::of(&value(answer), &value(wrong_answer));
-        if let Some(what) = answers.fault(&check) {
-            return wrong(line, &what, "mend `Answer`, `Wrong` or `Check`");
-        }
+        let choices = choices.as_ref().map(|field| &*field.value);
+        let answer = answer.map(|field| (field.line, Answer::parse(&field.value, choices, &text)));
+        let answer = match answer {
+            Some((line, Err(what))) => {
+                return wrong(line, &what, "correct `Answer`, `Choices` or `Text`");
+            }
+            Some((_, Ok(answer))) => Some(answer),
+            None => None,
+        };
         let chapter = chapter.name.clone();
         let exercise = Self {
             chapter,
@@ -203,7 +205,7 @@ impl Exercise {
             check,
             hint,
             why,
-            answers,
+            answer,
             steps,
             same,
             patch,
@@ -218,7 +220,7 @@ impl Exercise {
         }
     }
 
-    /// What it takes, in words.
+    /// The kind of work it needs, in words.
     pub fn takes(&self) -> String {
         let word = Takes::WORDS.iter().find(|(takes, _)| *takes == self.takes);
         let word = word.map_or("", |(_, word)| word);
@@ -226,12 +228,12 @@ impl Exercise {
         format!("{word}{test}")
     }
 
-    /// How long it takes, in words.
+    /// The time it needs, in words.
     pub fn time(&self) -> String {
         format!("{} minute{}", self.minutes, if self.minutes == 1 { "" } else { "s" })
     }
 
-    /// Whether tests tell that it is solved.
+    /// Returns whether tests decide if it is solved.
     pub fn runs_tests(&self) -> bool {
         self.steps.iter().any(|step| matches!(step.run, Run::Test(..)))
     }
@@ -252,8 +254,9 @@ impl Exercise {
     fn gives_itself_away(&self) -> Option<&str> {
         let Run::Program(arguments) = &self.steps.first()?.run else { return None };
         let value = |word: &str| word.split_once('=').map_or(word, |(_, value)| value).to_owned();
+        let answer = self.answer.as_ref()?;
         let mut told = arguments.iter().filter(|word| !self.text.contains(&***word));
-        told.find(|word| self.answers.accept(&value(word))).map(String::as_str)
+        told.find(|word| answer.accept(&value(word)) == Ok(true)).map(String::as_str)
     }
 
     /// Its item in the list on its page. The answer to a question is folded away: one looks first.
@@ -301,7 +304,7 @@ pub fn list(project: &Project, chapter: &Chapter) -> String {
     )
 }
 
-/// What is wrong with the files: a number left out, a diff that does not fit.
+/// The faults of the files: a number left out, a diff that does not fit.
 pub fn check(project: &Project) -> Vec<Fault> {
     let (exercises, mut faults) = Exercise::all(project);
     let there: BTreeSet<(&str, usize)> =

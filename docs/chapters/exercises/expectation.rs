@@ -1,4 +1,4 @@
-//! What must hold of a run once an exercise is solved.
+//! The conditions on a run once an exercise is solved.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ pub const FORMS: &str = "write as the solution [but for 9 pixels], differs by 0.
 /// The book's picture, or the reader's own, with which a run's picture is compared.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Other {
-    /// Whether the reader's code makes it.
+    /// True if the reader's code makes it.
     pub own: bool,
     /// The first word of `arguments` may name a chapter; `None`: the run's own arguments.
     pub arguments: Option<Vec<String>>,
@@ -31,7 +31,7 @@ impl fmt::Display for Other {
     }
 }
 
-/// What must hold.
+/// A condition on a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {
     /// The picture is the solution's, but for some pixels: `None` for one of a thousand.
@@ -44,7 +44,7 @@ pub enum Expectation {
     Same(Other),
     /// The 8-bit colour of a pixel, from the upper left.
     Pixel([u32; 2], [Interval; 3]),
-    /// How many pixels have an 8-bit colour.
+    /// The number of pixels of an 8-bit colour.
     Pixels([u8; 3], Interval),
     /// The largest float in a channel.
     Largest(usize, Interval),
@@ -77,7 +77,7 @@ fn channels(words: &[&str]) -> Option<[Interval; 3]> {
     found.try_into().ok()
 }
 
-/// What follows `from` or `as`: arguments as in a shell.
+/// The words behind `from` or `as`: arguments as in a shell.
 fn other(text: &str) -> Option<Other> {
     let mut arguments = shlex::split(text)?;
     let own = arguments.first().is_some_and(|word| word == "own");
@@ -154,12 +154,12 @@ impl Expectation {
         }
     }
 
-    /// Whether it is one of tests, not of a program's run.
+    /// Returns whether it is a condition on tests, not on a program's run.
     pub fn is_of_tests(&self) -> bool {
         matches!(self, Self::Passes | Self::Fails(_))
     }
 
-    /// Whether it tells of the picture what the page says of it: the solution must meet it, and where a picture is
+    /// Returns whether it repeats what the page says of the picture: the solution must meet it, and where a picture is
     /// compared with the solution's, a reader's need not.
     pub fn describes(&self) -> bool {
         matches!(

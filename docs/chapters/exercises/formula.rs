@@ -1,6 +1,6 @@
 //! Formulas as a terminal can show them: `$e^{-t/20}$` of a page is `e^(-t/20)` there.
 
-/// What a terminal shows for a command of LaTeX. Any other loses its `\`.
+/// The signs a terminal shows for commands of LaTeX. Any other command loses its `\`.
 const SIGNS: [(&str, &str); 10] = [
     ("cdot", "·"),
     ("times", "×"),

@@ -26,12 +26,12 @@ impl Interval {
         Some(if words.len() == 1 { Self { high: f64::INFINITY, ..amount } } else { amount })
     }
 
-    /// Whether a number lies below all of them.
+    /// Returns whether a number lies below all of them.
     pub fn below(self, number: f64) -> bool {
         number < self.low
     }
 
-    /// Whether a number is one of them.
+    /// Returns whether a number is one of them.
     pub fn holds(self, number: f64) -> bool {
         (self.low..=self.high).contains(&number)
     }

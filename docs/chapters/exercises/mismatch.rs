@@ -1,4 +1,4 @@
-//! What keeps an exercise from being solved: in a line, with the run that showed it and the pictures that were
+//! The reason why an exercise is not solved: in a line, with the run that showed it and the pictures that were
 //! compared.
 
 use std::fmt;
@@ -15,14 +15,14 @@ use crate::pictures::difference::{darker_and_brighter, mean_difference, pixels_a
 use crate::programs::command_line::quoted;
 use crate::programs::run_result::RunResult;
 
-/// What was seen instead of what an exercise expects.
+/// A result other than the expected one.
 #[derive(Default)]
 pub struct Mismatch {
     /// In a line.
     pub what: String,
     /// The arguments of the run that showed it; `None` if it was no run of a program.
     pub arguments: Option<Vec<String>>,
-    /// What to look at beside it: what that is, and the picture.
+    /// A picture to look at beside it, and its description.
     pub beside: Option<(String, Picture)>,
 }
 
@@ -54,8 +54,8 @@ impl Mismatch {
 }
 
 impl Expectation {
-    /// What was seen instead, if a run does not meet it; `other` is the picture to compare with, and `near` tells,
-    /// if it is asked, how far two pictures that are the same may be apart: by no bit, if it tells nothing.
+    /// The result of a run that does not meet it; `other` is the picture to compare with, and `near` tells,
+    /// if called, how far two pictures that are the same may be apart: by no bit, if it tells nothing.
     ///
     /// # Errors
     /// If there is no picture, or the other is of another size.
@@ -157,9 +157,10 @@ impl Expectation {
             Self::Refused(text) => {
                 let refused = seen.status.and_then(|status| status.code());
                 let refused = refused.is_some_and(|code| code == 1 || code == 2);
-                let what = match refused {
-                    true => format!("refused, but not by '{text}': {}", seen.said),
-                    false => format!("not refused by '{text}'"),
+                let what = if refused {
+                    format!("refused, but not by '{text}': {}", seen.said)
+                } else {
+                    format!("not refused by '{text}'")
                 };
                 held(refused && seen.said.contains(text), what)
             }
@@ -172,7 +173,7 @@ impl Expectation {
         }
     }
 
-    /// What was seen instead, if tests do not meet it.
+    /// The result of tests that do not meet it.
     pub fn missed_by_tests(&self, tested: &Tested) -> Option<String> {
         match self {
             Self::Passes => (tested.failed > 0).then(|| format!("{} tests fail", tested.failed)),
@@ -189,7 +190,7 @@ impl Expectation {
 /// 1e-6, and crosses a step of 255 in fewer.
 const ROUNDED: usize = 1000;
 
-/// How many pixels differ, and what to say of it.
+/// The number of pixels that differ, in words.
 fn differing(own: &Picture, other: &Picture, what: &str) -> String {
     match (pixels_apart(own, other), own.pixels.len()) {
         (0, _) => format!("no pixel differs from the other picture, {what}"),
@@ -236,7 +237,7 @@ mod tests {
         RunResult { picture: Some(picture()), status: Some(status), said, told, report }
     }
 
-    /// Whether it holds against a picture of which one pixel is black.
+    /// Checks it against a picture of which one pixel is black.
     fn holds(text: &str) -> bool {
         let expectation = Expectation::parse(text).unwrap_or_else(|| panic!("{text}"));
         let as_solution = matches!(expectation, Expectation::AsSolution(_));

@@ -2,7 +2,6 @@
 
 pub mod answer;
 pub mod attempt;
-pub mod clause;
 pub mod code;
 pub mod command;
 pub mod exercise;

@@ -1,4 +1,4 @@
-//! What a reader has solved so far, in a file of the reader's.
+//! The exercises a reader has solved so far, in a file of the reader's.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -43,7 +43,7 @@ impl Progress {
         Self { file, solved }
     }
 
-    /// Whether an exercise is solved.
+    /// Returns whether an exercise is solved.
     pub fn has(&self, exercise: &Exercise) -> bool {
         self.solved.solved.contains(&exercise.to_string())
     }
@@ -58,12 +58,12 @@ impl Progress {
         })
     }
 
-    /// Whether the target of an exercise may be shown.
+    /// Returns whether the target of an exercise may be shown.
     pub fn shows_target(&self, exercise: &Exercise) -> bool {
         self.has(exercise) || self.failures(exercise) >= FAILURES
     }
 
-    /// How often an exercise has failed.
+    /// The number of failed attempts at an exercise.
     pub fn failures(&self, exercise: &Exercise) -> usize {
         self.solved.failures.get(&exercise.to_string()).copied().unwrap_or_default()
     }
@@ -90,7 +90,7 @@ impl Progress {
     }
 }
 
-/// What a file holds, nothing if there is none; `None` if it is damaged.
+/// The contents of a file, empty if there is none; `None` if it is damaged.
 fn read(file: &Path) -> Option<Solved> {
     match fs::read_to_string(file) {
         Ok(text) => serde_json::from_str(&text).ok(),

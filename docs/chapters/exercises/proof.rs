@@ -11,7 +11,7 @@ const SIZE: [&str; 2] = ["--size", "160x100"];
 /// Arguments that the tool gives itself.
 const GIVEN: [&str; 4] = ["--headless", "--validate", "--out", "--report"];
 
-/// What is run.
+/// The program or the tests that a step runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Run {
     /// The chapter's program with these arguments.
@@ -23,9 +23,9 @@ pub enum Run {
 /// A run, and what must hold of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What is run.
+    /// The program or the tests to run.
     pub run: Run,
-    /// What must hold.
+    /// The conditions on its outcome.
     pub expectations: Vec<Expectation>,
 }
 

@@ -20,7 +20,7 @@ use crate::programs::run_result::RunResult;
 pub struct Solution<'a> {
     programs: &'a Programs<'a>,
     exercise: &'a Exercise,
-    /// Where its pictures were kept before the book's own files were edited.
+    /// The folder of pictures kept before the book's own files were edited.
     kept: Option<PathBuf>,
     patched: OnceCell<Patched>,
     known: RefCell<BTreeMap<Vec<String>, Picture>>,

@@ -13,7 +13,7 @@ use crate::patches::patch::{Field, Patch};
 use crate::programs::interrupt;
 use crate::programs::program::Programs;
 
-/// What is done to a number.
+/// A change of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
     /// It is halved.
@@ -175,10 +175,12 @@ pub fn prove(programs: &Programs, originals: &Originals, exercise: &Exercise) ->
     for variant in variants(exercise).map_err(Fault::error)? {
         interrupt::asked()?;
         let edition = Patched::of(programs.project, &variant.patch)?;
-        match attempt.looks_solved(&edition.edition)? {
-            false => refused += 1,
-            true if exercise.same.contains(&variant.what) => same.push(variant.what),
-            true => accepted.push(format!("{} in `{}`", variant.what, variant.line)),
+        if !attempt.looks_solved(&edition.edition)? {
+            refused += 1;
+        } else if exercise.same.contains(&variant.what) {
+            same.push(variant.what);
+        } else {
+            accepted.push(format!("{} in `{}`", variant.what, variant.line));
         }
     }
     let file = &exercise.patch.file;

@@ -12,7 +12,7 @@ use anyhow::Result;
 use crate::patches::copy::files_below;
 use crate::programs::interrupt;
 
-/// How often to look.
+/// The time between two looks.
 const GLANCE: Duration = Duration::from_millis(200);
 
 /// Folders that are watched.

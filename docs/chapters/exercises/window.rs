@@ -41,7 +41,7 @@ impl Drop for Window {
     }
 }
 
-/// Whether a window can be opened here.
+/// Returns whether a window can be opened here.
 pub fn has_display() -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !cfg!(all(unix, not(target_os = "macos"))) || set("DISPLAY") || set("WAYLAND_DISPLAY")

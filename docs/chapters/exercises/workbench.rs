@@ -126,7 +126,7 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    /// Where the book's pictures lie, from before its own files were edited.
+    /// The folder of the book's pictures, from before its own files were edited.
     fn kept(&self) -> PathBuf {
         self.folder.join("book")
     }
@@ -139,7 +139,7 @@ impl<'a> Workbench<'a> {
         }
     }
 
-    /// Where to edit what, in lines for the reader.
+    /// The files to edit, in lines for the reader.
     pub fn introduction(&self) -> String {
         let project = self.programs.project;
         let shader = self.exercise.takes == Takes::Shader;
@@ -186,12 +186,12 @@ impl<'a> Workbench<'a> {
         Some(format!("{shaders}cargo run --bin {chapter} -- {}", quoted(&words)))
     }
 
-    /// Where the reader's picture lies.
+    /// The file of the reader's picture.
     fn own_picture(&self) -> String {
         format!("{}.png", self.shown)
     }
 
-    /// Where the picture lies with which it was compared.
+    /// The file of the picture it was compared with.
     fn other_picture(&self) -> String {
         format!("{}.other.png", self.shown)
     }
@@ -207,7 +207,7 @@ impl<'a> Workbench<'a> {
         Ok(shown)
     }
 
-    /// What keeps the exercise from being solved, in a line; keeps the pictures beside the folder.
+    /// The reason why the exercise is not solved, in a line; keeps the pictures beside the folder.
     ///
     /// # Errors
     /// If it cannot be told.
@@ -358,7 +358,7 @@ impl<'a> Workbench<'a> {
     }
 }
 
-/// What to print once an exercise is solved.
+/// The lines to print once an exercise is solved.
 pub fn solved(exercise: &Exercise) -> String {
     // Who has answered has read it.
     let check = match exercise.takes {

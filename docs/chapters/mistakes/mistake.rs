@@ -1,7 +1,7 @@
 //! A classic mistake: a small patch to a chapter, and what it does to the picture.
 //!
 //! Each is a file `docs/mistakes/NAME.diff`, a [`Patch`].
-//! What the fields claim is held against a run of the patched chapter by [`super::reproduction`].
+//! A run of the patched chapter checks the claims of the fields ([`super::reproduction`]).
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,13 +17,13 @@ use crate::patches::copy::file_on_the_way;
 use crate::patches::patch::{self, Field, Patch};
 use crate::pictures::stamp;
 
-/// Where the mistakes lie.
+/// The folder of the mistakes.
 pub const FOLDER: &str = "docs/mistakes";
 
-/// What a file of a mistake looks like.
+/// The form of a mistake's file.
 const FORM: &str = "write a title, a blank line, `Symptom: WORDS`, `Chapter: NN_name` and the other fields, a blank line, a diff";
 
-/// What a mistake does.
+/// The effect of a mistake.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Pixels differ from the right ones by at least so much, of 1: the mean over all channels, in sRGB.
@@ -59,26 +59,26 @@ pub struct Mistake {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// What is seen: a word that it is sorted by, a colon, and a few more.
+    /// The symptom: a word that it is sorted by, a colon, and a few more.
     pub symptom: String,
     /// The chapter that makes it.
     pub chapter: String,
     /// The program's arguments, as in a shell.
     pub arguments: String,
-    /// What it does.
+    /// Its effect.
     pub outcome: Outcome,
-    /// What every validation message holds; `None` if there is none.
+    /// The words in every validation message; `None` if there is none.
     pub validation: Option<String>,
-    /// What Vulkan leaves undefined here, if anything: a GPU may stop, or its system, so the mistake is tried on a
+    /// The behaviour Vulkan leaves undefined here, if any: a GPU may stop, or its system, so the mistake is tried on a
     /// software driver alone.
     pub undefined: Option<String>,
-    /// What it reads that nobody wrote, if anything: its picture differs from run to run.
+    /// The memory it reads that nobody wrote, if any: its picture differs from run to run.
     pub unwritten: Option<String>,
-    /// Why the picture is wrong.
+    /// The reason why the picture is wrong.
     pub cause: String,
-    /// What shows it.
+    /// The way to find it.
     pub find: String,
-    /// What is right.
+    /// The cure.
     pub cure: String,
     /// Its file, and what it changes.
     pub patch: Patch,
@@ -175,12 +175,12 @@ impl Mistake {
         format!("cargo chapters mistake {}", self.name)
     }
 
-    /// Whether it changes shaders alone: then the built program shows it.
+    /// Returns whether it changes shaders alone: then the built program shows it.
     pub fn is_in_shaders(&self) -> bool {
         self.patch.is_in_shaders()
     }
 
-    /// What the patched files hold.
+    /// The contents of the patched files.
     ///
     /// # Errors
     /// If a hunk's lines do not stand in its file, once.
@@ -216,12 +216,13 @@ impl Mistake {
             "" => String::new(),
             arguments => format!(" -- {arguments}"),
         };
-        match self.is_in_shaders() {
-            true => format!("SHADERS={folder} cargo run --bin {bin}{arguments}"),
-            false => format!(
+        if self.is_in_shaders() {
+            format!("SHADERS={folder} cargo run --bin {bin}{arguments}")
+        } else {
+            format!(
                 "CARGO_TARGET_DIR=target/mistakes/build cargo run --manifest-path \
                  {folder}/Cargo.toml --bin {bin}{arguments}"
-            ),
+            )
         }
     }
 

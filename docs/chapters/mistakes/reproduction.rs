@@ -16,14 +16,14 @@ use crate::pictures::stamp::{self, Maker};
 use crate::programs::program::Programs;
 use crate::programs::run_result::{RunResult, is_software};
 
-/// How large a mistake is shown.
+/// The size of a mistake's picture.
 const SHOWN: (u32, u32) = (320, 200);
-/// How large it is where only the comparison counts.
+/// Its size where only the comparison counts.
 const COMPARED: (u32, u32) = (160, 100);
 
-/// How long a program may take.
+/// The longest time of a program.
 const LIMIT: Limit = Limit::worked(40);
-/// How long it may where the mistake may keep it from ending.
+/// Its longest time where the mistake may keep it from ending.
 const UNTIL_CRASHED: Limit = Limit::worked(10);
 
 /// A mistake, and the runs that show it.
@@ -38,7 +38,7 @@ impl<'a> Reproduction<'a> {
         Self { programs, mistake }
     }
 
-    /// What the mistake does, in a line.
+    /// The effect of the mistake, in a line.
     ///
     /// # Errors
     /// If that is not what its file says.
@@ -113,7 +113,7 @@ impl<'a> Reproduction<'a> {
         self.run(&wrong.edition, size)
     }
 
-    /// Why the mistake is not made on this device, if it is undefined and no software driver is asked.
+    /// The reason why the mistake is not made on this device, if it is undefined and no software driver is asked.
     fn not_tried(&self, device: &str) -> Result<Option<String>> {
         let Mistake { name, chapter, undefined, .. } = self.mistake;
         let Some(what) = undefined else { return Ok(None) };
@@ -190,7 +190,7 @@ impl<'a> Reproduction<'a> {
     }
 }
 
-/// How a program ended, in words.
+/// The end of a program, in words.
 fn end(status: Option<ExitStatus>) -> String {
     match status {
         Some(status) => format!("the program ends by {status}"),

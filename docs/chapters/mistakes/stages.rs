@@ -7,7 +7,7 @@ use manuscript::shader;
 
 use super::mistake::Mistake;
 
-/// What is wrong with a mistake's patch: it does not fit, changes no stage of its chapter, or leaves one that does
+/// The faults of a mistake's patch: it does not fit, changes no stage of its chapter, or leaves one that does
 /// not compile.
 pub fn check(project: &Project, mistake: &Mistake) -> Vec<Fault> {
     let patched = match mistake.patched(project) {

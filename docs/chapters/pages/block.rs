@@ -1,4 +1,4 @@
-//! What stands between the markers of a generated block.
+//! The text between the markers of a generated block.
 
 use manuscript::anchor::{part, parts};
 use manuscript::diff::{self, FileDiff, Line, Parts, Side};
@@ -20,7 +20,7 @@ use crate::values::{stamp, table};
 /// Lines around a change on a page.
 const CONTEXT: usize = 2;
 
-/// What a block of a page should hold, and in a few words what that comes from.
+/// The text of a page's block, and its source in a few words.
 ///
 /// # Errors
 /// If the marker names what does not exist.
@@ -81,7 +81,7 @@ pub fn body(programs: &Programs, page: &Page, block: &Block) -> Result<(String, 
     }
 }
 
-/// What is wrong with a marker, or with the file that it names.
+/// The fault of a marker, or of the file that it names.
 enum Wrong {
     Marker(String, String),
     Source(Fault),
@@ -161,9 +161,10 @@ fn diff_block(
     let Some(wanted) = file else {
         let (shared, own): (Vec<_>, Vec<_>) =
             diffs.into_iter().partition(|diff| diff.included_by.is_some());
-        let mut text = match own.is_empty() {
-            true => "Code and shaders are the same.\n".to_owned(),
-            false => fenced("diff", &own.iter().map(unified).collect::<String>()),
+        let mut text = if own.is_empty() {
+            "Code and shaders are the same.\n".to_owned()
+        } else {
+            fenced("diff", &own.iter().map(unified).collect::<String>())
         };
         if !shared.is_empty() {
             let name = |path: &str| path.trim_start_matches("shaders/").to_owned();

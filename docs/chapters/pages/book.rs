@@ -316,9 +316,12 @@ impl<'a> Book<'a> {
                 let what = format!("{file} cannot be rendered: {error:#}");
                 Fault::new(place.0, place.1, what, remedy)
             };
-            let told = |(maker, changed): (Maker, bool)| match changed {
-                true => done(&file, &format!("rendered on {}", maker.device)),
-                false => done(&file, "the same"),
+            let told = |(maker, changed): (Maker, bool)| {
+                if changed {
+                    done(&file, &format!("rendered on {}", maker.device))
+                } else {
+                    done(&file, "the same")
+                }
             };
             faults.extend(made.map(told).map_err(fault).err());
         };

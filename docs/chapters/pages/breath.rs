@@ -1,4 +1,4 @@
-//! Whether a page can be read in one sitting: its words, and the words of a section that nothing interrupts.
+//! A check that a page can be read in one sitting: its words, and the words of a section that nothing interrupts.
 
 use manuscript::fault::Fault;
 use manuscript::page::{Kind, Page};
@@ -16,7 +16,7 @@ const UNBROKEN: usize = 250;
 /// The sections that are no reading.
 const APART: [&str; 3] = ["## Controls", "## Try it", "## Sources"];
 
-/// What a page takes to read.
+/// The length of a page.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Breath {
     /// Its words: with captions and with comments in snippets, without what tables and code hold.
@@ -101,7 +101,7 @@ fn most(number: &str) -> usize {
     if first.contains(&number) { most } else { MOST }
 }
 
-/// What is too long on a chapter's page.
+/// The parts of a chapter's page that are too long.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let Some(chapter) = project.of_page(&page.path) else { return Vec::new() };
     let Breath { words, longest: (line, unbroken), .. } = Breath::of(page);

@@ -1,11 +1,11 @@
-//! Whether everything that a chapter consists of is there, and is called what it should be.
+//! A check that every file of a chapter is there and has the right name.
 
 use manuscript::fault::Fault;
 use manuscript::project::{Chapter, Project, README};
 
 use super::placeholder;
 
-/// What does not agree, seen from `Cargo.toml`.
+/// The disagreements, seen from `Cargo.toml`.
 pub fn check(project: &Project) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (index, chapter) in project.chapters.iter().enumerate() {
@@ -57,7 +57,7 @@ fn metadata(project: &Project, chapter: &Chapter, index: usize) -> Vec<Fault> {
     faults
 }
 
-/// Whether who follows each chapter's parent comes to one that has none. A parent may have the larger number.
+/// Checks that each chapter's parents lead to one that has none. A parent may have the larger number.
 fn leads_to_a_first(project: &Project, chapter: &Chapter) -> bool {
     let mut at = Some(chapter);
     for _ in &project.chapters {

@@ -9,7 +9,7 @@ use crate::exercises::exercise::Exercise;
 /// The section's heading.
 const HEADING: &str = "## Try it";
 
-/// How many exercises the chapter of a page has.
+/// The number of exercises of a page's chapter.
 pub fn count(project: &Project, page: &Page) -> usize {
     let Some(chapter) = chapter(project, page) else { return 0 };
     let (exercises, _) = Exercise::all(project);
@@ -20,7 +20,7 @@ fn chapter<'a>(project: &'a Project, page: &Page) -> Option<&'a Chapter> {
     project.of_page(&page.path)
 }
 
-/// What is wrong with the section; a chapter's page must have it.
+/// The faults of the section; a chapter's page must have it.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let Some(chapter) = chapter(project, page) else { return Vec::new() };
     let fault = |line, what: String, remedy: String| Fault::new(&*page.path, line, what, remedy);

@@ -32,7 +32,7 @@ const AFTER: &[(&str, &str)] = &[
     ("glossary.md", "Glossary"),
 ];
 
-/// Whether a page of the book is no chapter's.
+/// Returns whether a page of the book is no chapter's.
 pub fn is_other_page(file: &str) -> bool {
     BEFORE.iter().chain(AFTER).any(|(name, _)| file == *name)
 }
@@ -78,9 +78,10 @@ fn row(chapters: &[&Chapter], cell: impl Fn(&Chapter) -> String) -> String {
 fn contents_of(project: &Project, chapter: &Chapter) -> String {
     let Chapter { name, .. } = chapter;
     let page = format!("- [{}]({name}.md)\n", chapter.heading());
-    match project.has(&chapter.measurements()) {
-        true => format!("{page}  - [{}]({MEASUREMENTS}/{name}.md)\n", measurements(chapter)),
-        false => page,
+    if project.has(&chapter.measurements()) {
+        format!("{page}  - [{}]({MEASUREMENTS}/{name}.md)\n", measurements(chapter))
+    } else {
+        page
     }
 }
 
@@ -91,9 +92,12 @@ pub fn measurements(chapter: &Chapter) -> String {
 
 /// The whole of `docs/SUMMARY.md`.
 pub fn summary(project: &Project) -> String {
-    let other = |(file, title): (&str, &str)| match project.has(&format!("docs/{file}")) {
-        true => format!("[{title}]({file})\n"),
-        false => String::new(),
+    let other = |(file, title): (&str, &str)| {
+        if project.has(&format!("docs/{file}")) {
+            format!("[{title}]({file})\n")
+        } else {
+            String::new()
+        }
     };
     let listed = |pages: &[(&str, &str)]| -> Vec<String> {
         pages.iter().copied().map(other).filter(|line| !line.is_empty()).collect()

@@ -19,9 +19,9 @@ use crate::values::passage::{self, line};
 /// The page.
 pub const GLOSSARY: &str = "docs/glossary.md";
 
-/// What a term is marked by that is not looked for.
+/// The mark of a term that is not looked for.
 const EVERYDAY: &str = "<!-- everyday word -->";
-/// What begins the list of words that a term stands for alone.
+/// The first words of the list of words that a term stands for alone.
 const NOT: &str = "<!-- not:";
 
 /// A project's terms.
@@ -135,20 +135,20 @@ impl Glossary {
     }
 }
 
-/// What follows the words of a link from a page to a term's meaning.
+/// The part behind the words of a link from a page to a term's meaning.
 fn link_to(page: &Page, term: &Term) -> String {
     let up = "../".repeat(page.path.matches('/').count().saturating_sub(1));
     format!("({up}glossary.md#{})", slug(&term.name))
 }
 
-/// Where a text is written in sentences, in bytes.
+/// The ranges of a text that are written in sentences, in bytes.
 fn sentences(text: &str) -> Vec<Range<usize>> {
     let passages = passage::all(text);
     let passages = passages.iter().filter(|passage| !passage.is_set_apart);
     passages.flat_map(|passage| passage.text.iter().cloned()).collect()
 }
 
-/// Where a part of a text has a term as a word of its own, in the singular or the plural.
+/// The places in a part of a text that have a term as a word of its own, in the singular or the plural.
 fn uses(text: &str, part: Range<usize>, term: &str) -> Vec<Range<usize>> {
     let (lower, term) = (text[part.clone()].to_ascii_lowercase(), term.to_ascii_lowercase());
     let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || "-_".contains(c));

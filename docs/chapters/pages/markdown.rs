@@ -1,4 +1,4 @@
-//! What an author wrote on a page, taken apart: links, code, headings.
+//! The author's text of a page, taken apart: links, code, headings.
 
 use manuscript::fault::Fault;
 use manuscript::link::local;
@@ -10,7 +10,7 @@ use pulldown_cmark::{CodeBlockKind, Event, HeadingLevel, Options, Parser, Tag, T
 pub struct Link {
     /// Its line, from 1.
     pub line: usize,
-    /// Where it leads.
+    /// Its target.
     pub target: String,
 }
 
@@ -26,7 +26,7 @@ pub struct Code {
 }
 
 impl Code {
-    /// Whether it may hold commands: in a sentence, too.
+    /// True if it may hold commands: also in a sentence.
     pub fn is_shell(&self) -> bool {
         ["sh", "bash", "console", "shell", ""].contains(&&*self.language)
     }
@@ -39,7 +39,7 @@ pub struct Formula {
     pub line: usize,
     /// The text.
     pub text: String,
-    /// Whether it is a block of ```` ```math ````, which Markdown leaves as it is, and not between dollars.
+    /// True if it is a block of ```` ```math ````, which Markdown leaves as it is, and not between dollars.
     pub fenced: bool,
 }
 
@@ -122,13 +122,13 @@ impl Markdown {
     }
 }
 
-/// What `src` and `href` name.
+/// The targets of `src` and `href`.
 fn html_targets(html: &str) -> Vec<String> {
     let pieces = ["src=\"", "href=\""].into_iter().flat_map(|key| html.split(key).skip(1));
     pieces.filter_map(|rest| rest.split_once('"')).map(|(target, _)| target.to_owned()).collect()
 }
 
-/// What is wrong with a page's links.
+/// The faults of a page's links.
 pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for Link { line, target } in links {
@@ -144,7 +144,7 @@ pub fn check_links(project: &Project, page: &str, links: &[Link]) -> Vec<Fault> 
     faults
 }
 
-/// What is wrong with formulas. Between dollars a code host's Markdown takes away the `\` before a sign. A block
+/// The faults of formulas. Between dollars a code host's Markdown takes away the `\` before a sign. A block
 /// of ```` ```math ```` stays as it is, but needs no dollars, and its braces must come in pairs.
 pub fn check_formulas(page: &str, formulas: &[Formula]) -> Vec<Fault> {
     let mut faults = Vec::new();

@@ -11,9 +11,9 @@ use regex_lite::{Match, Regex};
 
 use super::exercise_list;
 
-/// What follows the number of a chapter that is not there yet.
+/// The words behind the number of a chapter that is not there yet.
 const PLANNED: &str = " (planned)";
-/// Where the chapters of other books are named.
+/// The pages that name the chapters of other books.
 const SOURCES: &str = "## Sources";
 
 static NUMBER: LazyLock<Regex> = LazyLock::new(|| regex(r"\b\d\d\b"));
@@ -34,11 +34,11 @@ fn regex(pattern: &str) -> Regex {
 pub struct Mention {
     /// Such as `05`.
     pub number: String,
-    /// Whether the line says that the chapter is still to come.
+    /// True if the line says that the chapter is still to come.
     pub planned: bool,
 }
 
-/// What is wrong with the chapters and exercises that a page names.
+/// The faults of the chapters and exercises that a page names.
 pub fn check(project: &Project, page: &Page) -> Vec<Fault> {
     let mut faults = Vec::new();
     let own = project.of_page(&page.path).is_some();

@@ -3,13 +3,13 @@
 use manuscript::fault::Fault;
 use manuscript::page::Page;
 
-/// What a chapter that `new` has made teaches.
+/// The lesson of a chapter that `new` has made.
 pub const TEACHES: &str = "say here, in a line, what it teaches";
 
-/// How its program opens, behind the chapter's number and title, and behind its parent's name.
+/// The first words of its program, behind the chapter's number and title, and behind its parent's name.
 pub const OPENING: [&str; 2] = ["what it teaches, in a line.", "what is new."];
 
-/// What stands for a figure in a cell of a table.
+/// The placeholder of a figure in a cell of a table.
 const CELLS: [&str; 3] = ["X", "TBD", "TODO"];
 
 /// Every placeholder: a line that is nothing but a word of capitals, or a cell that says it is empty.
@@ -18,9 +18,10 @@ pub fn check(page: &Page) -> Vec<Fault> {
     for (line, text) in page.prose() {
         let text = text.trim();
         let cell = || text.split('|').map(str::trim).find(|cell| CELLS.contains(cell));
-        let found = match text.starts_with('|') {
-            true => cell(),
-            false => Some(text).filter(|text| is_word_of_capitals(text)),
+        let found = if text.starts_with('|') {
+            cell()
+        } else {
+            Some(text).filter(|text| is_word_of_capitals(text))
         };
         faults.extend(found.map(|word| fault(&page.path, line, word)));
     }
@@ -33,7 +34,7 @@ pub fn fault(file: &str, line: usize, words: &str) -> Fault {
     Fault::new(file, line, what, "write what belongs here")
 }
 
-/// Whether a line says nothing but a word such as `ERRORTABLE`.
+/// Returns whether a line says nothing but a word such as `ERRORTABLE`.
 fn is_word_of_capitals(line: &str) -> bool {
     let word = line.trim_end_matches([':', '.', '…']);
     word.len() > 1 && word.bytes().all(|byte| byte.is_ascii_uppercase() || byte == b'_')

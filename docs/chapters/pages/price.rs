@@ -36,7 +36,7 @@ fn parts(page: &Page) -> Option<[String; 3]> {
     parts.iter().all(|part| !part.is_empty()).then_some(parts)
 }
 
-/// What is wrong with the price line of a chapter's page.
+/// The faults of the price line of a chapter's page.
 pub fn check(project: &Project, page: &Page) -> Option<Fault> {
     let name = page.stem();
     project.of_page(&page.path).filter(|_| parts(page).is_none())?;

@@ -16,12 +16,12 @@ use super::mention::{chapters, codes};
 const FOLDERS: [&str; 5] = ["common", "docs", "samples", "shaders", "tests"];
 /// The files that a page may name without their folder, beside shaders.
 const EXTENSIONS: [&str; 5] = ["rs", "toml", "obj", "mtl", "md"];
-/// What says that the file named next is one that the reader writes.
+/// The mark behind which the next file is one that the reader writes.
 const WRITES: [&str; 3] = ["Write `", "write `", "` to `"];
 /// Arguments that name a file to be written.
 const OUTPUTS: [&str; 4] = ["--out", "--report", "--save", "--measure"];
 
-/// What the pages of a project may name.
+/// The names that the pages of a project may use.
 pub struct Files<'a> {
     project: &'a Project,
     all: Vec<String>,
@@ -34,7 +34,7 @@ impl<'a> Files<'a> {
         Self { project, all }
     }
 
-    /// What is wrong with the files, lines and anchors that a page names.
+    /// The faults of the files, lines and anchors that a page names.
     pub fn check(&self, page: &Page, written: &Markdown) -> Vec<Fault> {
         let fault = |line: usize, what: String| Fault::new(&*page.path, line, what, "correct it");
         let mut faults = Vec::new();
@@ -60,7 +60,7 @@ impl<'a> Files<'a> {
         faults
     }
 
-    /// Why a piece of code is no name of a file, if it looks like one.
+    /// The reason why a piece of code is no name of a file, if it looks like one.
     fn wrong(&self, page: &Page, text: &str, code: &str) -> Option<String> {
         let (name, place) = split(code);
         if code.contains(|c: char| c.is_whitespace() || "<>*…(){}\"'=|".contains(c)) {
@@ -118,7 +118,7 @@ impl<'a> Files<'a> {
         Some(path.to_owned()).filter(there).or_else(|| paths.find(there))
     }
 
-    /// Whether a page may name a file without its folder: it is of all chapters, of this one or of one
+    /// Returns whether a page may name a file without its folder: it is of all chapters, of this one or of one
     /// that this builds on, or the line names the file's chapter.
     fn is_near(&self, page: &Page, text: &str, path: &str) -> bool {
         let mut parts = path.split('/');
@@ -133,7 +133,7 @@ impl<'a> Files<'a> {
             || chapters(text).iter().any(|mention| mention.number == of.number())
     }
 
-    /// Why a line or an anchor is not in a file, if it is not.
+    /// The reason why a line or an anchor is not in a file, if it is not.
     fn wrong_place(&self, path: &str, place: Place) -> Option<String> {
         let text = || self.project.read(path).unwrap_or_default();
         match place {
@@ -151,7 +151,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// Why a file that a command reads is not there, if it is not.
+    /// The reason why a file that a command reads is not there, if it is not.
     fn wrong_input(&self, command: &str) -> Option<String> {
         let mut words = command.split_whitespace().map(|word| word.trim_matches(['"', '\'', '\\']));
         let mut last = "";
@@ -164,7 +164,7 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Why a link leads to no heading or line of a file that is there, if it does not.
+    /// The reason why a link leads to no heading or line of a file that is there, if it does not.
     fn wrong_fragment(&self, page: &Page, link: &Link) -> Option<String> {
         let (file, fragment) = link.target.split_once('#')?;
         let path = match file {
@@ -182,7 +182,7 @@ impl<'a> Files<'a> {
     }
 }
 
-/// Where in a file.
+/// A place in a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Place<'a> {
     Whole,
@@ -199,13 +199,13 @@ fn split(code: &str) -> (&str, Place<'_>) {
     line.map_or((code, Place::Whole), |(name, line)| (name, Place::Line(line)))
 }
 
-/// What a heading is called in links, as mdBook and code hosts do it.
+/// The name of a heading in links, as mdBook and code hosts form it.
 pub fn slug(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.collect::<String>().to_lowercase().replace(' ', "-")
 }
 
-/// What a page's headings are called: a second one of a name is numbered.
+/// The names of a page's headings: a second one of a name is numbered.
 fn slugs(headings: &[String]) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for heading in headings {

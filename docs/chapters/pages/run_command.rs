@@ -22,7 +22,7 @@ impl CommandLine {
         sets.chain(compared).collect()
     }
 
-    /// What is wrong if it compares chapters and one of them does not exist; `NN` may stand for any chapter.
+    /// The fault of one that compares chapters of which one does not exist; `NN` may stand for any chapter.
     fn unknown_chapter(&self, project: &Project) -> Option<String> {
         let [command, chapters @ ..] = &self.arguments[..] else { return None };
         let tool = self.bin.as_deref() == Some("chapters") && command == "diff";
@@ -30,7 +30,7 @@ impl CommandLine {
         chapters.into_iter().find_map(|given| project.chapter(given).err()).map(|usage| usage.0)
     }
 
-    /// What is wrong with it, and what to do.
+    /// The fault of it, and its remedy.
     fn wrong(&self, programs: &Programs) -> Option<(String, &'static str)> {
         let wrong =
             |what: String| Some((format!("this command does not run: {what}"), "correct it"));
@@ -78,7 +78,7 @@ impl CommandLine {
     }
 }
 
-/// What is wrong with the commands in a page's code.
+/// The faults of the commands in a page's code.
 pub fn check(programs: &Programs, page: &str, code: &[Code]) -> Vec<Fault> {
     let chapter = programs.project.of_page(page);
     let mut faults = Vec::new();

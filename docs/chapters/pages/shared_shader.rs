@@ -1,4 +1,4 @@
-//! What several chapters use stands once, in `shaders/common`; the first line of each file says which
+//! The files of `shaders/common`, each used by several chapters; the first line of each says which
 //! chapter teaches it. That chapter includes it, and its page shows it.
 
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use manuscript::shader;
 /// The forms of a shared file's first line.
 const FORMS: &str = "begin it with `// Taught by NN_name.`, `// Like NAME in NN_name, but …` or `// Of no chapter: …`";
 
-/// What is wrong with the files that chapters share, and with those that should be shared.
+/// The faults of the files that chapters share, and of those that should be shared.
 pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     let files = project.files("shaders/common");
     let mut faults: Vec<Fault> =
@@ -20,7 +20,7 @@ pub fn check(project: &Project, pages: &[Page]) -> Vec<Fault> {
     faults
 }
 
-/// What is wrong with a shared file.
+/// The faults of a shared file.
 fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
     let text = project.read(file).unwrap_or_default();
     // A stage begins with its version: nothing may stand before it.
@@ -51,7 +51,7 @@ fn wrong(project: &Project, pages: &[Page], file: &str) -> Option<Fault> {
     None
 }
 
-/// Whether a chapter's page shows a part of a file, or its author names it there.
+/// Returns whether a chapter's page shows a part of a file, or its author names it there.
 fn is_shown(pages: &[Page], chapter: &Chapter, file: &str) -> bool {
     let mut of = pages.iter().filter(|page| page.path == chapter.page());
     let name = file.rsplit('/').next().unwrap_or_default();

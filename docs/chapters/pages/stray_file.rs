@@ -25,7 +25,7 @@ pub fn check(project: &Project, linked: &BTreeSet<String>) -> Vec<Fault> {
         .collect()
 }
 
-/// Why a file is a stray, if it is.
+/// The reason why a file is a stray, if it is.
 fn why(project: &Project, texts: &Texts, linked: &BTreeSet<String>, file: &str) -> Option<String> {
     let (folder, name) = file.rsplit_once('/')?;
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
@@ -104,7 +104,7 @@ impl Texts {
         self.texts.iter().any(|(file, code)| inside(file) && code.contains(text))
     }
 
-    /// Whether another file has the name between marks or blanks.
+    /// Returns whether another file has the name between marks or blanks.
     fn says(&self, file: &str, name: &str) -> bool {
         let word = |c: char| c.is_alphanumeric() || ['_', '-', '.'].contains(&c);
         let whole = |text: &str| {
@@ -116,7 +116,7 @@ impl Texts {
         self.texts.iter().any(|(other, text)| other != file && whole(text))
     }
 
-    /// Whether a source beside a module, or above its folder, declares it.
+    /// Returns whether a source beside a module, or above its folder, declares it.
     fn declares(&self, folder: &str, stem: &str) -> bool {
         let (folder, stem) = match stem {
             "mod" => folder.rsplit_once('/').unwrap_or(("", folder)),

@@ -6,14 +6,14 @@ use manuscript::project::Project;
 use super::markdown::Code;
 use crate::programs::test;
 
-/// What a `cargo test` asks for.
+/// The tests that a `cargo test` runs.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Asked {
     target: Option<String>,
     filter: Option<String>,
 }
 
-/// What is wrong with the `cargo test`s in a page's code.
+/// The faults of the `cargo test`s in a page's code.
 pub fn check(project: &Project, page: &str, code: &[Code]) -> Vec<Fault> {
     let mut faults = Vec::new();
     for code in code.iter().filter(|code| code.is_shell()) {
@@ -44,7 +44,7 @@ fn asked(command: &str) -> Option<Asked> {
     Some(asked)
 }
 
-/// Why a command runs no test, if it runs none.
+/// The reason why a command runs no test, if it runs none.
 fn wrong(project: &Project, asked: &Asked) -> Option<String> {
     let target = asked.target.as_ref()?;
     let tests = test::of(project, target);

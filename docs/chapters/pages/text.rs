@@ -1,4 +1,4 @@
-//! What the text of a page, or of an exercise, names: chapters, files, commands, tests, links, formulas.
+//! The names in the text of a page or an exercise: chapters, files, commands, tests, links, formulas.
 
 use manuscript::fault::Fault;
 use manuscript::page::Page;
@@ -10,7 +10,7 @@ use super::{mention, placeholder, run_command, test_command};
 use crate::exercises::exercise::{Exercise, Takes};
 use crate::programs::program::Programs;
 
-/// What a page names and is not there, or is not as it says; `written` is what its author wrote.
+/// The names of a page that do not exist, or not as it says; `written` is the author's own text.
 pub fn check(programs: &Programs, files: &Files, page: &Page, written: &Markdown) -> Vec<Fault> {
     let path = &*page.path;
     let mut faults = placeholder::check(page);
@@ -23,7 +23,7 @@ pub fn check(programs: &Programs, files: &Files, page: &Page, written: &Markdown
     faults
 }
 
-/// What is wrong with what the exercises name.
+/// The faults of the names in the exercises.
 pub fn check_exercises(programs: &Programs, files: &Files) -> Vec<Fault> {
     let mut faults = Vec::new();
     for exercise in Exercise::all(programs.project).0 {

@@ -21,7 +21,7 @@ const FOLDERS: [&str; 8] = [
 ];
 const FILES: [&str; 2] = ["Cargo.toml", "Cargo.lock"];
 
-/// What some files of a copy hold in place of the project's, by their path from its root.
+/// The contents of some files of a copy in place of the project's, by their path from its root.
 pub type Changed = BTreeMap<String, String>;
 
 /// Makes a folder a copy of the shaders.

@@ -14,13 +14,13 @@ use super::patch::Patch;
 use crate::programs::child;
 use crate::programs::program::Programs;
 
-/// Where patched code is copied to and built, one patch after the other: Cargo builds only what differs from
+/// The folder in which patched code is built, one patch after the other: Cargo builds only what differs from
 /// the one before, which takes minutes for the first.
 const COPY: &str = "target/mistakes/copy";
 const BUILT: &str = "target/mistakes/build";
 const LOCK: &str = "target/mistakes/lock";
 
-/// How long tests may take once they are built.
+/// The longest time of tests once they are built.
 const LIMIT: Limit = Limit::waited(ASLEEP);
 
 /// An edition.
@@ -69,12 +69,12 @@ impl Patched {
     }
 }
 
-/// What tests said.
+/// The result of tests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tested {
-    /// How many passed.
+    /// The number that passed.
     pub passed: usize,
-    /// How many failed.
+    /// The number that failed.
     pub failed: usize,
     /// All that was printed.
     pub said: String,
@@ -174,7 +174,7 @@ impl Edition {
         Ok(Tested { passed, failed, said: ended.told })
     }
 
-    /// What one of its files holds.
+    /// The contents of one of its files.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -187,7 +187,7 @@ impl Edition {
         fs::read_to_string(path).with_context(|| format!("cannot read '{file}'"))
     }
 
-    /// Where its shaders lie.
+    /// The folder of its shaders.
     fn shaders(&self, project: &Project) -> PathBuf {
         match self {
             Self::Book | Self::Edited => project.root.join("shaders"),

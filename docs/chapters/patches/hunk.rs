@@ -7,18 +7,18 @@ pub struct Hunk {
     pub line: usize,
     /// Its file.
     pub file: String,
-    /// Whether there is no such file before.
+    /// True if there is no such file before.
     pub new_file: bool,
-    /// Where its lines stood when the patch was made, from 0.
+    /// The line at which its lines stood when the patch was made, from 0.
     pub at: usize,
-    /// What stood there.
+    /// The old lines.
     pub old: Vec<String>,
-    /// What stands there instead.
+    /// The new lines.
     pub new: Vec<String>,
 }
 
 impl Hunk {
-    /// Where its old lines stand, from 0: where they stand once, or else where they stood.
+    /// The line of its old lines, from 0: where they stand once, or else where they stood.
     pub fn place(&self, lines: &[String]) -> Option<usize> {
         let old = self.old.len();
         let mut found = (0..(lines.len() + 1).saturating_sub(old))
@@ -48,13 +48,13 @@ impl Hunk {
     }
 }
 
-/// What begins a line of a shader that looks like a function and is none.
+/// The words at the beginning of a line of a shader that looks like a function and is none.
 const CONTROL: [&str; 4] = ["if ", "for ", "while ", "switch "];
 
 /// The hunks of a unified diff.
 ///
 /// # Errors
-/// What is wrong in it, with its line.
+/// A fault in it, with its line.
 pub fn hunks(text: &str) -> Result<Vec<Hunk>, (usize, String)> {
     let mut hunks: Vec<Hunk> = Vec::new();
     let (mut file, mut new_file) = (None, false);

@@ -15,9 +15,9 @@ use super::hunk::{Hunk, hunks};
 pub struct Field {
     /// Its line, from 1.
     pub line: usize,
-    /// What stands before the colon.
+    /// The text before the colon.
     pub key: String,
-    /// What stands behind it.
+    /// The text behind it.
     pub value: String,
 }
 
@@ -35,7 +35,7 @@ pub struct Patch {
     hunks: Vec<Hunk>,
 }
 
-/// What the files of a folder hold, and what is wrong with them.
+/// The patches of a folder, and the faults of its files.
 pub fn all<T>(
     project: &Project,
     folder: &str,
@@ -133,17 +133,17 @@ impl Patch {
         self.fields.first().map_or(Ok(()), |field| Err(wrong(field)))
     }
 
-    /// Whether it changes nothing.
+    /// Returns whether it changes nothing.
     pub fn is_empty(&self) -> bool {
         self.hunks.is_empty()
     }
 
-    /// Whether it changes shaders alone: then the built program shows it.
+    /// Returns whether it changes shaders alone: then the built program shows it.
     pub fn is_in_shaders(&self) -> bool {
         self.hunks.iter().all(|hunk| hunk.file.starts_with("shaders/"))
     }
 
-    /// Whether it changes Rust code.
+    /// Returns whether it changes Rust code.
     pub fn is_in_rust(&self) -> bool {
         self.hunks.iter().any(|hunk| hunk.file.ends_with(".rs"))
     }
@@ -178,7 +178,7 @@ impl Patch {
         start.map_or("", |start| self.text[start..].trim_start())
     }
 
-    /// What the patched files hold; `read` tells what they hold before, `None` where there is no file.
+    /// The contents of the patched files; `read` returns those before, `None` where there is no file.
     ///
     /// # Errors
     /// If a hunk's lines do not stand in its file, or stand there twice and not where the hunk says.
@@ -209,7 +209,7 @@ impl Patch {
         Ok(files.into_iter().map(|(file, lines)| (file, joined(lines))).collect())
     }
 
-    /// What the patched files of a project hold.
+    /// The contents of a project's patched files.
     ///
     /// # Errors
     /// As [`Patch::patched`].
@@ -223,9 +223,10 @@ impl Patch {
     /// If the patch does not fit, or the folder cannot be written.
     pub fn copy_to(&self, project: &Project, folder: &Path) -> Result<()> {
         let patched = self.patched_in(project).map_err(Fault::error)?;
-        match self.is_in_shaders() {
-            true => copy_shaders(project, folder, &patched),
-            false => copy_code(project, folder, &patched),
+        if self.is_in_shaders() {
+            copy_shaders(project, folder, &patched)
+        } else {
+            copy_code(project, folder, &patched)
         }
     }
 }

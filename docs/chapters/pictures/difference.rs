@@ -1,4 +1,4 @@
-//! How far two pictures are apart.
+//! The difference between two pictures.
 
 use common::app::Picture;
 
@@ -9,31 +9,31 @@ pub fn mean_difference(a: &Picture, b: &Picture) -> f64 {
     sum as f64 / 255.0 / a.len().max(1) as f64
 }
 
-/// How many pixels differ as a PNG would have them.
+/// The number of pixels that differ as a PNG would have them.
 pub fn pixels_apart(a: &Picture, b: &Picture) -> usize {
     let (a, b) = (a.srgb(), b.srgb());
     a.chunks(3).zip(b.chunks(3)).filter(|(a, b)| a != b).count()
 }
 
-/// How many pixels are darker than another picture's and how many brighter, as a PNG would have them; one that
+/// The numbers of pixels darker and brighter than another picture's, as a PNG would have them; one that
 /// only changes its colour counts as darker.
 pub fn darker_and_brighter(own: &Picture, other: &Picture) -> (usize, usize) {
     let (own, other) = (own.srgb(), other.srgb());
     let sum = |pixel: &[u8]| pixel.iter().map(|c| u32::from(*c)).sum::<u32>();
     let apart = own.chunks(3).zip(other.chunks(3)).filter(|(a, b)| a != b);
-    apart.fold((0, 0), |(darker, brighter), (a, b)| match sum(a) <= sum(b) {
-        true => (darker + 1, brighter),
-        false => (darker, brighter + 1),
+    apart.fold((0, 0), |(darker, brighter), (a, b)| {
+        if sum(a) <= sum(b) { (darker + 1, brighter) } else { (darker, brighter + 1) }
     })
 }
 
-/// Where two pictures of one size differ, in red; the first is faint behind it.
+/// A picture of the pixels that differ between two of one size, in red; the first is faint behind it.
 pub fn marked(own: &Picture, other: &Picture) -> Picture {
     let pairs =
         own.srgb().chunks(3).zip(other.srgb().chunks(3)).map(|(a, b)| a != b).collect::<Vec<_>>();
-    let paint = |(pixel, apart): (&[f32; 4], bool)| match apart {
-        true => [1.0, 0.0, 0.0, 1.0],
-        false => {
+    let paint = |(pixel, apart): (&[f32; 4], bool)| {
+        if apart {
+            [1.0, 0.0, 0.0, 1.0]
+        } else {
             let grey = 0.25 * (pixel[0] + pixel[1] + pixel[2]).clamp(0.0, 3.0) / 3.0;
             [grey, grey, grey, 1.0]
         }
@@ -42,7 +42,7 @@ pub fn marked(own: &Picture, other: &Picture) -> Picture {
     Picture { width: own.width, height: own.height, pixels }
 }
 
-/// Whether two pictures are the same to the bit.
+/// Compares two pictures to the bit.
 pub fn same_bits(a: &Picture, b: &Picture) -> bool {
     let bits = |picture: &Picture| -> Vec<[u32; 4]> {
         picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()

@@ -4,10 +4,11 @@
 
 use common::app::Picture;
 
-/// How wide a page shows a picture, in pixels.
+/// The width of a picture on a page, in pixels.
 const WIDTH: u32 = 960;
 
-/// How many times larger than shown a run's picture is, in each direction: a whole number. One that moves is not shrunk.
+/// The size of a run's picture over its size on the page, in each direction: a whole number. One that moves is not
+/// shrunk.
 pub fn times(arguments: &[String]) -> u32 {
     if arguments.iter().any(|word| word == "--animate") {
         return 1;

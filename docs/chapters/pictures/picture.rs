@@ -15,7 +15,7 @@ use super::stamp::{self, Maker};
 use crate::programs::command_line::in_a_line;
 use crate::programs::program::Programs;
 
-/// How wide a row of panels may be, without the gaps, in pixels.
+/// The largest width of a row of panels, without the gaps, in pixels.
 const ROW: u32 = 960;
 
 /// A picture that a page's command makes, or several commands, each a panel of it.

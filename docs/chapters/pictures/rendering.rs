@@ -16,7 +16,7 @@ use crate::programs::program::Programs;
 
 /// A run that writes a picture.
 pub struct Rendering {
-    /// What stands over it where it is a panel: the line `# LABEL` above the command.
+    /// The label over it where it is a panel: the line `# LABEL` above the command.
     pub label: Option<String>,
     /// The chapter whose program runs.
     pub chapter: String,
@@ -28,7 +28,7 @@ impl Rendering {
     /// The runs in a shell text.
     ///
     /// # Errors
-    /// What is wrong with one that is no run of a chapter or writes no picture, and what to do.
+    /// The fault of one that is no run of a chapter or writes no picture, and its remedy.
     pub fn all(project: &Project, text: &str) -> Result<Vec<Self>, (String, &'static str)> {
         runs(text).iter().map(|(line, run)| Self::of(project, text, *line, run)).collect()
     }
@@ -74,7 +74,7 @@ impl Rendering {
     }
 }
 
-/// Where `--out` stands among a run's arguments.
+/// The index of `--out` among a run's arguments.
 fn out(arguments: &[String]) -> Option<usize> {
     arguments.iter().position(|word| word == "--out")
 }

@@ -68,8 +68,8 @@ impl Stored {
     }
 }
 
-/// What is wrong with a picture that this command should have made, if anything is. Whether the command would
-/// still make it, only running it tells.
+/// The fault of a picture that this command should have made, if it has one. Only running the command tells whether it
+/// would still make it.
 pub fn fault(project: &Project, file: &str, command: &str) -> Option<String> {
     if !project.has(file) {
         return Some(format!("the picture {file} is missing"));

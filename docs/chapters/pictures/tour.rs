@@ -11,12 +11,12 @@ use png::{ColorType, Compression, Encoder};
 
 use super::stamp::{self, Maker};
 
-/// Where it lies.
+/// The file of the tour.
 pub const FILE: &str = "docs/images/tour.png";
-/// What makes it.
+/// The command that makes it.
 pub const COMMAND: &str = "cargo chapters tour";
 const SIZE: [u32; 2] = [400, 250];
-/// How long each picture stands, in hundredths of a second: with fewer than three changes a second, nobody is
+/// The time of each picture, in hundredths of a second: with fewer than three changes a second, nobody is
 /// in danger from flashes (WCAG 2.2, criterion 2.3.1).
 const DELAY: u16 = 36;
 
@@ -34,7 +34,7 @@ pub fn is_shown(project: &Project) -> bool {
     project.read(README).is_ok_and(|readme| readme.contains(FILE))
 }
 
-/// What is wrong with it, if the README shows it and anything is.
+/// The fault of the tour, if the README shows it and it has one.
 pub fn check(project: &Project) -> Option<Fault> {
     let readme = project.read(README).unwrap_or_default();
     let line = readme.lines().position(|line| line.contains(FILE))? + 1;

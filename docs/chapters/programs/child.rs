@@ -15,27 +15,27 @@ use super::interrupt;
 
 /// After which a wait says what it waits for.
 const SILENCE: Duration = Duration::from_secs(1);
-/// How often it says so again: a build takes minutes, and silence looks like a fault.
+/// The time between two such lines: a build takes minutes, and silence looks like a fault.
 const AGAIN: Duration = Duration::from_secs(60);
 
-/// How a program ended.
+/// The end of a program.
 pub struct Ended {
     /// `None` if it was stopped.
     pub status: Option<ExitStatus>,
-    /// What it said on standard error.
+    /// Its standard error.
     pub said: String,
-    /// What it said on standard output.
+    /// Its standard output.
     pub told: String,
     limit: Limit,
 }
 
 impl Ended {
-    /// Whether it has done what it was asked.
+    /// Returns whether it ended without an error.
     pub fn succeeded(&self) -> bool {
         self.status.is_some_and(|status| status.success())
     }
 
-    /// What it said on standard error, in one line.
+    /// Its standard error, in one line.
     pub fn said_in_a_line(&self) -> String {
         self.said.trim().replace('\n', " ")
     }
@@ -151,7 +151,7 @@ fn read(file: &mut File) -> Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// What the system calls a crash, if this is one.
+/// The system's name of a crash, if this is one.
 #[cfg(unix)]
 fn crash(status: ExitStatus) -> Option<String> {
     use std::os::unix::process::ExitStatusExt;
@@ -168,7 +168,7 @@ fn crash(status: ExitStatus) -> Option<String> {
     Some(known.map_or_else(|| format!("signal {signal}"), |(_, name)| name.to_owned()))
 }
 
-/// What the system calls a crash, if this is one.
+/// The system's name of a crash, if this is one.
 #[cfg(not(unix))]
 fn crash(status: ExitStatus) -> Option<String> {
     let code = status.code()? as u32;

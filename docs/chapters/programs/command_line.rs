@@ -68,10 +68,8 @@ pub fn in_a_line(command: &str) -> String {
 /// Words as a shell takes them.
 pub fn quoted(words: &[String]) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,:/+".contains(c);
-    let word = |word: &String| match word.chars().all(plain) {
-        true => word.clone(),
-        false => format!("\"{word}\""),
-    };
+    let word =
+        |word: &String| if word.chars().all(plain) { word.clone() } else { format!("\"{word}\"") };
     words.iter().map(word).collect::<Vec<_>>().join(" ")
 }
 

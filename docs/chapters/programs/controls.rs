@@ -1,4 +1,4 @@
-//! What a sample lets one set, as its program lists it.
+//! The controls of a sample, as its program lists them.
 
 /// A control, as `--list-controls` prints it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -7,9 +7,9 @@ pub struct Control {
     pub name: String,
     /// Its kind, such as `number`.
     pub kind: String,
-    /// What it may be.
+    /// The values it may have.
     pub possible: String,
-    /// What it is at the start.
+    /// The value at the start.
     pub value: String,
 }
 
@@ -43,7 +43,7 @@ impl Controls {
         table
     }
 
-    /// Why a control cannot be set to a value, if it cannot.
+    /// The reason why a control cannot be set to a value, if it cannot.
     pub fn refuse(&self, name: &str, value: &str) -> Option<String> {
         let Some(control) = self.0.iter().find(|control| control.name == name) else {
             let names: Vec<&str> = self.0.iter().map(|control| &*control.name).collect();

@@ -60,12 +60,12 @@ impl<'a> Programs<'a> {
         Ok(command)
     }
 
-    /// Where Cargo builds them: above the folder of a profile.
+    /// The folder above the folder of a profile, in which Cargo builds them.
     pub fn target(&self) -> &Path {
         self.folder.parent().unwrap_or(&self.folder)
     }
 
-    /// Whether they are built with `--release`.
+    /// Returns whether they are built with `--release`.
     pub fn are_released(&self) -> bool {
         self.folder.ends_with("release")
     }
@@ -94,7 +94,7 @@ impl<'a> Programs<'a> {
         self.answer(name).unwrap_or_else(|error| Err(format!("{error:#}")))
     }
 
-    /// Whether a sample itself takes these arguments, which may be its own or depend on one another.
+    /// Checks whether a sample itself takes these arguments, which may be its own or depend on one another.
     ///
     /// # Errors
     /// If it cannot be run.
@@ -104,7 +104,7 @@ impl<'a> Programs<'a> {
         ended.map(|ended| ended.succeeded()).map_err(|error| format!("{error:#}"))
     }
 
-    /// What a sample answers that is asked for its controls, or why it cannot be asked; from memory, if it was
+    /// The list of a sample's controls, or the reason why it cannot be had; from memory, if it was
     /// asked before.
     fn answer(&self, name: &str) -> Result<Answer> {
         let known = || self.known.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -122,13 +122,14 @@ impl<'a> Programs<'a> {
 
 fn list_controls(name: &str, mut command: Command) -> Result<Answer> {
     let ended = child::run(command.arg("--list-controls"), Limit::NONE)?;
-    Ok(match ended.succeeded() {
-        true => Ok(Controls::parse(&ended.told)),
-        false => Err(format!("{name} --list-controls failed: {}", ended.said_in_a_line())),
+    Ok(if ended.succeeded() {
+        Ok(Controls::parse(&ended.told))
+    } else {
+        Err(format!("{name} --list-controls failed: {}", ended.said_in_a_line()))
     })
 }
 
-/// What to do about a program that cannot be run.
+/// The remedy for a program that cannot be run.
 pub const BUILD: &str = "run: cargo build --bins";
 
 fn modified(file: &Path) -> Option<SystemTime> {

@@ -1,4 +1,4 @@
-//! What a run of a chapter's program gave.
+//! The result of a run of a chapter's program.
 
 use std::fs;
 use std::process::{Command, ExitStatus};
@@ -12,16 +12,16 @@ use time_limit::Limit;
 use super::child;
 use super::program::Programs;
 
-/// What a run gave.
+/// The result of a run.
 #[derive(Default)]
 pub struct RunResult {
     /// The floats that the shader wrote; `None` if there is no picture.
     pub picture: Option<Picture>,
     /// `None` if it did not end.
     pub status: Option<ExitStatus>,
-    /// What it said on standard error, in one line.
+    /// Its standard error, in one line.
     pub said: String,
-    /// What it said on standard output.
+    /// Its standard output.
     pub told: String,
     /// Its report; null if there is none.
     pub report: Value,
@@ -64,12 +64,12 @@ impl RunResult {
         })
     }
 
-    /// Whether the program has done what it was asked.
+    /// Returns whether the program ended without an error.
     pub fn succeeded(&self) -> bool {
         self.status.is_some_and(|status| status.success())
     }
 
-    /// What validation said.
+    /// The validation messages.
     pub fn messages(&self) -> Vec<&str> {
         let messages = self.report["validation_messages"].as_array().into_iter().flatten();
         messages.map(|message| message.as_str().unwrap_or_default()).collect()
@@ -86,7 +86,7 @@ impl RunResult {
     }
 }
 
-/// Whether the device of this name is a software driver, by the list that a chapter's program prints.
+/// Returns whether the device of this name is a software driver, by the list that a chapter's program prints.
 ///
 /// # Errors
 /// If the program is not built, or does not start.

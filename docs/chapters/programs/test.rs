@@ -6,9 +6,9 @@ use manuscript::project::Project;
 pub struct Test {
     /// Its name, as its program lists it.
     pub name: String,
-    /// Why plain `cargo test` leaves it out, if it does.
+    /// The reason why plain `cargo test` leaves it out, if it does.
     pub ignored: Option<String>,
-    /// Where it stands.
+    /// Its file and line.
     pub file: String,
     /// The line of its `#[test]`, from 1.
     pub line: usize,

@@ -1,4 +1,4 @@
-//! What a report card has of chapter 24: the hard cases, and a short measurement on random rays.
+//! A report card's part of chapter 24: the hard cases, and a short measurement on random rays.
 
 use std::path::Path;
 
@@ -6,20 +6,20 @@ use anyhow::{Context, Result};
 use manuscript::project::Project;
 use serde_json::Value;
 
-use super::card::{HardCases, Measured, Table};
+use super::card::{HardCase, HardCases, Measured, MeasuredRung};
 use super::command::{read, rows, told, words};
 
 /// The chapter.
 pub const NAME: &str = "24_accuracy";
 
-/// What is told of its two runs.
+/// The names of its two runs in the progress lines.
 pub const HARD_CASES: &str = "hard cases";
 pub const RANDOM_RAYS: &str = "random rays";
 
 /// Its hard cases.
 const CASES: &str = "tests/data/hard_cases.json";
 
-/// What it is asked, where the project has it: hard cases, then random rays. Their answers go to a folder.
+/// Its runs, where the project has it: hard cases, then random rays. Their answers go to a folder.
 pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
     if project.named(NAME).is_none() {
         return Vec::new();
@@ -32,30 +32,35 @@ pub fn runs(project: &Project, folder: &Path) -> Vec<(&'static str, Vec<String>)
     vec![(HARD_CASES, cases), (RANDOM_RAYS, measure)]
 }
 
-/// What the answers to the hard cases are called.
+/// The file of the answers to the hard cases.
 const ANSWERS: &str = "cases.json";
 
-/// How often each rung was right.
-pub fn hard_cases(failed: Option<String>, folder: &Path) -> Table<HardCases> {
-    table(failed, || Ok(rows(&read(&folder.join(ANSWERS))?["rungs"])))
+/// The number of cases each rung is right on.
+pub fn hard_cases(failed: Option<String>, folder: &Path) -> HardCases {
+    let rungs = || Ok(rows::<HardCase>(&read(&folder.join(ANSWERS))?["rungs"]));
+    let (failed, rungs) = rungs_or_failure(failed, rungs);
+    HardCases::new(failed, rungs)
 }
 
-/// How far each rung was off, and what it took.
-pub fn measured(failed: Option<String>, folder: &Path) -> Table<Measured> {
-    table(failed, || errors_and_times(&read(&folder.join("accuracy.json"))?))
+/// The error of each rung, and its time.
+pub fn measured(failed: Option<String>, folder: &Path) -> Measured {
+    let rungs = || errors_and_times(&read(&folder.join("accuracy.json"))?);
+    let (failed, rungs) = rungs_or_failure(failed, rungs);
+    Measured { failed, rungs }
 }
 
-/// The rows that a run has left, or why there are none.
-fn table<Row>(failed: Option<String>, rungs: impl FnOnce() -> Result<Vec<Row>>) -> Table<Row> {
+/// The rungs that a run has left, and the reason for its failure if it failed or left none.
+fn rungs_or_failure<Rung>(
+    failed: Option<String>,
+    rungs: impl FnOnce() -> Result<Vec<Rung>>,
+) -> (Option<String>, Vec<Rung>) {
     match rungs() {
-        Ok(rungs) => Table { failed, rungs },
-        Err(error) => {
-            Table { failed: Some(failed.unwrap_or_else(|| told(&error))), rungs: Vec::new() }
-        }
+        Ok(rungs) => (failed, rungs),
+        Err(error) => (Some(failed.unwrap_or_else(|| told(&error))), Vec::new()),
     }
 }
 
-fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
+fn errors_and_times(report: &Value) -> Result<Vec<MeasuredRung>> {
     let rungs = report["rungs"].as_array().context("it has measured nothing")?;
     let row = |rung: &Value| {
         let text = |key: &str| rung[key].as_str().unwrap_or_default().to_owned();
@@ -64,7 +69,7 @@ fn errors_and_times(report: &Value) -> Result<Vec<Measured>> {
         let ratio = &rung["time"]["ratio"];
         let wrong = ["false_hits", "false_misses", "never_offered", "not_finite"];
         let wrong = errors.iter().flat_map(|row| wrong.map(|key| number(row, key))).sum::<f64>();
-        Measured {
+        MeasuredRung {
             primitive: text("primitive"),
             rung: text("rung"),
             name: text("name"),

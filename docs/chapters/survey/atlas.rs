@@ -1,15 +1,14 @@
-//! What a report card has of the atlas: what the device's own traversal computes.
+//! The atlas of a report card: the errors of the device's own traversal.
 
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
-use instruments::report::Limits;
+use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::card::Device;
-use super::command::{VALIDATE, read, words};
+use super::command::{VALIDATE, device, read, told, words};
 
 /// The schema that 24 writes.
 const SCHEMA: &str = "rt-atlas/1";
@@ -17,105 +16,109 @@ const SCHEMA: &str = "rt-atlas/1";
 /// The arithmetic of a card of chapters.
 pub const DRIVER: &str = "driver";
 
-/// The atlas of a device, as `24_accuracy --atlas` writes it.
+/// The numbers that `docs/what-hardware-computes.md` and its charts show.
+const SHOWN: [&str; 17] = [
+    "t p99",
+    "t max",
+    "weights p99",
+    "weights max",
+    "t, part of what is excused",
+    "weights, part of what is excused",
+    "missed",
+    "hit beside",
+    "lost",
+    "doubled",
+    "meet it",
+    "offered up to, ULP of way",
+    "refused from, ULP of way",
+    "first wins",
+    "second wins",
+    "called",
+    "called again",
+];
+
+/// The part of `24_accuracy --atlas` that a card keeps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Atlas {
-    /// Why there is none; `None` if there is.
+    /// The reason why there is none; `None` if there is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
-    /// What its fields mean.
-    pub schema: String,
-    /// The device's name, as its driver gives it.
-    pub device: String,
-    /// Its driver, in its maker's words.
-    pub driver: String,
     /// The value of `--arithmetic`.
     pub arithmetic: String,
-    /// Whose triangles were measured.
-    pub traversal: String,
-    /// The day, as `2026-11-22`.
-    pub date: String,
     /// Rays of each case.
     pub rays: u64,
-    /// The limits that the chapters heed.
-    pub limits: Limits,
-    /// A row a claim of the specification.
+    /// A row for each claim of the specification.
     pub rows: Vec<Row>,
-    /// What validation had to say.
-    pub validation_messages: Vec<String>,
 }
 
-/// A claim, what chapters rely on, and what was found.
+/// The cases of a claim.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "they are those of `--atlas`")]
 pub struct Row {
     pub row: String,
-    pub title: String,
-    pub section: String,
-    pub claim: String,
-    pub met: Option<bool>,
-    pub relied: String,
-    pub kept: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unavailable: Option<String>,
-    pub by_floats: u64,
-    pub by_rationals: u64,
-    pub checked: u64,
-    pub beyond: u64,
     pub cases: Vec<Case>,
 }
 
 /// A family of rays.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "they are those of `--atlas`")]
 pub struct Case {
     pub case: String,
-    pub rays: u64,
     pub found: Map<String, Value>,
-    #[serde(skip_serializing_if = "Map::is_empty")]
-    pub buckets: Map<String, Value>,
 }
 
-/// What 24 is asked.
+/// The arguments of 24.
 pub fn run(folder: &Path, arithmetic: &str) -> Vec<String> {
     let mut arguments = words(&["--headless", VALIDATE, "--arithmetic", arithmetic, "--atlas"]);
     arguments.push(folder.to_string_lossy().into_owned());
     arguments
 }
 
-/// What it has left in the folder: the atlas, and the same as Markdown.
-pub fn found(failed: Option<String>, folder: &Path) -> (Atlas, String) {
-    let left = || -> Result<(Atlas, String)> {
-        let atlas = serde_json::from_value(read(&folder.join("atlas.json"))?)?;
+/// Reads the files in the folder: the atlas, its device, and the whole atlas as Markdown.
+pub fn found(failed: Option<String>, folder: &Path) -> (Atlas, Option<Device>, String) {
+    let left = || -> Result<(Atlas, Option<Device>, String)> {
+        let whole = read(&folder.join("atlas.json"))?;
         let text = fs::read_to_string(folder.join("atlas.md")).context("it has written no text")?;
-        Ok((atlas, text))
+        Ok((Atlas::of(&whole)?, device(&whole), text))
     };
-    match (failed, left()) {
-        (None, Ok(found)) => found,
-        (failed, left) => {
-            let why = failed.or_else(|| Some(super::command::told(&left.err()?)));
-            (Atlas { failed: why.clone(), ..Atlas::default() }, why.unwrap_or_default() + "\n")
-        }
-    }
+    let why = match (failed, left()) {
+        (None, Ok(found)) => return found,
+        (Some(failed), _) => failed,
+        (None, Err(error)) => told(&error),
+    };
+    (Atlas { failed: Some(why.clone()), ..Atlas::default() }, None, why + "\n")
 }
 
 impl Atlas {
-    /// The device that it is of; `None` if there is no atlas.
-    pub fn of_device(&self) -> Option<Device> {
-        let Self { device: name, driver, limits, .. } = self.clone();
-        self.failed.is_none().then_some(Device { name, driver, limits })
+    /// The part of a whole atlas that a card keeps.
+    fn of(whole: &Value) -> Result<Self> {
+        let text = |value: &Value, key: &str| value[key].as_str().map(str::to_owned);
+        let schema = text(whole, "schema").unwrap_or_default();
+        ensure!(schema == SCHEMA, "its atlas has the schema '{schema}', not '{SCHEMA}'");
+        let case = |case: &Value| {
+            let mut found = case["found"].as_object()?.clone();
+            found.retain(|name, _| SHOWN.contains(&&**name));
+            Some(Case { case: text(case, "case")?, found })
+        };
+        let row = |row: &Value| {
+            let cases: Vec<Case> = row["cases"].as_array()?.iter().filter_map(case).collect();
+            (!cases.is_empty()).then_some(Row { row: text(row, "row")?, cases })
+        };
+        Ok(Self {
+            failed: None,
+            arithmetic: text(whole, "arithmetic").context("its atlas names no arithmetic")?,
+            rays: whole["rays"].as_u64().context("its atlas has no rays")?,
+            rows: whole["rows"].as_array().into_iter().flatten().filter_map(row).collect(),
+        })
     }
 
-    /// What is wrong with it; nothing if it is an atlas, or says why there is none.
+    /// The fault of one that is no atlas and does not say why there is none.
     pub fn wrong(&self) -> Option<String> {
         if self.failed.is_some() {
             return None;
-        }
-        if self.schema != SCHEMA {
-            return Some(format!("its atlas has the schema '{}', not '{SCHEMA}'", self.schema));
         }
         let cases = || self.rows.iter().flat_map(|row| &row.cases);
         let is_number = |value: &Value| value.is_number() || value.is_null();
@@ -123,5 +126,33 @@ impl Atlas {
             return Some(format!("its atlas tells no numbers of '{}'", case.case));
         }
         (cases().count() == 0).then(|| "its atlas is empty".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_card_keeps_of_an_atlas_what_the_page_shows() {
+        let found = json!({ "t p50": 0.4, "t max": 1.5 });
+        let cases =
+            json!([{ "case": "size 1", "rays": 9, "found": found, "buckets": { "t": [9] } }]);
+        let whole = json!({
+            "schema": SCHEMA, "arithmetic": "worst", "rays": 9, "date": "2026-11-22",
+            "rows": [{ "row": "triangles", "cases": cases }, { "row": "corners", "cases": [] }],
+        });
+        let kept = json!({
+            "arithmetic": "worst", "rays": 9,
+            "rows": [{ "row": "triangles", "cases": [{ "case": "size 1", "found": { "t max": 1.5 } }] }],
+        });
+        let atlas = Atlas::of(&whole).expect("an atlas");
+        assert_eq!(serde_json::to_value(&atlas).expect("JSON"), kept);
+        assert_eq!(atlas.wrong(), None);
+        let other = Atlas::of(&json!({ "schema": "rt-atlas/2" })).expect_err("another schema");
+        assert_eq!(other.to_string(), "its atlas has the schema 'rt-atlas/2', not 'rt-atlas/1'");
+        assert_eq!(Atlas::default().wrong().as_deref(), Some("its atlas is empty"));
     }
 }

@@ -1,7 +1,7 @@
 //! A report card: what every chapter did on one device.
 //!
-//! `chapters survey` makes it. Cards that readers send in lie in `docs/devices`, one file a device, and
-//! are held to what a card may say.
+//! `chapters survey` makes it, as Markdown with every detail and as JSON with what the book reads. The JSON of cards
+//! that readers send in is stored in `docs/devices`, one file per device, and checked.
 
 use common::gpu::Executable;
 use instruments::report::Limits;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::atlas::{self, Atlas};
 
-/// Where the cards lie.
+/// The folder of the cards.
 pub const FOLDER: &str = "docs/devices";
 
 /// A report card.
@@ -27,7 +27,7 @@ pub struct Card {
     pub commit: Option<String>,
     /// The device; `None` if no chapter found one.
     pub device: Option<Device>,
-    /// Whether the chapters ran under validation.
+    /// True if the chapters ran under validation.
     pub validated: bool,
     /// The largest mean FLIP error that passes on the software driver, which made the golden pictures.
     pub tolerance: f32,
@@ -37,11 +37,11 @@ pub struct Card {
     /// Every chapter, by number.
     pub chapters: Vec<ChapterResult>,
     /// The hard cases of chapter 24.
-    pub hard_cases: Table<HardCases>,
+    pub hard_cases: HardCases,
     /// A short measurement of chapter 24.
-    pub measured: Table<Measured>,
-    /// What its traversal computes, if that was asked for. In another arithmetic than the driver's it is all that
-    /// the card has.
+    pub measured: Measured,
+    /// The errors of its traversal, if they were measured. In another arithmetic than the driver's it is all that the
+    /// card has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atlas: Option<Atlas>,
 }
@@ -59,8 +59,18 @@ pub struct Device {
     pub name: String,
     /// Its driver, in its maker's words.
     pub driver: String,
+    /// Its version of Vulkan: major, minor, patch.
+    pub vulkan: [u32; 3],
     /// The limits that the chapters heed.
+    #[serde(skip)]
     pub limits: Limits,
+}
+
+impl Device {
+    /// A device with its limits.
+    pub fn new(name: String, driver: String, limits: Limits) -> Self {
+        Self { name, driver, vulkan: limits.vulkan, limits }
+    }
 }
 
 /// One chapter's line.
@@ -69,29 +79,35 @@ pub struct Device {
 pub struct ChapterResult {
     /// Its name, such as `02_basic`.
     pub name: String,
-    /// Why it fails; `None` if it passes.
+    /// The reason for its failure; `None` if it passes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
     /// The extension that it needs and the device does not offer; then nothing was run.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lacks: Option<String>,
-    /// How far its picture is from the golden one: the mean FLIP error.
+    /// The mean FLIP error of its picture against the golden one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_flip: Option<f32>,
-    /// How far it may be on this device, which rounds as Vulkan lets it; 1 where the picture shows the device's
-    /// own errors.
-    #[serde(default)]
+    /// The largest error that passes on this device, which rounds as Vulkan lets it; 1 where the picture shows the
+    /// device's own errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f32>,
     /// The device's time for a frame of the card's size, the median.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<f64>,
-    /// How many messages validation had.
+    /// The number of validation messages.
+    #[serde(skip)]
     pub validation_messages: usize,
-    /// What the device's own compiler says of the programs, if it tells.
+    /// The figures of the device's own compiler, if it tells any.
+    #[serde(skip)]
     pub compiler: Vec<Executable>,
-    /// What Mesa's compiler for AMD GPUs says of them (RDNA 3), if it is installed.
+    /// The figures of Mesa's compiler for AMD GPUs (RDNA 3), if it is installed.
+    #[serde(skip)]
     pub radv: Vec<Radv>,
 }
 
 /// A program, as Mesa's compiler for AMD GPUs sees it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--compile-for`")]
 pub struct Radv {
     pub stage: String,
@@ -103,56 +119,93 @@ pub struct Radv {
     pub latency: u64,
 }
 
-/// Rows of chapter 24, or why there are none.
+/// The hard cases of chapter 24, counted over all top rungs, which must be right in every case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Table<Row> {
-    /// Why it fails; `None` if it passes.
+#[serde(deny_unknown_fields, default)]
+pub struct HardCases {
+    /// The reason for a failure; `None` if they pass.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
-    /// A row a rung and way.
-    #[serde(default = "Vec::new")]
-    pub rungs: Vec<Row>,
+    /// The number of right answers of top rungs.
+    pub right: u64,
+    /// The number of their cases.
+    pub cases: u64,
+    /// The number of top rungs that the device cannot run.
+    pub missing: u64,
+    /// Every rung, in both ways.
+    #[serde(skip)]
+    pub rungs: Vec<HardCase>,
 }
 
-/// How often a rung is right on the hard cases.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+impl HardCases {
+    /// The counts of these rungs.
+    pub fn new(failed: Option<String>, rungs: Vec<HardCase>) -> Self {
+        let mut all = Self { failed, ..Self::default() };
+        for rung in rungs.iter().filter(|rung| rung.top) {
+            if rung.unavailable.is_some() {
+                all.missing += 1;
+            } else {
+                all.right += rung.right;
+                all.cases += rung.cases;
+            }
+        }
+        Self { rungs, ..all }
+    }
+}
+
+/// The number of hard cases a rung is right on.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[allow(missing_docs, reason = "they are those of `--cases`")]
-pub struct HardCases {
+pub struct HardCase {
     pub primitive: String,
     pub rung: String,
     pub name: String,
     /// `direct` or `traced`.
     pub way: String,
-    /// Whether every case must be right.
+    /// True if every case must be right.
     pub top: bool,
     #[serde(default)]
     pub cases: u64,
     #[serde(default)]
     pub right: u64,
-    /// Why this device cannot run it.
+    /// The reason why this device cannot run it.
     #[serde(default)]
     pub unavailable: Option<String>,
 }
 
-/// How far a rung is off on random rays, over all families of them, and what it costs.
+/// A measurement of chapter 24 on random rays.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Measured {
+    /// The reason for a failure; `None` if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<String>,
+    /// Every rung.
+    pub rungs: Vec<MeasuredRung>,
+}
+
+/// The error of a rung on random rays, over all families of them, and its cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
-    /// What is asked.
+pub struct MeasuredRung {
+    /// The primitive that is intersected.
     pub primitive: String,
     /// The rung's place.
     pub rung: String,
+    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_ratio: Option<f64>,
     /// The rung's name.
+    #[serde(skip)]
     pub name: String,
     /// The largest error of all rays, in ULP.
+    #[serde(skip)]
     pub worst_ulp: f64,
-    /// Hits and misses that are wrong.
+    /// The number of wrong hits and misses.
+    #[serde(skip)]
     pub wrong: u64,
-    /// Its time by that of the ladder's plain rung, the middle of all rounds; `None` where it cannot be told.
-    pub time_ratio: Option<f64>,
-    /// A quarter of the rounds lie below the first, and a quarter above the second; cards of before 2026-11-28
-    /// have none.
-    #[serde(default)]
+    /// The quartiles of the time's ratio over the rounds.
+    #[serde(skip)]
     pub time_quartiles: Option<[f64; 2]>,
 }
 
@@ -167,31 +220,39 @@ impl Card {
         words.collect::<Vec<_>>().join("-")
     }
 
+    /// Its JSON file.
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn json(&self) -> serde_json::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
     /// The arithmetic of its atlas, if that is not the driver's: then the card has nothing else.
     fn arithmetic(&self) -> Option<&str> {
         let arithmetic = self.atlas.as_ref()?.arithmetic.as_str();
         (!["", atlas::DRIVER].contains(&arithmetic)).then_some(arithmetic)
     }
 
-    /// How many of the chapters pass.
+    /// The number of chapters that pass.
     pub fn passed(&self) -> usize {
         let passes = |chapter: &&ChapterResult| chapter.failed.is_none() && chapter.lacks.is_none();
         self.chapters.iter().filter(passes).count()
     }
 
-    /// How many of the chapters the device could run.
+    /// The number of chapters that the device could run.
     pub fn offered(&self) -> usize {
         self.chapters.iter().filter(|chapter| chapter.lacks.is_none()).count()
     }
 
-    /// Whether anything fails.
+    /// Returns whether anything fails.
     pub fn fails(&self) -> bool {
         let atlas = self.atlas.as_ref().and_then(|atlas| atlas.failed.as_ref());
         let tables = [self.hard_cases.failed.as_ref(), self.measured.failed.as_ref(), atlas];
         self.passed() < self.offered() || tables.into_iter().any(|failed| failed.is_some())
     }
 
-    /// What it must not say, or says wrongly; nothing if it is a card.
+    /// The faults of a card; none if it is valid.
     fn wrong(&self, project: &Project, text: &str) -> Vec<String> {
         let mut wrong = Vec::new();
         let digits = self.date.split('-').map(|part| part.parse::<u32>().map_or(0, |_| part.len()));
@@ -232,7 +293,7 @@ impl Card {
     }
 }
 
-/// How paths begin that say whose machine it is.
+/// The beginnings of paths that say whose machine it is.
 const PRIVATE: [&str; 6] = ["/home/", "/Users/", "\\Users\\", "/root/", "/tmp/", "/mnt/"];
 
 /// A line without the paths of this machine: of each, only its last part. A path with blanks stands in
@@ -244,9 +305,10 @@ pub fn without_paths(line: &str) -> String {
         let mark = if index == 0 { "" } else { "'" };
         text.push_str(mark);
         let is_path = quoted && (piece.starts_with(['/', '\\']) || piece.get(1..2) == Some(":"));
-        match is_path {
-            true => text.push_str(piece.rsplit(['/', '\\']).next().unwrap_or_default()),
-            false => text.push_str(&words_without_paths(piece)),
+        if is_path {
+            text.push_str(piece.rsplit(['/', '\\']).next().unwrap_or_default())
+        } else {
+            text.push_str(&words_without_paths(piece))
         }
     }
     text
@@ -256,9 +318,10 @@ fn words_without_paths(line: &str) -> String {
     let part = |word: &str| -> String {
         let at = word.find(['/', '\\']);
         let absolute = at.is_some_and(|at| at == 0 && word.len() > 1 || word[..at].ends_with(':'));
-        match absolute {
-            true => word.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
-            false => word.to_owned(),
+        if absolute {
+            word.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
+        } else {
+            word.to_owned()
         }
     };
     let marks = |c: char| [' ', '"', '(', ')', '[', ']', '<', '>', '=', ',', ';', '`'].contains(&c);
@@ -336,6 +399,41 @@ mod tests {
         let card = Card { device: Some(device), ..Card::default() };
         assert_eq!(card.stem(), "amd-radeon-rx-7900-radv-navi31");
         assert_eq!(Card::default().stem(), "no-device");
+    }
+
+    /// A stored card has what the writer writes, and no more.
+    #[test]
+    fn stored_cards_are_as_the_survey_writes_them() {
+        let tool = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let project = Project::open(tool.ancestors().nth(2).expect("a project")).expect("its list");
+        let (cards, faults) = all(&project);
+        assert!(faults.is_empty() && cards.len() >= 4);
+        for card in cards {
+            let stored = project.read(&format!("{FOLDER}/{}.json", card.stem())).expect("a card");
+            let written = card.json().expect("JSON");
+            let differs = stored.lines().zip(written.lines()).find(|(one, other)| one != other);
+            assert_eq!(differs, None, "{}", card.stem());
+            assert_eq!(stored.len(), written.len(), "{}", card.stem());
+        }
+    }
+
+    #[test]
+    fn hard_cases_are_counted_over_top_rungs() {
+        let rung = |top, right, unavailable: Option<&str>| HardCase {
+            top,
+            right,
+            cases: 29,
+            unavailable: unavailable.map(str::to_owned),
+            ..HardCase::default()
+        };
+        let rungs = vec![
+            rung(true, 29, None),
+            rung(true, 28, None),
+            rung(false, 3, None),
+            rung(true, 0, Some("no 64-bit floats")),
+        ];
+        let all = HardCases::new(None, rungs);
+        assert_eq!((all.right, all.cases, all.missing), (57, 58, 1));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::card::{Card, ChapterResult, Device, HardCases, Table};
+use super::card::{Card, ChapterResult, Device, HardCase, HardCases};
 
 /// The limits of a device in a line.
 fn limits(Device { limits, .. }: &Device) -> String {
@@ -30,8 +30,8 @@ fn limits(Device { limits, .. }: &Device) -> String {
     )
 }
 
-fn vulkan(Device { limits, .. }: &Device) -> String {
-    limits.vulkan.map(|part| part.to_string()).join(".")
+fn vulkan(device: &Device) -> String {
+    device.vulkan.map(|part| part.to_string()).join(".")
 }
 
 /// In a word or a line, what came of a chapter.
@@ -107,7 +107,7 @@ pub fn atlas(text: &str) -> String {
     format!("\n#{}", text.replace("\n## ", "\n### "))
 }
 
-/// What the device's compiler counts, summed over a chapter's programs.
+/// The figures of the device's compiler, summed over a chapter's programs.
 fn compiler(chapter: &ChapterResult) -> String {
     let mut sums: Vec<(&str, f64)> = Vec::new();
     for (name, value) in chapter.compiler.iter().flat_map(|program| &program.statistics) {
@@ -121,7 +121,7 @@ fn compiler(chapter: &ChapterResult) -> String {
     if words.is_empty() { "–".to_owned() } else { words }
 }
 
-/// What RADV counts: sums, and the most registers of a program.
+/// The figures of RADV: sums, and the most registers of a program.
 fn radv(chapter: &ChapterResult) -> String {
     if chapter.radv.is_empty() {
         return "–".to_owned();
@@ -132,25 +132,17 @@ fn radv(chapter: &ChapterResult) -> String {
     format!("{instructions}, {registers}, {spilled}")
 }
 
-/// How many of the answers that must be right are.
-fn top(table: &Table<HardCases>) -> String {
-    if let Some(why) = &table.failed {
-        return why.clone();
-    }
-    let (mut right, mut all, mut missing) = (0, 0, 0);
-    for rung in table.rungs.iter().filter(|rung| rung.top) {
-        match rung.unavailable {
-            Some(_) => missing += 1,
-            None => (right, all) = (right + rung.right, all + rung.cases),
-        }
-    }
-    match missing {
-        0 => format!("top rungs right {right} of {all}"),
-        _ => format!("top rungs right {right} of {all}, {missing} rungs not offered"),
+/// The number of right answers of the top rungs.
+fn top(table: &HardCases) -> String {
+    let HardCases { failed, right, cases, missing, .. } = table;
+    match (failed, missing) {
+        (Some(why), _) => why.clone(),
+        (None, 0) => format!("top rungs right {right} of {cases}"),
+        (None, _) => format!("top rungs right {right} of {cases}, {missing} rungs not offered"),
     }
 }
 
-fn hard_cases(table: &Table<HardCases>) -> String {
+fn hard_cases(table: &HardCases) -> String {
     let mut text = "\n## Hard cases\n\n".to_owned();
     if let Some(why) = &table.failed {
         let _ = writeln!(text, "{why}\n");
@@ -158,8 +150,8 @@ fn hard_cases(table: &Table<HardCases>) -> String {
     if table.rungs.is_empty() {
         return text;
     }
-    text.push_str("| asked of | rung | way | right |\n|---|---|---|---|\n");
-    for HardCases { primitive, rung, name, way, top, cases, right, unavailable } in &table.rungs {
+    text.push_str("| primitive | rung | way | right |\n|---|---|---|---|\n");
+    for HardCase { primitive, rung, name, way, top, cases, right, unavailable } in &table.rungs {
         let mark = if *top { ", top" } else { "" };
         let right = match unavailable {
             Some(why) => why.replace('|', "\\|"),
@@ -176,7 +168,7 @@ fn measured(card: &Card) -> String {
         return text + why + "\n";
     }
     text.push_str(
-        "| asked of | rung | worst, ULP | wrong hits and misses | time, plain rung 1 (and its quartiles) |\n",
+        "| primitive | rung | worst, ULP | wrong hits and misses | time, plain rung 1 (and its quartiles) |\n",
     );
     text.push_str("|---|---|--:|--:|--:|\n");
     for row in &card.measured.rungs {
@@ -230,17 +222,17 @@ pub fn devices(cards: &[Card]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::survey::card::Measured;
+    use crate::survey::card::{Measured, MeasuredRung};
 
-    /// A card of before there were quartiles shows the middle alone.
+    /// Without quartiles the middle is shown alone.
     #[test]
     fn a_time_has_its_quartiles() {
-        let rung = |time_ratio, time_quartiles| Measured {
+        let rung = |time_ratio, time_quartiles| MeasuredRung {
             primitive: "plane".to_owned(),
             rung: "P0".to_owned(),
             time_ratio,
             time_quartiles,
-            ..Measured::default()
+            ..MeasuredRung::default()
         };
         for (ratio, quartiles, cell) in [
             (Some(2.0), Some([1.951, 2.1]), "| 2.00 (1.95 to 2.10) |"),
@@ -248,7 +240,7 @@ mod tests {
             (None, None, "| – |"),
         ] {
             let rungs = vec![rung(ratio, quartiles)];
-            let card = Card { measured: Table { failed: None, rungs }, ..Card::default() };
+            let card = Card { measured: Measured { failed: None, rungs }, ..Card::default() };
             assert!(measured(&card).ends_with(&format!("{cell}\n")), "{}", measured(&card));
         }
     }

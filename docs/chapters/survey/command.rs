@@ -32,18 +32,18 @@ use crate::programs::program::Programs;
 const TIMED_ON_SOFTWARE: (&str, &str) = ("480x300", "9");
 const TIMED_ON_A_GPU: (&str, &str) = ("1920x1200", "61");
 
-/// What turns validation on.
+/// The argument that turns validation on.
 pub const VALIDATE: &str = "--validate";
 
-/// What is told of the atlas.
+/// The atlas's name in the progress lines.
 const ATLAS: &str = "atlas";
 
-/// How a program says that there is no device at all.
+/// The first words of a program's error where there is no device at all.
 const NO_DRIVER: &str = "no Vulkan driver";
 
-/// How it says that none of the devices will do.
+/// The first words of its error where none of the devices will do.
 const NO_DEVICE: &str = "no device can run this";
-/// How a software driver's device is called, and the driver whose device made the golden pictures.
+/// The name of a software driver's device, and the driver whose device made the golden pictures.
 const SOFTWARE: &str = "llvmpipe";
 const GOLDEN_DRIVER: &str = "llvmpipe Mesa 25.0.7";
 
@@ -72,14 +72,14 @@ pub struct Survey<'a> {
     pub programs: &'a Programs<'a>,
     /// The device, as `--device` names it.
     pub device: Option<&'a str>,
-    /// How long a program may take.
+    /// The longest time of a program.
     pub limit: Limit,
-    /// In which arithmetic an atlas is drawn, if it is; in another than the driver's it is drawn alone.
+    /// The arithmetic of the atlas, if one is drawn; in another than the driver's it is drawn alone.
     pub atlas: Option<&'a str>,
 }
 
 impl Survey<'_> {
-    /// What would be run, a line a program.
+    /// The runs, a line for each program.
     pub fn list(&self) -> String {
         let project = self.programs.project;
         let line = |chapter: &Chapter| {
@@ -101,12 +101,12 @@ impl Survey<'_> {
         text
     }
 
-    /// Whether the card has an atlas alone.
+    /// Returns whether the card has an atlas alone.
     fn is_alone(&self) -> bool {
         self.atlas.is_some_and(|arithmetic| arithmetic != atlas::DRIVER)
     }
 
-    /// What 24 is asked.
+    /// The runs of 24.
     fn laboratory(&self, folder: &Path) -> Vec<(&'static str, Vec<String>)> {
         let project = self.programs.project;
         let mut runs = accuracy::runs(project, folder);
@@ -173,15 +173,15 @@ impl Survey<'_> {
                 }
                 accuracy::RANDOM_RAYS => card.measured = accuracy::measured(failed, folder.path()),
                 _ => {
-                    let (atlas, text) = atlas::found(failed, folder.path());
+                    let (atlas, device, text) = atlas::found(failed, folder.path());
                     drawn = Some(card_page::atlas(&text));
-                    card.device = card.device.or_else(|| atlas.of_device());
+                    card.device = card.device.or(device);
                     card.atlas = Some(atlas);
                 }
             }
         }
         let stem = card.stem();
-        let json = serde_json::to_string_pretty(&card)? + "\n";
+        let json = card.json()?;
         common::files::write_whole(&out.join(format!("{stem}.json")), json.as_bytes())?;
         let text = card_page::card(&card) + drawn.as_deref().unwrap_or_default();
         common::files::write_whole(&out.join(format!("{stem}.md")), text.as_bytes())?;
@@ -197,7 +197,7 @@ impl Survey<'_> {
         print(&format!("{passed}; the card is {files}\n"))
     }
 
-    /// What is surveyed: the commit, and whether code or shaders differ from it.
+    /// The commit that is surveyed, marked if code or shaders differ from it.
     fn commit(&self) -> Option<String> {
         let git = |arguments: &[&str]| {
             let mut git = Command::new("git");
@@ -339,12 +339,11 @@ impl Survey<'_> {
         let is_software = said["device"].as_str().is_some_and(|name| name.starts_with(SOFTWARE));
         let made_golden =
             said["driver"].as_str().is_some_and(|name| name.starts_with(GOLDEN_DRIVER));
-        let tolerance = match made_golden {
-            true => flip::TOLERANCE,
+        let tolerance = if made_golden {
+            flip::TOLERANCE
+        } else {
             // A picture of the device's own errors may be any.
-            false => {
-                flip::near::golden(&chapter.name, (width, height), flip::TOLERANCE).unwrap_or(1.0)
-            }
+            flip::near::golden(&chapter.name, (width, height), flip::TOLERANCE).unwrap_or(1.0)
         };
         (line.mean_flip, line.tolerance) = (Some(mean), Some(tolerance));
         let (size, frames) = if is_software { TIMED_ON_SOFTWARE } else { TIMED_ON_A_GPU };
@@ -365,7 +364,7 @@ impl Survey<'_> {
     }
 }
 
-/// Whether a program did not run because the validation layer is not installed.
+/// Returns whether a program did not run because the validation layer is not installed.
 fn lacks_layer(result: &Result<()>) -> bool {
     result.as_ref().is_err_and(|error| told(error).contains("--validate needs"))
 }
@@ -419,17 +418,17 @@ pub fn told(error: &anyhow::Error) -> String {
     card::without_paths(&format!("{error:#}").replace('\n', " "))
 }
 
-/// What a program has reported.
+/// The report of a program.
 pub fn read(report: &Path) -> Result<Value> {
     let text = fs::read_to_string(report).context("it has written no report")?;
     serde_json::from_str(&text).context("its report is no JSON")
 }
 
 /// The device of a report that has its limits.
-fn device(report: &Value) -> Option<Device> {
+pub fn device(report: &Value) -> Option<Device> {
     let text = |key: &str| report[key].as_str().map(str::to_owned);
     let limits = serde_json::from_value(report["limits"].clone()).ok()?;
-    Some(Device { name: text("device")?, driver: text("driver")?, limits })
+    Some(Device::new(text("device")?, text("driver")?, limits))
 }
 
 /// The rows of a list, those of another shape left out.

@@ -34,10 +34,7 @@ struct Bound {
 
 /// A measurement's name with its page: its own, unless another is named.
 pub fn whole_name(page: &Page, name: &str) -> String {
-    match name.contains('/') {
-        true => name.to_owned(),
-        false => format!("{}/{name}", page.stem()),
-    }
+    if name.contains('/') { name.to_owned() } else { format!("{}/{name}", page.stem()) }
 }
 
 /// The value of this name, of a measurement with its page; else what is wrong, and the remedy.

@@ -1,4 +1,4 @@
-//! What a GPU's compiler makes of a chapter's default pipeline, from `tests/gpus/budgets.json`: the tests of `gpus` ask
+//! The compiled size of a chapter's default pipeline on a GPU, from `tests/gpus/budgets.json`: the tests of `gpus` ask
 //! the compiler, and what they have recorded need not be asked a second time.
 
 use manuscript::project::Project;

@@ -1,4 +1,4 @@
-//! What a measurement's command gives.
+//! The results of a measurement's command.
 //!
 //! A `cargo run` gives what its report holds of `--compare`, of `--compile-for`, else its times, its memory and
 //! the numbers of its chapter. A `cargo test` gives what the test holds with `figures::hold`, and writes that to
@@ -18,7 +18,7 @@ use super::record::Record;
 use crate::programs::program::Programs;
 use crate::programs::{child, command_line};
 
-/// What a command gave: measurements by name, or a single one without.
+/// The results of a command: measurements by name, or a single one without.
 pub type Values = BTreeMap<String, Record>;
 
 /// Runs a command: `NAME=value … cargo run …` or `cargo test …`.
@@ -65,7 +65,7 @@ fn finish(command: &mut Command) -> Result<()> {
     }
 }
 
-/// What a test has left in a folder: `PAGE/NAME.json` each.
+/// The results a test has left in a folder, a file `PAGE/NAME.json` for each.
 fn held(folder: &Path) -> Result<Values> {
     let mut found = BTreeMap::new();
     for page in fs::read_dir(folder)?.flatten() {
@@ -90,7 +90,7 @@ fn measured(timed: bool, (device, driver): (String, String), values: Map<String,
     Record { command, timed, device, driver, date, values }
 }
 
-/// What a sample's report has: of `--compare`, of `--compile-for`, else its times, its memory and the numbers
+/// The values in a sample's report: of `--compare`, of `--compile-for`, else its times, its memory and the numbers
 /// of its chapter.
 fn reported(report: &Value) -> Result<Record> {
     let text = |key: &str| report[key].as_str().unwrap_or_default().to_owned();

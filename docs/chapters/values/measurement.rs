@@ -125,8 +125,8 @@ impl Measurement {
         self.name.split('/').next().unwrap_or_default()
     }
 
-    /// What is wrong with its stored values, if anything is. Whether they would come out again, only running
-    /// the command tells.
+    /// The fault of its stored values, if they have one. Only running the command tells whether they would come out
+    /// again.
     pub fn fault(&self, stored: Option<&Record>) -> Option<Fault> {
         let name = &self.name;
         let what = match stored {

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use regex_lite::Regex;
 
-/// What a text is read as, the first that fits: the groups named in [`found`] are numbers, the rest is not.
+/// The readings of a text, the first that fits: the groups named in [`found`] are numbers, the rest is not.
 static TEXT: LazyLock<Regex> = LazyLock::new(|| {
     let parts = [
         // A date.
@@ -32,19 +32,19 @@ static TEXT: LazyLock<Regex> = LazyLock::new(|| {
 /// A number in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Number {
-    /// Where it stands, in bytes.
+    /// Its range, in bytes.
     pub span: Range<usize>,
     /// As it is written.
     pub written: String,
-    /// Whether a minus stands before it.
+    /// True if a minus stands before it.
     negative: bool,
-    /// What its value is counted in: hundredths before a percent sign, millions before that word and MB.
+    /// The unit of its value: hundredths before a percent sign, millions before that word and MB.
     scale: Scale,
-    /// Whether it is only about so much: then zeros at its end are no digits.
+    /// True if it is approximate: then zeros at its end are no digits.
     about: bool,
 }
 
-/// What follows a number and belongs to its value.
+/// The unit behind a number, which belongs to its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
     One,

@@ -11,12 +11,12 @@ use super::record::{self, Record};
 /// The device of what a GPU's compiler says without the GPU.
 const COMPILER: &str = "RADV";
 
-/// Whether a page has a stamp.
+/// Returns whether a page has a stamp.
 pub fn is_on(page: &Page) -> bool {
     page.blocks.iter().any(|block| block.kind == Kind::Stamp)
 }
 
-/// What the stamp of a page says.
+/// The text of a page's stamp.
 pub fn text(project: &Project, page: &Page) -> String {
     let (stored, _) = Record::all(project);
     let names = binding::measurements(project, page);
@@ -46,11 +46,10 @@ fn line<'a>(records: impl Iterator<Item = &'a Record>) -> String {
             Some(last) if *last != first => format!("{first} to {last}"),
             _ => first.to_owned(),
         };
-        match is_compiler {
-            true => {
-                format!("Estimated by the compiler of {by}, for {}, {days}.", families.join(", "))
-            }
-            false => format!("Measured on {by}, {days}."),
+        if is_compiler {
+            format!("Estimated by the compiler of {by}, for {}, {days}.", families.join(", "))
+        } else {
+            format!("Measured on {by}, {days}.")
         }
     };
     days.into_iter().map(of).collect::<Vec<_>>().join(" ")

@@ -124,11 +124,12 @@ fn triangles(shown: &Shown, [llvmpipe, worst, h200]: [&Value; 3]) {
 
 /// A dot a case: how many rays are lost, and how many met two triangles.
 fn seams(atlas: &Value) {
+    let rays = atlas["rays"].as_f64().expect("rays");
     let dots = |what: &'static str| {
         let of = |case: &Value| {
             let name = case["case"].as_str()?.strip_prefix(what)?.trim();
             let found = case["found"].as_object()?;
-            let part = |of: &str| 100.0 * number(found, of) / case["rays"].as_f64().unwrap_or(1.0);
+            let part = |of: &str| 100.0 * number(found, of) / rays;
             Some((name.to_owned(), [part("lost"), part("doubled")]))
         };
         let rows = ["seams", "instances"].map(|name| cases(row(atlas, name)));

@@ -10,7 +10,6 @@ mod facts;
 mod history;
 mod keys;
 mod lag;
-mod lost;
 mod navigation;
 mod pace;
 mod painter;
@@ -31,7 +30,6 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-use self::lost::{Choice, Lost};
 use self::session::Session;
 use super::{Args, Program, RunHooks};
 use crate::UsageError;
@@ -70,7 +68,7 @@ pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> 
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
     let of = Of { program, args, hooks };
-    let mut shows = Shows { of, proxy, shown: Shown::Nothing, outcome: Ok(()) };
+    let mut shows = Shows { of, proxy, session: None, outcome: Ok(()) };
     events.run_app(&mut shows).context("the window system failed")?;
     shows.outcome
 }
@@ -97,16 +95,6 @@ fn log_if_asked() {
     let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();
 }
 
-/// What a window shows.
-enum Shown {
-    /// There is no window yet, or no more.
-    Nothing,
-    /// The sample.
-    Session(Box<Session>),
-    /// That the sample's device was lost.
-    Lost(Box<Lost>),
-}
-
 /// What a window is opened for.
 #[derive(Clone, Copy)]
 struct Of<'a> {
@@ -118,104 +106,56 @@ struct Of<'a> {
 struct Shows<'a> {
     of: Of<'a>,
     proxy: EventLoopProxy<Wake>,
-    shown: Shown,
+    /// Nothing before there is a window, and after it.
+    session: Option<Session>,
     outcome: Result<()>,
 }
 
 impl Shows<'_> {
+    /// Ends the window, also where its device is lost.
     fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
         self.outcome = Err(error);
         events.exit();
     }
+}
 
-    /// Shows a sample from its first picture on, before which a device may be lost as before any other.
-    fn begin(&mut self, events: &ActiveEventLoop, session: Result<Session>) {
-        match session {
-            Ok(mut session) => {
-                let begun = session.begin();
-                self.shown = Shown::Session(Box::new(session));
-                if let Err(error) = begun {
-                    self.stop(events, error);
+impl ApplicationHandler<Wake> for Shows<'_> {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.session.is_some() {
+            return;
+        }
+        match Session::new(events, self.of, self.proxy.clone()) {
+            Ok(session) => {
+                let session = self.session.insert(session);
+                if let Err(error) = session.begin() {
+                    self.fail(events, error);
                 }
             }
             Err(error) => self.fail(events, error),
         }
     }
 
-    fn take_shown(&mut self) -> Shown {
-        std::mem::replace(&mut self.shown, Shown::Nothing)
-    }
-
-    /// The sample could not be drawn. Where somebody watches, a lost device is no reason to end.
-    fn stop(&mut self, events: &ActiveEventLoop, error: Error) {
-        match self.take_shown() {
-            Shown::Session(session) if lost::is_loss(&error) && !self.of.args.frames_given => {
-                match session.lose(self.of, error) {
-                    Ok(lost) => self.shown = Shown::Lost(Box::new(lost)),
-                    Err(error) => self.fail(events, error),
-                }
-            }
-            shown => {
-                self.shown = shown;
-                self.fail(events, error);
-            }
-        }
-    }
-
-    /// Whoever is asked about a lost device has answered.
-    fn choose(&mut self, events: &ActiveEventLoop, choice: Choice) {
-        match (choice, self.take_shown()) {
-            (Choice::GoOn, Shown::Lost(lost)) => {
-                let session = Session::go_on(*lost, self.of, self.proxy.clone());
-                self.begin(events, session);
-            }
-            (Choice::Leave, Shown::Lost(lost)) => {
-                let Lost { on_gpu, error, .. } = *lost;
-                let closed = on_gpu.close().map(drop);
-                self.fail(events, closed.err().unwrap_or(error));
-            }
-            (_, shown) => self.shown = shown,
-        }
-    }
-}
-
-impl ApplicationHandler<Wake> for Shows<'_> {
-    fn resumed(&mut self, events: &ActiveEventLoop) {
-        if let Shown::Nothing = self.shown {
-            let session = Session::new(events, self.of, self.proxy.clone());
-            self.begin(events, session);
-        }
-    }
-
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
-        if let Shown::Session(session) = &mut self.shown {
+        if let Some(session) = &mut self.session {
             session.wake(matches!(cause, StartCause::ResumeTimeReached { .. }));
         }
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        match (&mut self.shown, event) {
-            (Shown::Session(_), WindowEvent::CloseRequested) => events.exit(),
-            (Shown::Session(session), WindowEvent::RedrawRequested) => {
-                match session.draw(self.of.hooks) {
-                    Ok(true) => {}
-                    Ok(false) => events.exit(),
-                    Err(error) => self.stop(events, error),
-                }
-            }
-            (Shown::Session(session), event) => session.take(&event),
-            (Shown::Lost(_), WindowEvent::CloseRequested) => self.choose(events, Choice::Leave),
-            (Shown::Lost(lost), WindowEvent::RedrawRequested) => match lost.draw() {
-                Ok(choice) => self.choose(events, choice),
+        let Some(session) = &mut self.session else { return };
+        match event {
+            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::RedrawRequested => match session.draw(self.of.hooks) {
+                Ok(true) => {}
+                Ok(false) => events.exit(),
                 Err(error) => self.fail(events, error),
             },
-            (Shown::Lost(lost), event) => lost.take(&event),
-            (Shown::Nothing, _) => {}
+            event => session.take(&event),
         }
     }
 
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
-        let Shown::Session(session) = &mut self.shown else { return };
+        let Some(session) = &mut self.session else { return };
         match wake {
             Wake::Saved(path) => session.saved(&path),
             Wake::Compiled(result) => session.compiled(result),
@@ -223,21 +163,13 @@ impl ApplicationHandler<Wake> for Shows<'_> {
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
-        let next = match &mut self.shown {
-            Shown::Session(session) => session.sleep(),
-            Shown::Lost(lost) => lost.sleep(),
-            Shown::Nothing => None,
-        };
+        let next = self.session.as_mut().and_then(Session::sleep);
         events.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
         // The surface must go before the connection to the window system does.
-        let closed = match self.take_shown() {
-            Shown::Session(session) => session.close(),
-            Shown::Lost(lost) => lost.on_gpu.close().map(drop),
-            Shown::Nothing => Ok(()),
-        };
+        let closed = self.session.take().map_or(Ok(()), Session::close);
         if self.outcome.is_ok() {
             self.outcome = closed;
         }

@@ -100,7 +100,7 @@ impl Painter {
     pub fn paint(
         &mut self,
         extent: vk::Extent2D,
-        picture: Option<(&Image, vk::Extent2D)>,
+        (picture, area): (&Image, vk::Extent2D),
         (triangles, scale): (&[ClippedPrimitive], f32),
         target: Acquired,
     ) -> Result<()> {
@@ -116,15 +116,13 @@ impl Painter {
         let (gpu, panel, filter) = (&self.gpu, &mut self.panel, self.filter);
         gpu.submit_between(target.before, target.after, |cmd| {
             canvas.transition(cmd, Layout::UNDEFINED, Layout::TRANSFER_DST_OPTIMAL);
-            if picture.is_none_or(|(_, area)| area != extent) {
+            if area != extent {
                 clear(gpu, cmd, canvas);
             }
-            if let Some((picture, area)) = picture {
-                picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
-                let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
-                blit(gpu, cmd, picture, (canvas.handle, extent, area), filter);
-                picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
-            }
+            picture.transition(cmd, Layout::GENERAL, Layout::TRANSFER_SRC_OPTIMAL);
+            let filter = if picture.extent == area { vk::Filter::NEAREST } else { filter };
+            blit(gpu, cmd, picture, (canvas.handle, extent, area), filter);
+            picture.transition(cmd, Layout::TRANSFER_SRC_OPTIMAL, Layout::GENERAL);
             canvas.transition(cmd, Layout::TRANSFER_DST_OPTIMAL, Layout::COLOR_ATTACHMENT_OPTIMAL);
             let attachments = [vk::RenderingAttachmentInfo::default()
                 .image_view(canvas.view)

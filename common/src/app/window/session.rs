@@ -5,7 +5,7 @@ mod frame;
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, Error, Result};
+use anyhow::{Context, Result};
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
@@ -13,7 +13,6 @@ use winit::window::Window;
 
 use super::facts::Facts;
 use super::lag::Lag;
-use super::lost::{Kept, Lost};
 use super::panel::Panel;
 use super::reload::Reload;
 use super::rows::Hidden;
@@ -21,7 +20,6 @@ use super::stepped::Stepped;
 use super::view::View;
 use super::window_on_gpu::WindowOnGpu;
 use super::{Of, Wake};
-use crate::app::controls::Listed;
 use crate::app::files::check_size;
 use crate::app::{Args, Controls, Sample, Setup, controls};
 use crate::gpu::Gpu;
@@ -67,45 +65,23 @@ impl Session {
         // The camera that the chapter chose is home, whatever `--set` makes of it.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
-        let kept = Kept { args: args.clone(), panel, values: Vec::new(), presented: 0 };
-        Self::on(on_gpu, of, kept, sample, proxy)
-    }
-
-    /// Goes on with the device that came after a lost one.
-    ///
-    /// # Errors
-    /// If the sample cannot be made on it.
-    pub fn go_on(lost: Lost, of: Of, proxy: EventLoopProxy<Wake>) -> Result<Self> {
-        let Lost { on_gpu, mut kept, .. } = lost;
-        let make = of.program.make;
-        let sample = again(make, &on_gpu.gpu, &kept.args, &mut kept.panel, &kept.values)?;
-        Self::on(on_gpu, of, kept, sample, proxy)
-    }
-
-    fn on(
-        on_gpu: WindowOnGpu,
-        of: Of,
-        kept: Kept,
-        sample: Box<dyn Sample>,
-        proxy: EventLoopProxy<Wake>,
-    ) -> Result<Self> {
         let gpu = &on_gpu.gpu;
         Ok(Self {
             view: View::new(gpu, sample)?,
-            panel: kept.panel,
+            panel,
             facts: Facts {
-                name: of.program.name.to_owned(),
+                name: program.name.to_owned(),
                 device: gpu.name.clone(),
                 software: gpu.software,
                 arithmetic: gpu.driver_shim.name(),
                 ..Facts::default()
             },
             reload: Reload::new(proxy),
-            args: kept.args,
-            make: of.program.make,
+            args: args.clone(),
+            make: program.make,
             hidden: false,
             redraw_at: None,
-            presented: kept.presented,
+            presented: 0,
             titled: None,
             lag: Lag::default(),
             on_gpu,
@@ -157,22 +133,7 @@ impl Session {
         );
         let Self { view, on_gpu, .. } = self;
         drop(view);
-        on_gpu.close().map(drop)
-    }
-
-    /// The device is lost: frees what was made from it, and takes another.
-    ///
-    /// # Errors
-    /// If there is no other, or validation had something to say.
-    pub fn lose(mut self, of: Of, error: Error) -> Result<Lost> {
-        let values = controls::list(|c| self.view.sample.controls(c));
-        let Self { view, mut panel, args, presented, on_gpu, .. } = self;
-        drop(view);
-        panel.error = None;
-        let again = Of { args: &args, ..of };
-        let on_gpu = WindowOnGpu::new(on_gpu.close()?, again)
-            .with_context(|| format!("{error:#}; and then"))?;
-        Ok(Lost::new(on_gpu, of.program.name, Kept { args, panel, values, presented }, error))
+        on_gpu.close()
     }
 
     /// A file below `shaders/` was written.
@@ -237,7 +198,13 @@ impl Session {
     /// Makes the sample anew and gives it the values that its controls had.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
-        let sample = again(self.make, &self.on_gpu.gpu, &self.args, &mut self.panel, &values)?;
+        let mut sample = (self.make)(&self.on_gpu.gpu, &Setup::new(&self.args))?;
+        self.panel.navigation.forget_home();
+        sample.controls(&mut Controls::new(&mut Hidden::new(&mut self.panel.navigation)));
+        for control in &values {
+            // A control may have gone, or take other values: then the new one stands.
+            let _ = controls::set(&control.name, &control.value, |c| sample.controls(c));
+        }
         self.view.replace(sample)
     }
 
@@ -255,22 +222,4 @@ impl Session {
             self.panel.error = Some(refused);
         }
     }
-}
-
-/// Makes a sample once more and gives it the values that its controls had.
-fn again(
-    make: Make,
-    gpu: &Gpu,
-    args: &Args,
-    panel: &mut Panel,
-    values: &[Listed],
-) -> Result<Box<dyn Sample>> {
-    let mut sample = make(gpu, &Setup::new(args))?;
-    panel.navigation.forget_home();
-    sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
-    for control in values {
-        // A control may have gone, or take other values: then the new one stands.
-        let _ = controls::set(&control.name, &control.value, |c| sample.controls(c));
-    }
-    Ok(sample)
 }

@@ -4,11 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
+use anyhow::{Error, Result};
 use ash::vk;
 
 use super::facts::Facts;
-use super::lost;
 use super::pace::{Pace, Step};
 use super::shot::Shot;
 use super::stepped::Stepped;
@@ -189,7 +188,7 @@ impl View {
     /// Has the sample build what its controls ask for. If it cannot, and there is a picture, that stays.
     fn build(&mut self) -> Result<Option<Stepped>> {
         match self.sample.changed(&self.gpu) {
-            Err(error) if self.milliseconds > 0.0 && !lost::is_loss(&error) => {
+            Err(error) if self.milliseconds > 0.0 && !is_loss(&error) => {
                 let error = format!("{error:#}");
                 // It is tried once more, in case the sample has gone back to what it can do.
                 let again = (self.refused.as_ref() != Some(&error)).then(Instant::now);
@@ -304,5 +303,22 @@ impl View {
     pub fn take_picture(&mut self, name: &str) -> Option<Result<PathBuf>> {
         let ready = self.pace.is_sharp() && self.bands.next().is_none();
         self.shot.take(ready, &self.image, name)
+    }
+}
+
+/// Returns whether an error means that the device is lost, and with it all that was made from it.
+fn is_loss(error: &Error) -> bool {
+    let lost = vk::Result::ERROR_DEVICE_LOST;
+    error.chain().any(|cause| cause.downcast_ref::<vk::Result>() == Some(&lost))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_loss_is_known_by_its_cause() {
+        let lost = Error::from(vk::Result::ERROR_DEVICE_LOST).context("the device failed");
+        assert!(is_loss(&lost) && !is_loss(&vk::Result::ERROR_OUT_OF_HOST_MEMORY.into()));
     }
 }

@@ -96,7 +96,7 @@ impl Session {
     /// Puts picture and panel on the window.
     fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<Presented> {
         let area = self.area(extent, drawing.pixels_per_point);
-        let presented = self.on_gpu.present(extent, Some((&self.view.image, area)), drawing)?;
+        let presented = self.on_gpu.present(extent, (&self.view.image, area), drawing)?;
         if let Presented::Shown | Presented::ShownStale = presented {
             self.presented += 1;
             let waited = self.lag.present();

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use raybook::prelude::*;
 
-/// What is shown, unless `--scene` names another file.
+/// The scene, unless `--scene` names another file.
 const GROUND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/ground.obj");
 
 fn main() -> ExitCode {
@@ -25,7 +25,7 @@ struct Demo {
 }
 
 raybook::shader_struct! {
-    /// What every shader can read; `push.glsl` declares the same.
+    /// The data that every shader can read; `push.glsl` declares the same.
     struct Push { camera: CameraBasis, scene: SceneAddresses, light: DirectionalLight, radius: f32 }
 }
 
