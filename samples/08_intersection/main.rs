@@ -4,6 +4,9 @@
 //! `box.rint`, a closest hit shader for both, hit groups per instance, and how exact all that is.
 
 mod boxes;
+mod host_c;
+mod level;
+mod random;
 mod shapes;
 mod shapes_on_gpu;
 
@@ -18,8 +21,8 @@ use common::scene::{
 };
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use glam::Vec3;
-use shapes::{SceneKind, ShapeAddresses};
-use shapes_on_gpu::{Build, ShapesOnGpu};
+use shapes::SceneKind;
+use shapes_on_gpu::{Build, ShapeAddresses, ShapesOnGpu};
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
@@ -135,14 +138,14 @@ impl Sample for Demo {
         let Variant { key, pipeline, sbt } =
             self.pipelines.choose(frame, &self.scene.textures, self.constants, pipeline)?;
         if key.sphere_rung == SphereRung::HostC {
-            self.shapes.compute_host_c(frame, self.camera.eye.as_vec3())?;
+            self.shapes.host_c.compute(frame, self.camera.eye.as_vec3())?;
         }
         // ANCHOR: trace
         let push = Push {
             camera: self.camera.basis(frame.aspect()),
             scene: self.scene.addresses,
             shapes: self.shapes.addresses.address.into(),
-            host_c: self.shapes.host_c_address(),
+            host_c: self.shapes.host_c.address(),
             light: self.sun.light(),
         };
         let descriptors = [

@@ -3,7 +3,10 @@
 //! New since 08_intersection: `swept.rint` with three rungs, chains whose segments share their ends, the
 //! normal of a cone, and the same strands as triangles.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
+#[path = "../08_intersection/random.rs"]
+mod random;
 mod scenes;
 mod strands;
 mod strands_on_gpu;

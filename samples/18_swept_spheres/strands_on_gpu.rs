@@ -1,13 +1,14 @@
 //! The strands on the device: a bottom level of boxes, in order, beside the meshes.
 
 use anyhow::{Result, ensure};
-use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
+use common::gpu::order::{self, around};
+use common::gpu::{AccelerationStructure, Buffer, Gpu, reach};
 use common::scene::{
     Instance, Scene, SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu,
 };
 use glam::{Affine3A, Vec3};
 
-use crate::boxes::{self, reach};
+use crate::boxes;
 use crate::scenes::{self, SceneKind};
 use crate::strands::{StrandAddresses, Strands};
 use crate::tubes;
@@ -136,10 +137,4 @@ impl StrandsOnGpu {
     pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
         build != self.build || reach(self.bounds, eye) != self.reach
     }
-}
-
-/// The box around boxes.
-fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bounds {
-    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
 }

@@ -32,7 +32,7 @@ impl Land {
         landscape: Landscape,
         eye: Vec3,
     ) -> Result<Self> {
-        let reach = boxes::reach(landscape.bounds(0.0), eye);
+        let reach = gpu::reach(landscape.bounds(0.0), eye);
         let bounds = landscape.bounds(gpu::margin(reach));
         let blas = boxes::bottom(gpu, "ground", [bounds], reach)?;
 
@@ -66,7 +66,7 @@ impl Land {
 
     /// Whether another landscape is wanted, or another eye sees it.
     pub fn is_outdated(&self, landscape: Landscape, eye: Vec3) -> bool {
-        self.landscape != landscape || self.reach != boxes::reach(landscape.bounds(0.0), eye)
+        self.landscape != landscape || self.reach != gpu::reach(landscape.bounds(0.0), eye)
     }
 }
 

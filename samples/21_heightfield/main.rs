@@ -3,6 +3,7 @@
 //! New since 08_intersection: a height for every (x, z), four ways to march a ray to it, pieces that
 //! stand on the ground, views of steps and errors, and five views of the land.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
 mod ground;
 mod land;

@@ -3,6 +3,7 @@
 //! New since 08_intersection: solids by an intersection shader, union, intersection, difference and
 //! inverse, a clip that cuts open, fog that fills what is outside, and seven scenes.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
 mod fog;
 mod modifiers;

@@ -6,6 +6,7 @@ use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, order};
 use common::scene::plane::Plane;
 use common::scene::{
     Moved, Placement, Scene, SceneOnGpu, Size, build_top, input_usage, instance_on_gpu,
+    moved_bounds,
 };
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
 
@@ -142,7 +143,7 @@ impl SolidsOnGpu {
             let level = boxes::bottom(gpu, "solid", [corners], 0.0)?;
             let to_world = place(&solid_instance.transform, &build.placement());
             instances.push(instance_on_gpu(&to_world, first + records.len(), 1, &level));
-            bounds.push(around(&to_world, corners));
+            bounds.push(moved_bounds(corners, &to_world));
             let to_object = to_world_f64(&to_world).inverse();
             let record = [first_part, part_count, first_step, step_count, clip];
             records.push(SolidRecord::new(record, &to_object));
@@ -226,14 +227,4 @@ fn to_world_f64(transform: &Affine3A) -> DAffine3 {
         matrix3: glam::Mat3::from(transform.matrix3).as_dmat3(),
         translation: transform.translation.as_dvec3(),
     }
-}
-
-/// The box in the world around a box.
-fn around(to_world: &Affine3A, (low, high): order::Bounds) -> order::Bounds {
-    let middle: Vec3 = to_world.transform_point3((low + high) * 0.5);
-    let matrix = to_world.matrix3;
-    let half = (high - low) * 0.5;
-    let reach =
-        matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
-    (middle - Vec3::from(reach), middle + Vec3::from(reach))
 }

@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use ash::vk;
-use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
+use common::gpu::order::{self, around};
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, padded};
 use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
 use effects::{Composition, EmitterAddresses, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
@@ -200,12 +201,6 @@ fn sphere_bounds(sphere: &Sphere) -> order::Bounds {
     let (low, high) = (sphere.center.min(end), sphere.center.max(end));
     let radius = sphere.radius + (low.abs().max(high.abs()).max_element() + sphere.radius) * 1.2e-7;
     (low - radius, high + radius)
-}
-
-/// The box around boxes.
-fn around(bounds: &[order::Bounds]) -> order::Bounds {
-    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    bounds.iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
 }
 
 /// How far a ray may begin from a shape: at the eye, on the plane below the eye, or on the scene.

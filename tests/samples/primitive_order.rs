@@ -14,12 +14,10 @@ use run::{bits, figures, golden, render, same_colors, same_hits};
 #[path = "../../samples/38_primitive_order/order.rs"]
 mod order;
 #[allow(dead_code)]
-#[path = "../../samples/38_primitive_order/shapes.rs"]
-mod shapes;
-#[allow(dead_code)]
 #[path = "../../samples/38_primitive_order/tree.rs"]
 mod tree;
 
+use crate::intersection::shapes;
 use order::Order;
 use shapes::{SceneKind, Shapes};
 use tree::Node;

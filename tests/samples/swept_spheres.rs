@@ -23,6 +23,7 @@ mod scenes;
 #[path = "../../samples/18_swept_spheres/strands.rs"]
 mod strands;
 
+use crate::intersection::random;
 use cases::{FAMILIES, cases};
 use direct::{Case, Found, ask, device};
 use judged::{Exact, Tally};

@@ -51,7 +51,7 @@ pub use image::{Image, Texels, transition};
 pub use instance::{Vulkan, WindowHandles};
 pub use layout::{Address, EnumLayout, Known, ShaderStruct, ShaderType, StructLayout};
 pub use limits::Limits;
-pub use margin::{margin, padded};
+pub use margin::{margin, padded, reach, sphere_bounds};
 pub use pipeline::{
     Band, ComputePipeline, Descriptor, GraphicsPipeline, HitGroup, Pipeline, PipelineBuilder,
     RayTracingPipeline,
