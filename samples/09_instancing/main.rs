@@ -4,6 +4,7 @@
 //! a piece; and normals under any matrix.
 
 mod formation;
+mod instances;
 mod pieces;
 mod top_level;
 
@@ -17,8 +18,9 @@ use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Scene
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use formation::{Build, Geometry, SceneKind};
 use glam::Vec3;
+use instances::{FLAGS, SEEN};
 use pieces::Pieces;
-use top_level::{FLAGS, PieceRecord, SEEN};
+use top_level::PieceRecord;
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))

@@ -5,6 +5,8 @@
 
 #[path = "../09_instancing/formation.rs"]
 mod formation;
+#[path = "../09_instancing/instances.rs"]
+mod instances;
 mod pieces;
 mod top_level;
 
@@ -20,8 +22,9 @@ use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Scene
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use formation::{Build, Geometry, SceneKind};
 use glam::{DVec3, Vec3};
+use instances::{FLAGS, SEEN};
 use pieces::Pieces;
-use top_level::{FLAGS, PieceRecord, SEEN, TopLevelBuild};
+use top_level::{PieceRecord, TopLevelBuild};
 
 fn main() -> ExitCode {
     instruments::run::<Demo>(env!("CARGO_BIN_NAME"))
