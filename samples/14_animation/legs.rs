@@ -9,7 +9,8 @@ use anyhow::{Context, Result, bail, ensure};
 use common::scene::text::{Text, quoted, shown, uncommented};
 use glam::Vec3;
 
-use super::motion::{KINDS, Leg, Motion, Piece, SIDES, UNDER_WAY};
+use super::leg::{Leg, Motion, Piece, UNDER_WAY};
+use super::motion::{KINDS, SIDES};
 
 /// The most bytes, pieces and frames of a file.
 const BYTES: u64 = 64 << 10;

@@ -5,9 +5,11 @@
 
 mod costs;
 mod flag;
+mod leg;
 mod legs;
 mod levels;
 mod motion;
+mod pole;
 mod turned;
 mod world;
 
@@ -25,8 +27,8 @@ use common::usage::Usage;
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use flag::Flag;
 use glam::{DVec3, Vec3};
+use leg::Motion;
 use levels::{Levels, Plan, Policy};
-use motion::Motion;
 use world::World;
 
 fn main() -> ExitCode {

@@ -3,12 +3,16 @@
 //! New since 14_animation: a shutter; a time for each sample, in strata; what is under way in the top level once for
 //! each moment, or swept, with its triangles moved by an intersection shader; rotations between two poses.
 
+mod ball;
+#[path = "../14_animation/leg.rs"]
+mod leg;
 #[path = "../14_animation/legs.rs"]
 mod legs;
 mod levels;
 mod motion;
 mod shutter;
 mod sweep;
+#[path = "../14_animation/turned.rs"]
 mod turned;
 mod world;
 
@@ -22,8 +26,8 @@ use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Sun, 
 use common::usage::Usage;
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use glam::{DVec3, Vec3};
+use leg::Motion;
 use levels::{Calls, Levels, Method, Mover, Plan};
-use motion::Motion;
 use shutter::Between;
 use world::World;
 

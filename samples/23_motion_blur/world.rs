@@ -4,11 +4,13 @@ use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu, order};
 use common::scene::{
     InstanceRecord, Material, Model, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
-    triangle_order,
+    moved_bounds, triangle_order,
 };
-use glam::{Affine3A, Mat3A, Vec3};
+use glam::{Affine3A, Vec3};
 
-use super::motion::{KINDS, Motion, Placed, SIDES};
+use super::ball;
+use super::leg::Motion;
+use super::motion::{KINDS, Placed, SIDES};
 use super::shutter::Pose;
 use super::turned::{self, TABLE};
 
@@ -130,12 +132,7 @@ impl World {
 
     /// The box around a mesh in its place.
     pub fn around(&self, mesh: usize, at: &Affine3A) -> order::Bounds {
-        let (low, high) = self.host.model.meshes[mesh].bounds();
-        let middle = at.transform_point3((low + high) * 0.5);
-        let half = (high - low) * 0.5;
-        let Mat3A { x_axis, y_axis, z_axis } = at.matrix3;
-        let reach = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
-        (middle - Vec3::from(reach), middle + Vec3::from(reach))
+        moved_bounds(self.host.model.meshes[mesh].bounds(), at)
     }
 }
 
@@ -149,7 +146,7 @@ fn furnish(model: &mut Model) {
     let first = model.materials.len();
     model.materials.push(felt);
     model.meshes.push(turned::table(9.6, first));
-    model.meshes.push(turned::ball(BALL, first));
+    model.meshes.push(ball::ball(BALL, first));
 }
 
 fn mesh(model: &Model, name: &str) -> Result<usize> {

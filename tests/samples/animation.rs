@@ -10,21 +10,25 @@ mod structures;
 #[allow(dead_code)]
 #[path = "../../samples/assets/chess_game/game.rs"]
 mod game;
+#[path = "../../samples/14_animation/leg.rs"]
+mod leg;
 #[path = "../../samples/14_animation/legs.rs"]
 mod legs;
 #[path = "../../samples/14_animation/motion.rs"]
 mod motion;
+#[path = "../../samples/14_animation/pole.rs"]
+mod pole;
 #[allow(dead_code)]
 #[path = "../../samples/assets/chess_game/position.rs"]
 mod position;
-#[allow(dead_code)]
 #[path = "../../samples/14_animation/turned.rs"]
-mod turned;
+pub mod turned;
 
 use common::app::Picture;
 use common::scene::{self, Camera, Model, Scene, assets, obj};
 use glam::{Affine3A, DVec3, Vec3};
-use motion::{KINDS, Motion};
+use leg::Motion;
+use motion::KINDS;
 use reference::Ray;
 use reference::hit::Hit;
 use reference::ulp::ulp_error;
@@ -93,7 +97,7 @@ fn the_first_frames_are_played_as_they_are_jumped_to() {
 /// All that a frame shows, with each instance's record, in the order of the sample's.
 fn exact(frame: u32) -> (reference::scene::Scene, Vec<usize>) {
     let mut model: Model = obj::load(&assets().join("chess.obj")).unwrap();
-    model.meshes.extend([turned::table(9.6, 0), turned::pole(6.4, 0), cloth::mesh(frame, 48)]);
+    model.meshes.extend([turned::table(9.6, 0), pole::pole(6.4, 0), cloth::mesh(frame, 48)]);
     let mesh = |name: &str| model.meshes.iter().position(|mesh| mesh.name == name).unwrap();
     let screen = Vec3::new(0.0, 0.02, -4.28);
     let mut instances = Vec::new();

@@ -8,8 +8,9 @@ use glam::{DQuat, DVec3};
 use run::{figures, render};
 use serde_json::json;
 
-use super::motion::{Motion, Placed};
-use super::{NAME, legs, turned};
+use super::leg::Motion;
+use super::motion::Placed;
+use super::{NAME, ball, legs};
 
 const BALL: f64 = 0.5;
 const SHUTTER: f64 = 2.0;
@@ -64,7 +65,7 @@ fn the_smear_of_a_ball_is_its_closed_form() {
     let motion = legs::open(&file).unwrap();
     let [open, close] = ends(&motion, 16).map(|placed| placed.place.as_dvec3() + BALL * DVec3::Y);
     // Between two corners, along and around, lies half the angle of a cell.
-    let half = (PI / (2.0 * f64::from(turned::ROWS))).cos();
+    let half = (PI / (2.0 * f64::from(ball::ROWS))).cos();
     let inner = BALL * half * half;
     let mut held = json!({});
     for (method, samples, lost) in [("swept", 256, 2.0 / 256.0), ("moments", 256, 2.0 / 8.0)] {
