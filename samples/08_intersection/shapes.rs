@@ -186,9 +186,10 @@ impl Shapes {
             let depth = -2.4 - 9.0 * z;
             let foot = Vec3::new((x - 0.5) * -0.9 * depth, 0.0, depth);
             let material = first + i % 5;
-            match kind < 0.5 {
-                true => self.ball(foot + Vec3::Y * size, size, material),
-                false => self.block(foot, size, 2.0 * size, material),
+            if kind < 0.5 {
+                self.ball(foot + Vec3::Y * size, size, material);
+            } else {
+                self.block(foot, size, 2.0 * size, material);
             }
         }
     }

@@ -104,9 +104,12 @@ impl Levels {
         flag.deform(cmd, frame)?;
         let is_built = |policy| anew || policy == Policy::Rebuilt;
         let (geometry, [for_flag, for_top]) = ([flag.geometry()], &self.scratch);
-        self.costs.time(cmd, 0, is_built(plan.flag), || match is_built(plan.flag) {
-            true => self.flag.rebuild(cmd, &geometry, for_flag),
-            false => self.flag.update(cmd, &geometry, for_flag),
+        self.costs.time(cmd, 0, is_built(plan.flag), || {
+            if is_built(plan.flag) {
+                self.flag.rebuild(cmd, &geometry, for_flag)
+            } else {
+                self.flag.update(cmd, &geometry, for_flag)
+            }
         })?;
 
         // An update keeps the order of the build: instance i of both is the same piece.
@@ -118,9 +121,12 @@ impl Levels {
         self.instances.update(cmd, &bytes)?;
         let count = instances.len() as u32;
         let input = [Geometry::Instances { instances: self.instances.address, count }];
-        self.costs.time(cmd, 1, is_built(plan.top), || match is_built(plan.top) {
-            true => self.tlas.rebuild(cmd, &input, for_top),
-            false => self.tlas.update(cmd, &input, for_top),
+        self.costs.time(cmd, 1, is_built(plan.top), || {
+            if is_built(plan.top) {
+                self.tlas.rebuild(cmd, &input, for_top)
+            } else {
+                self.tlas.update(cmd, &input, for_top)
+            }
         })
     }
 

@@ -86,9 +86,10 @@ impl Strands {
             let angle = TAU * (turn - TURNS + 0.25);
             middle + radius * Vec3::new(angle.cos(), 0.0, angle.sin())
         };
-        let at = |way: f32| match way <= TURNS {
-            true => spiral(way),
-            false => {
+        let at = |way: f32| {
+            if way <= TURNS {
+                spiral(way)
+            } else {
                 let x = way - TURNS;
                 spiral(TURNS) + Vec3::new(-x, 0.0, 0.1 * ((2.4 * x).cos() - 1.0) + 0.12 * x)
             }
@@ -102,9 +103,10 @@ impl Strands {
                 let next = (step + 1) as f32 / steps as f32;
                 // As long a step in the spiral as in the tail, whose unit is not a turn but a length.
                 let inner = 7.3;
-                let next = match next * (inner + TAIL) < inner {
-                    true => TURNS * (next * (inner + TAIL) / inner).powf(0.62),
-                    false => TURNS + next * (inner + TAIL) - inner,
+                let next = if next * (inner + TAIL) < inner {
+                    TURNS * (next * (inner + TAIL) / inner).powf(0.62)
+                } else {
+                    TURNS + next * (inner + TAIL) - inner
                 };
                 let (here, there) = (at(way), at(next));
                 let along = (there - here).normalize();

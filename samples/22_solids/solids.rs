@@ -200,9 +200,10 @@ impl SolidsOnGpu {
 fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
     let margin = 0.01 * (high - low).max_element();
     // Where a solid is empty, any box will do: its shader finds nothing.
-    match low.is_finite() && low.cmple(high).all() {
-        true => ((low - margin).as_vec3(), (high + margin).as_vec3()),
-        false => (Vec3::ZERO, Vec3::splat(1e-3)),
+    if low.is_finite() && low.cmple(high).all() {
+        ((low - margin).as_vec3(), (high + margin).as_vec3())
+    } else {
+        (Vec3::ZERO, Vec3::splat(1e-3))
     }
 }
 

@@ -104,10 +104,8 @@ impl Levels {
         let calls =
             Buffer::with_data(gpu, "calls", &[0u32], usage | vk::BufferUsageFlags::TRANSFER_SRC)?;
         let widest = swept.iter().map(AccelerationStructure::build_scratch).max().unwrap_or(0);
-        let scratch = match widest > tlas.build_scratch() {
-            true => swept[0].scratch()?,
-            false => tlas.scratch()?,
-        };
+        let scratch =
+            if widest > tlas.build_scratch() { swept[0].scratch()? } else { tlas.scratch()? };
         Ok(Self {
             tlas,
             movers,

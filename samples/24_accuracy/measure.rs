@@ -81,9 +81,10 @@ pub fn measure(
         }
         rungs.extend(measured);
     }
-    let no_compiler = match gpu.emulation.name() != "driver" {
-        true => Some(String::from("no GPU computes as badly as it may")),
-        false => compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}")),
+    let no_compiler = if gpu.emulation.name() != "driver" {
+        Some(String::from("no GPU computes as badly as it may"))
+    } else {
+        compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}"))
     };
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());

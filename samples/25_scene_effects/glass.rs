@@ -16,9 +16,10 @@ pub fn is_glass(material: &Material) -> bool {
 impl Composition {
     /// What each material is for light that enters it, if any material in use is glass; shaders read no others.
     pub fn glasses_to_read(&self) -> Vec<Glass> {
-        match self.materials_in_use().any(is_glass) {
-            true => self.scene.model.materials.iter().map(Glass::from).collect(),
-            false => Vec::new(),
+        if self.materials_in_use().any(is_glass) {
+            self.scene.model.materials.iter().map(Glass::from).collect()
+        } else {
+            Vec::new()
         }
     }
 

@@ -101,10 +101,12 @@ struct Grid {
 impl Grid {
     fn around(low: f32, high: f32) -> Self {
         // A shader may read a subnormal number as 0.
-        let origin = match low.is_subnormal() {
-            true if low > 0.0 => 0.0,
-            true => -f32::MIN_POSITIVE,
-            false => low,
+        let origin = if !low.is_subnormal() {
+            low
+        } else if low > 0.0 {
+            0.0
+        } else {
+            -f32::MIN_POSITIVE
         };
         let ulp = f32::EPSILON * origin.abs().max(high.abs());
         let exponent = |x: f32| x.max(f32::MIN_POSITIVE).to_bits() >> 23;

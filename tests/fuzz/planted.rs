@@ -60,9 +60,11 @@ fn warned_of(path: &Path, what: &str) -> bool {
 
 #[test]
 fn a_panic_is_found() {
-    let fault = found_in(|path| match refused_for(path, "too many parts") {
-        true => panic!("planted"),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "too many parts") {
+            panic!("planted")
+        }
+        read(path)
     });
     assert!(matches!(&fault, Fault::Panic(message) if message.contains("planted")), "{fault}");
 }
@@ -90,25 +92,29 @@ fn work_for(time: Duration) {
 
 #[test]
 fn a_wait_without_an_end_is_found() {
-    let fault = found_within(SLEEPY, |path| match warned_of(path, "normal index") {
-        true => loop {
-            sleep(Duration::from_secs(3600));
-        },
-        false => read(path),
+    let fault = found_within(SLEEPY, |path| {
+        if warned_of(path, "normal index") {
+            loop {
+                sleep(Duration::from_secs(3600));
+            }
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Endless(_)), "{fault}");
 }
 
 #[test]
 fn work_without_an_end_is_found() {
-    let fault = found_in(|path| match warned_of(path, "normal index") {
-        true => {
+    let fault = found_in(|path| {
+        if warned_of(path, "normal index") {
             work_for(AWAKE.processor * 2);
             // The test is over by then: nobody else need wait for this thread.
             sleep(Duration::MAX);
             bail!("an end")
+        } else {
+            read(path)
         }
-        false => read(path),
     });
     assert_eq!(fault, Fault::Endless(AWAKE));
 }
@@ -155,28 +161,32 @@ fn memory_for_what_a_header_promises_is_found() {
 
 #[test]
 fn a_message_of_two_lines_is_found() {
-    let fault = found_in(|path| match refused_for(path, "not a finite 32-bit number") {
-        true => bail!("{}: first\nsecond", path.display()),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "not a finite 32-bit number") {
+            bail!("{}: first\nsecond", path.display())
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Line(_)), "{fault}");
 }
 
 #[test]
 fn a_message_that_names_no_file_is_found() {
-    let fault = found_in(|path| match refused_for(path, "outside the OBJ file's folder") {
-        true => bail!("a file lies outside"),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "outside the OBJ file's folder") {
+            bail!("a file lies outside")
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Line(_)), "{fault}");
 }
 
 #[test]
 fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
-    let planted: fn(&Path) -> Result<String> = |path| match refused_for(path, "too many parts") {
-        true => panic!("planted"),
-        false => read(path),
-    };
+    let planted: fn(&Path) -> Result<String> =
+        |path| if refused_for(path, "too many parts") { panic!("planted") } else { read(path) };
     let function = Function { read: planted, ..FUNCTION };
     let [first, second] = [(); 2].map(|()| found(FORMAT, Watch::new(FORMAT, function)));
     assert_eq!((first.number, &first.input), (second.number, &second.input));

@@ -219,9 +219,10 @@ impl Rig {
                 Ok(())
             })
             .expect("the device does it");
-        let milliseconds = match self.gpu.chosen.software {
-            true => (worked() - begun) * 1e3,
-            false => timer.milliseconds().expect("the device has a clock"),
+        let milliseconds = if self.gpu.chosen.software {
+            (worked() - begun) * 1e3
+        } else {
+            timer.milliseconds().expect("the device has a clock")
         };
         (answers.read().expect("they come back"), milliseconds)
     }

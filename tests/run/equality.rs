@@ -28,12 +28,11 @@ pub fn ties(one: &Picture, other: &Picture) -> (usize, usize) {
 #[track_caller]
 pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     let (ties, others) = ties(one, other);
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: {ties} ties, {others} others"),
-        false => {
-            let flips = Near::of(chapter).both().flips(one) as usize;
-            assert!(others <= flips, "{what}: {ties} ties, {others} others of {flips}");
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: {ties} ties, {others} others");
+    } else {
+        let flips = Near::of(chapter).both().flips(one) as usize;
+        assert!(others <= flips, "{what}: {ties} ties, {others} others of {flips}");
     }
 }
 
@@ -41,24 +40,22 @@ pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
 /// software driver, elsewhere as near as two pictures are that are both inexact.
 #[track_caller]
 pub fn same_colors(what: &str, chapter: &str, one: &Picture, other: &Picture) {
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: other bits, {:?}", flip(one, other)),
-        false => {
-            let near = Near::of(chapter).both();
-            assert!(near.holds(one, other), "{what}: {:?}, {near:?}", flip(one, other));
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: other bits, {:?}", flip(one, other));
+    } else {
+        let near = Near::of(chapter).both();
+        assert!(near.holds(one, other), "{what}: {:?}, {near:?}", flip(one, other));
     }
 }
 
 /// The same of pictures of answers, such as those of `show=hit`.
 #[track_caller]
 pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: other bits, {}", flipped(one, other)),
-        false => {
-            let near = Near::of(chapter).both();
-            assert!(near.answers(one, other), "{what}: {}, {near:?}", flipped(one, other));
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: other bits, {}", flipped(one, other));
+    } else {
+        let near = Near::of(chapter).both();
+        assert!(near.answers(one, other), "{what}: {}, {near:?}", flipped(one, other));
     }
 }
 

@@ -104,9 +104,10 @@ impl Layer {
         let known = known.unwrap_or_else(|| "/usr/local/share:/usr/share".into());
         let own = std::iter::once(PathBuf::from(self.folder.path()));
         let known = std::env::split_paths(&known);
-        let folders = match self.first {
-            true => std::env::join_paths(own.chain(known)),
-            false => std::env::join_paths(known.chain(own)),
+        let folders = if self.first {
+            std::env::join_paths(own.chain(known))
+        } else {
+            std::env::join_paths(known.chain(own))
         };
         let mut all = self.variables.clone();
         all.push(("XDG_DATA_DIRS", folders.expect("plain names")));

@@ -195,9 +195,10 @@ pub fn copy(from: &Path, to: &Path) {
     for entry in from.read_dir().expect("a folder can be read") {
         let path = entry.expect("an entry").path();
         let to = to.join(path.file_name().expect("a name"));
-        match path.is_dir() {
-            true => copy(&path, &to),
-            false => drop(std::fs::copy(&path, &to).expect("a file can be copied")),
+        if path.is_dir() {
+            copy(&path, &to);
+        } else {
+            std::fs::copy(&path, &to).expect("a file can be copied");
         }
     }
 }

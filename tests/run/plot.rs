@@ -189,9 +189,10 @@ fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
         !points.into_iter().any(|&[a, b]| corner([part(x, a), part(y, b)]))
     };
     let upper_right = is_free(|[right, up]| right > 0.35 && up > 0.68);
-    match !upper_right && is_free(|[right, up]| right < 0.65 && up < 0.32) {
-        true => SeriesLabelPosition::LowerLeft,
-        false => SeriesLabelPosition::UpperRight,
+    if !upper_right && is_free(|[right, up]| right < 0.65 && up < 0.32) {
+        SeriesLabelPosition::LowerLeft
+    } else {
+        SeriesLabelPosition::UpperRight
     }
 }
 

@@ -116,9 +116,10 @@ const EQUALITIES: [Equality; 11] = [
 fn picture((chapter, sets): (&str, &[&str]), seed: u32) -> Picture {
     let mut arguments = Vec::new();
     for set in sets {
-        match set.starts_with("--") {
-            true => arguments.push(*set),
-            false => arguments.extend(["--set", set]),
+        if set.starts_with("--") {
+            arguments.push(*set);
+        } else {
+            arguments.extend(["--set", set]);
         }
     }
     let mut command = command(chapter);
@@ -134,9 +135,10 @@ fn differs(equality: &Equality, seed: u32) -> bool {
     let near = Near::of(one.0).both();
     let [a, b] = [one, other].map(|way| picture(*way, seed));
     let pixels = bits(&a).iter().zip(bits(&b)).filter(|(a, b)| **a != *b).count();
-    let (holds, apart) = match shows_answers {
-        true => (near.answers(&a, &b), format!("{} flipped", flipped(&a, &b))),
-        false => (near.holds(&a, &b), format!("mean FLIP and outliers {:?}", flip(&a, &b))),
+    let (holds, apart) = if *shows_answers {
+        (near.answers(&a, &b), format!("{} flipped", flipped(&a, &b)))
+    } else {
+        (near.holds(&a, &b), format!("mean FLIP and outliers {:?}", flip(&a, &b)))
     };
     println!("{what} | seed {seed} | {pixels} of other bits | {apart} | {near:?}");
     assert!(holds, "{what}, seed {seed}: {apart}, {near:?} of {}", near.flips(&a));

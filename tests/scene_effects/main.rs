@@ -407,14 +407,11 @@ fn the_page_of_the_format_lists_every_key() {
             page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
         let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];
         for key in known.split(", ") {
-            let there = match table.is_empty() {
-                true => {
-                    page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
-                }
-                false => {
-                    let valued = format!("{} =", key.trim_end_matches('`'));
-                    rows.contains(key) || rows.contains(&valued)
-                }
+            let there = if table.is_empty() {
+                page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
+            } else {
+                let valued = format!("{} =", key.trim_end_matches('`'));
+                rows.contains(key) || rows.contains(&valued)
             };
             assert!(there, "{table} {key} is not on the page");
         }

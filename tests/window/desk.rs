@@ -253,9 +253,10 @@ impl Desk {
 
     /// Takes the window off the screen, as a window manager does that minimises it, or brings it back.
     pub fn map(&self, mapped: bool) {
-        match mapped {
-            true => drop(self.x.map_window(self.window).unwrap()),
-            false => drop(self.x.unmap_window(self.window).unwrap()),
+        if mapped {
+            self.x.map_window(self.window).unwrap();
+        } else {
+            self.x.unmap_window(self.window).unwrap();
         }
         self.x.sync();
         if mapped {

@@ -75,9 +75,10 @@ impl Growth {
     fn add(&mut self, growth: f64, is_offered: bool) {
         let least = |known: Option<f64>| known.map_or(growth, |known| known.min(growth));
         let most = |known: Option<f64>| known.map_or(growth, |known| known.max(growth));
-        match is_offered {
-            true => self.offered = Some(most(self.offered)),
-            false => self.refused = Some(least(self.refused)),
+        if is_offered {
+            self.offered = Some(most(self.offered));
+        } else {
+            self.refused = Some(least(self.refused));
         }
     }
 }
@@ -175,9 +176,10 @@ fn case(
     count: usize,
     truth: &mut Truth,
 ) -> Result<Case> {
-    let name = match place == 0.0 {
-        true => format!("box from {distance}"),
-        false => format!("box at {place} from {distance}"),
+    let name = if place == 0.0 {
+        format!("box from {distance}")
+    } else {
+        format!("box at {place} from {distance}")
     };
     let mut random = Random(seed("boxes", &name));
     let middle = random.unit() * place;

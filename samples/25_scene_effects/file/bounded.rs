@@ -45,9 +45,10 @@ fn within<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<f32
 
 /// A NaN is in no range.
 fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
-    match (low..=high).contains(&number) {
-        true => Ok(number),
-        false => Err(E::custom(format!("{number:?} is not a number from {low} to {high}"))),
+    if (low..=high).contains(&number) {
+        Ok(number)
+    } else {
+        Err(E::custom(format!("{number:?} is not a number from {low} to {high}")))
     }
 }
 
@@ -206,9 +207,10 @@ pub fn nodes<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f32; 4]>, D::Err
 /// A direction of any length but 0.
 pub fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     let direction = point(from)?;
-    match direction.length() > 1e-6 {
-        true => Ok(direction),
-        false => Err(D::Error::custom("a direction has a length: [0, 1, 0] is up")),
+    if direction.length() > 1e-6 {
+        Ok(direction)
+    } else {
+        Err(D::Error::custom("a direction has a length: [0, 1, 0] is up"))
     }
 }
 

@@ -86,9 +86,10 @@ impl Description {
     /// The model that pieces are taken from.
     fn model(&self, path: &Path, source: &Source) -> Result<Model> {
         let Some(named) = &self.model else {
-            return match self.piece.is_empty() && self.position.is_none() {
-                true => Ok(Model::default()),
-                false => obj::load_own(&assets().join("chess.obj")),
+            return if self.piece.is_empty() && self.position.is_none() {
+                Ok(Model::default())
+            } else {
+                obj::load_own(&assets().join("chess.obj"))
             };
         };
         let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {

@@ -60,14 +60,13 @@ pub(super) fn opaque(
     let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
     let textured = material.has_cutout() || material.base_texture.is_some();
-    match textured || finishes[number].lines > 0.0 {
-        true => {
-            let what = format!(
-                "{} has holes, a texture or lines, which only meshes can have",
-                quoted(&material.name)
-            );
-            Err(source.error(name.span().start, &what))
-        }
-        false => Ok(number as u32),
+    if textured || finishes[number].lines > 0.0 {
+        let what = format!(
+            "{} has holes, a texture or lines, which only meshes can have",
+            quoted(&material.name)
+        );
+        Err(source.error(name.span().start, &what))
+    } else {
+        Ok(number as u32)
     }
 }

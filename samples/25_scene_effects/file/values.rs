@@ -48,13 +48,10 @@ impl PlaneTable {
 impl HeightfieldTable {
     pub(super) fn heightfield(&self) -> Result<Heightfield, &'static str> {
         let &Self { low, high, hills, hill, ridges, ridge, light, dark, rock, square } = self;
-        match low.cmplt(high).all() && hills + ridges > 0.0 {
-            true => {
-                Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
-            }
-            false => {
-                Err("a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0")
-            }
+        if low.cmplt(high).all() && hills + ridges > 0.0 {
+            Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
+        } else {
+            Err("a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0")
         }
     }
 }

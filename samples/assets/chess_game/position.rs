@@ -149,9 +149,10 @@ impl Position {
         };
         let list: Vec<_> =
             squares().filter(|&to| self.allows(from, to)).map(|to| to.to_string()).collect();
-        match list.is_empty() {
-            true => format!("{why}: it has no move here"),
-            false => format!("{why}: it may go to {}", list.join(", ")),
+        if list.is_empty() {
+            format!("{why}: it has no move here")
+        } else {
+            format!("{why}: it may go to {}", list.join(", "))
         }
     }
 

@@ -27,10 +27,12 @@ pub fn numbers(pixel: [u32; 2], seed: u32, i: u32, dimension: u32, ordered: bool
 /// The concentric map, in polar coordinates (Shirley and Chiu 1997).
 pub fn on_disk([u, v]: [f64; 2]) -> DVec2 {
     let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
-    let (radius, angle) = match x * x > y * y {
-        true => (x, PI / 4.0 * (y / x)),
-        false if y == 0.0 => (0.0, 0.0),
-        false => (y, PI / 2.0 - PI / 4.0 * (x / y)),
+    let (radius, angle) = if x * x > y * y {
+        (x, PI / 4.0 * (y / x))
+    } else if y == 0.0 {
+        (0.0, 0.0)
+    } else {
+        (y, PI / 2.0 - PI / 4.0 * (x / y))
     };
     radius * DVec2::from_angle(angle)
 }

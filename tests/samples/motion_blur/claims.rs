@@ -69,10 +69,8 @@ fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
         .map(|method| picture("240x150", &[], &[&one[..], &[method]].concat()));
     let differ = moments.pixels.iter().zip(&swept.pixels).filter(|(a, b)| a != b).count();
     // Two triangle tests may differ at edges of shadows alone; llvmpipe's is that of the chapter.
-    let most = match device::is_software() {
-        true => 8,
-        false => Near::of(NAME).both().flips(&moments) as usize,
-    };
+    let most =
+        if device::is_software() { 8 } else { Near::of(NAME).both().flips(&moments) as usize };
     assert!(differ <= most, "{differ} pixels of {most}");
 }
 
