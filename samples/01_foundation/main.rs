@@ -633,7 +633,7 @@ impl std::fmt::Display for Structure {
     }
 }
 
-/// Who writes memory, and who reads it.
+/// Memory by its writer and its reader.
 #[derive(Clone, Copy)]
 enum Place {
     /// The device alone.
@@ -644,7 +644,7 @@ enum Place {
     ToHost,
 }
 
-/// What the helpers share, and every object made, to be destroyed in reverse order.
+/// The handles that the helpers share, and every object made, to be destroyed in reverse order.
 struct Gpu<'a> {
     device: &'a Device,
     structures: &'a khr::acceleration_structure::Device,
@@ -1009,7 +1009,7 @@ fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> 
 
 // ---- What validation says
 
-/// What validation said: warnings and errors, in order.
+/// Warnings and errors from validation, in order.
 type Messages = Mutex<Vec<String>>;
 
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -1062,7 +1062,7 @@ unsafe extern "system" fn on_message(
 
 // ---- What the program tells
 
-/// What the program tells while it works, a line a step. Silent where the report is on standard output.
+/// The program's account of its work, one line per step. Silent where the report is on standard output.
 struct Story {
     lines: Vec<String>,
     silent: bool,

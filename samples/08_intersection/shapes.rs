@@ -37,14 +37,14 @@ common::shader_enum! {
     pub enum SceneKind { Chess, Grid, RandomBall, Planet, OneSphere, Dust }
 }
 
-/// What there is besides triangles.
+/// The shapes beside the triangles.
 #[derive(Default)]
 pub struct Shapes {
     pub spheres: Vec<Sphere>,
     pub boxes: Vec<Box>,
 }
 
-/// How many primitives a scene has if nobody says; 0 where that is not free.
+/// Default number of primitives in a scene; 0 where it is fixed.
 pub fn default_count(scene: SceneKind) -> u32 {
     match scene {
         SceneKind::RandomBall => 1024,
@@ -195,7 +195,7 @@ impl Shapes {
     }
 }
 
-/// Whether *chess* puts shapes in a piece's place.
+/// Tests whether *chess* replaces a piece with shapes.
 pub fn is_replaced(model: &Model, piece: &Instance) -> bool {
     ["pawn", "rook"].contains(&model.meshes[piece.mesh].name.as_str())
 }

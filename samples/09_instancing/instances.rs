@@ -8,7 +8,7 @@ use common::scene::{Scene, SceneOnGpu, build_top, transform};
 
 use crate::formation::{BLACK, BOARD, Piece, WHITE};
 
-/// Which bits a ray asks for: it sees an instance if they share one.
+/// Cull masks of a ray: it sees an instance if they share a bit.
 pub const SEEN: [(&str, u8); 4] = [
     ("everything", 0xff),
     ("all but white", BOARD | BLACK),
@@ -17,7 +17,7 @@ pub const SEEN: [(&str, u8); 4] = [
 ];
 
 const NO_FLAGS: Flags = Flags::empty();
-/// What an instance may say of its triangles.
+/// Flags of an instance, which apply to its triangles.
 pub const FLAGS: [(&str, Flags); 4] = [
     ("none", NO_FLAGS),
     ("facing cull disable", Flags::TRIANGLE_FACING_CULL_DISABLE),

@@ -40,18 +40,18 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         InstanceId, ObjectNormal,
     }
-    /// Which triangles a ray passes through.
+    /// The triangles a ray passes through.
     enum Culling: CULL { Off, Back = "back faces", Front = "front faces" }
-    /// What takes a normal to the world.
+    /// The matrix that takes a normal to the world.
     enum Normals: NORMALS { Matrix, DeviceInverse, HostInverse }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -60,7 +60,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

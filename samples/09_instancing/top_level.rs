@@ -10,7 +10,7 @@ use crate::formation::{Formation, Piece};
 use crate::instances;
 
 common::shader_struct! {
-    /// What a piece has of its own, at its custom index.
+    /// Data of one piece, found by its custom index.
     pub struct PieceRecord {
         inverse: Mat3,
         mesh: u32,

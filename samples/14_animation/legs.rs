@@ -16,7 +16,7 @@ use super::motion::{KINDS, SIDES};
 const BYTES: u64 = 64 << 10;
 const PIECES: usize = 256;
 const FRAMES: u32 = 36_000;
-/// How far from the board's middle a piece may go.
+/// Maximum distance of a piece from the middle of the board.
 const FAR: f32 = 100.0;
 
 const LINES: &str = "a line is 'last FRAME', 'piece SIDE KIND X Y Z', or 'leg FRAME PIECE X Y Z LIFT' and a KIND \

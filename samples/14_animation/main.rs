@@ -41,7 +41,7 @@ struct Demo {
     levels: Levels,
     playback: Playback,
     plan: Plan,
-    /// How many cells the flag shall have across.
+    /// Wanted number of cells across the flag.
     cells: u32,
     options: SceneOptions,
     pipelines: Variants<Show>,
@@ -51,14 +51,14 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
     }
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
@@ -106,7 +106,7 @@ impl Sample for Demo {
         c.camera(&mut self.camera);
     }
 
-    /// What was set is reached before the next frame: its time is that of tracing.
+    /// Applies changed controls before the next frame, whose time is then that of tracing alone.
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.flag.across != self.cells {
             self.flag = Flag::new(gpu, self.cells, self.options)?;

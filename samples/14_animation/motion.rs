@@ -1,10 +1,10 @@
-//! Where every piece is at a frame: a function of the frame's number, and of nothing else.
+//! The place of every piece at a frame: a function of the frame's number alone.
 
 use glam::{Affine3A, Mat3A, Vec3A};
 
 use super::leg::{Motion, UNDER_WAY};
 
-/// Whose a piece is, and what it is.
+/// Names of the sides, and of the kinds of pieces.
 pub const SIDES: [&str; 2] = ["white", "black"];
 pub const KINDS: [&str; 6] = ["pawn", "rook", "knight", "bishop", "queen", "king"];
 

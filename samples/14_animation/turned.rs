@@ -1,4 +1,4 @@
-//! What is turned on a lathe: a table, and whatever has a profile.
+//! Surfaces of revolution: a table, and any other profile.
 
 use std::f32::consts::TAU;
 

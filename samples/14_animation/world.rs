@@ -15,17 +15,17 @@ use super::motion::{KINDS, Placed, SIDES};
 use super::pole;
 use super::turned::{self, TABLE};
 
-/// Where the flag's pole stands, and how the wind turns the cloth.
+/// The position of the flag's pole, and the direction of the wind.
 const POLE: Vec3 = Vec3::new(5.7, TABLE, -5.2);
 const POLE_HEIGHT: f32 = 6.4;
 const WIND: f32 = 2.9;
 
-/// What there is, and where it is at a frame.
+/// Everything in the world, and its place at a frame.
 pub struct World {
     /// The meshes on the device; what moves has a top level of its own.
     pub scene: SceneOnGpu,
     pub motion: Motion,
-    /// Where shaders find records and materials.
+    /// Addresses of records and materials.
     pub addresses: SceneAddresses,
     standing: Vec<Standing>,
     host: Scene,

@@ -26,7 +26,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where shaders find them, and which segment a primitive of the build is.
+    /// Addresses of the strands, and the segment of each primitive of the build.
     pub struct StrandAddresses {
         /// All nodes, chain after chain.
         pub nodes: Address<Node>,
@@ -40,7 +40,7 @@ common::shader_struct! {
 /// All segments of a scene.
 #[derive(Clone, Default)]
 pub struct Strands {
-    /// Where segments begin and end, chain after chain.
+    /// Ends of segments, chain after chain.
     pub nodes: Vec<Node>,
     /// In the order in which they were added.
     pub segments: Vec<Segment>,

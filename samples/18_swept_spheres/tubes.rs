@@ -30,7 +30,7 @@ pub fn meshes(strands: &Strands, sides: u32) -> Vec<Mesh> {
     meshes
 }
 
-/// How many triangles they have, or a few more.
+/// Upper bound of their number of triangles.
 pub fn count(strands: &Strands, sides: u32) -> usize {
     let rings = |chain: &[Segment]| chain.len() + 1 + 2 * sides.div_ceil(4) as usize;
     chains(&strands.segments).map(|chain| 2 * sides as usize * rings(chain)).sum()

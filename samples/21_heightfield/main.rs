@@ -44,16 +44,16 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Steps, Error, March,
     }
-    /// How rays are marched.
+    /// The way to march rays.
     enum Rung: HEIGHTFIELD { Relaxed, Lipschitz, OverRelaxed = "over-relaxed", Bisected }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -61,7 +61,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -16,16 +16,16 @@ use crate::program::{Face, Part, Programs};
 use crate::scenes::{self, PresetName, SolidInstance};
 use crate::solid::{Ball, Bound, REACH, Solid, block};
 
-/// What the solids are built from; where it changes, they are built again.
+/// Parameters of the solids; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
-    /// What stands where.
+    /// The scene of the preset.
     pub preset: PresetName,
-    /// How large everything is.
+    /// The size of everything.
     pub size: Size,
-    /// How far away everything is.
+    /// The distance of everything from the origin.
     pub moved: Moved,
-    /// What is asked of all solids.
+    /// The options of all solids.
     pub modifiers: Modifiers,
 }
 
@@ -37,19 +37,19 @@ impl Default for Build {
 }
 
 impl Build {
-    /// Where everything is.
+    /// The placement of everything.
     pub fn placement(&self) -> Placement {
         Placement::new(self.size, self.moved)
     }
 
-    /// Whether the pieces, too, are other ones or elsewhere.
+    /// Tests whether the pieces also differ, or stand elsewhere.
     pub fn places_otherwise(&self, other: &Self) -> bool {
         Self { modifiers: other.modifiers, ..*self } != *other
     }
 }
 
 common::shader_struct! {
-    /// Where shaders find the solids, and which instances they are.
+    /// Addresses of the solids, and their custom indices.
     pub struct Solids {
         pub planes: Address<Plane>,
         pub balls: Address<Ball>,
@@ -97,9 +97,9 @@ impl SolidRecord {
 pub struct SolidsOnGpu {
     /// Everything.
     pub tlas: AccelerationStructure,
-    /// Where shaders find them: a [`Solids`].
+    /// The buffer with the addresses of the solids: a [`Solids`].
     pub addresses: Buffer,
-    /// What they were built from.
+    /// The parameters they were built from.
     pub build: Build,
     /// Each solid, its clips, and the matrix from the world to its space.
     inside: Vec<(Solid, Vec<Bound>, DAffine3)>,
@@ -184,8 +184,8 @@ impl SolidsOnGpu {
         })
     }
 
-    /// Whether a point of the world lies in a solid that is closed all around. Out of an open one, light
-    /// comes without meeting a surface: that is left to the shaders.
+    /// Tests whether a point of the world lies in a solid that is closed all around. Light enters an open one
+    /// without meeting a surface: that is left to the shaders.
     pub fn enclose(&self, point: DVec3) -> bool {
         self.inside.iter().any(|(solid, clips, to_object)| {
             clips.is_empty() && solid.contains(to_object.transform_point3(point))
@@ -212,7 +212,7 @@ fn filled(data: &[u8]) -> &[u8] {
     if data.is_empty() { &[0; 16] } else { data }
 }
 
-/// Where a placement of the scene puts what stands there.
+/// The transform of an instance after a placement of the scene.
 fn place(transform: &Affine3A, placement: &Placement) -> Affine3A {
     let axis = |axis: glam::Vec3A| (axis.as_dvec3() * placement.size).as_vec3a();
     let Affine3A { matrix3, translation } = *transform;

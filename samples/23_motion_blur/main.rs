@@ -50,17 +50,17 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin", Smear,
     }
-    /// Which times samples have.
+    /// The distribution of the samples' times.
     enum Times: TIMES { Middle, Random, Strata }
-    /// Whether calls of the intersection shader are counted.
+    /// The counting of calls of the intersection shader.
     enum Counting: COUNTING { Off, On }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -71,7 +71,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -1,11 +1,11 @@
-//! Where every piece is at a time, in frames: a function of that time, and of nothing else.
+//! The place of every piece at a time, in frames: a function of that time alone.
 
 use glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
 
 use super::leg::{Leg, Motion, UNDER_WAY, smooth};
 use super::shutter::Pose;
 
-/// Whose a piece is, and what it is.
+/// Names of the sides, and of the kinds of pieces.
 pub const SIDES: [&str; 2] = ["white", "black"];
 pub const KINDS: [&str; 7] = ["pawn", "rook", "knight", "bishop", "queen", "king", "ball"];
 
@@ -30,7 +30,7 @@ impl Placed {
 }
 
 impl Leg {
-    /// How far a piece that is lifted has turned, in degrees; it arrives as it set out.
+    /// The angle by which a lifted piece has turned, in degrees; it arrives as it set out.
     fn turned(&self, time: f64, turns: u32) -> f32 {
         let across = smooth((self.part(time) - 0.2) / 0.6);
         if self.lift > 0.0 && across < 1.0 { 360.0 * turns as f32 * across } else { 0.0 }

@@ -17,18 +17,18 @@ use super::turned::{self, TABLE};
 /// The radius of a ball.
 pub const BALL: f32 = 0.5;
 
-/// What there is, and where it is at a time.
+/// Everything in the world, and its place at a time.
 pub struct World {
     /// The meshes on the device; what moves has a top level of its own.
     pub scene: SceneOnGpu,
     pub motion: Motion,
-    /// Where shaders find records and materials.
+    /// Addresses of records and materials.
     pub addresses: SceneAddresses,
     /// The meshes of the kinds of pieces, in their order.
     pub kinds: Vec<usize>,
     standing: Vec<Standing>,
     host: Scene,
-    /// How many triangles each mesh is built from.
+    /// Number of triangles that each mesh is built from.
     primitives: Vec<u32>,
     _records: Buffer,
 }
@@ -39,11 +39,11 @@ struct Standing {
     at: Affine3A,
 }
 
-/// What is there while the shutter is open.
+/// An object seen while the shutter is open.
 pub struct Shown {
     pub mesh: usize,
     pub record: usize,
-    /// Where it is when the shutter opens.
+    /// Transform when the shutter opens.
     pub at: Affine3A,
     /// Its poses when the shutter opens and when it closes, if these differ.
     pub moved: Option<[Pose; 2]>,
@@ -114,7 +114,7 @@ impl World {
         still.chain(moving).collect()
     }
 
-    /// How many instances there are.
+    /// Number of instances.
     pub fn count(&self) -> usize {
         self.standing.len() + self.motion.pieces.len()
     }
@@ -125,7 +125,7 @@ impl World {
         counts.max().unwrap_or(0)
     }
 
-    /// How many a mesh is built from: its own, in order, some of them perhaps twice.
+    /// Number of triangles that a mesh is built from: its own, in order, some of them perhaps twice.
     pub fn triangles(&self, mesh: usize) -> u32 {
         self.primitives[mesh]
     }

@@ -117,14 +117,14 @@ impl Grid {
         grids.find(|grid| grid.is_at_least(255, high)).expect("the steps go beyond REACH")
     }
 
-    /// Whether a place on the grid is never above a number, however its sum is rounded.
+    /// Tests whether a place on the grid is never above a number, however its sum is rounded.
     fn is_at_most(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
         let lost = sum.abs() < f64::from(f32::MIN_POSITIVE) && x < 0.0;
         !lost && (sum < f64::from(x) || sum == f64::from(x) && rest <= 0.0)
     }
 
-    /// Whether it is never below.
+    /// Tests whether it is never below.
     fn is_at_least(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
         let lost = sum.abs() < f64::from(f32::MIN_POSITIVE) && x > 0.0;

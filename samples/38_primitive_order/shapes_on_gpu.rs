@@ -12,18 +12,18 @@ use crate::order::Order;
 use crate::shapes::{self, Box, SceneKind, Shapes, Sphere};
 use crate::tree::{self, Node};
 
-/// What the shapes are built from; where it changes, they are built again.
+/// Parameters of the shapes; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
     pub count: u32,
     pub order: Order,
-    /// Whether the boxes around shapes are larger than the shapes.
+    /// True if the boxes around shapes are larger than the shapes.
     pub margin: bool,
 }
 
 common::shader_struct! {
-    /// Where shaders find the shapes, which of them a primitive of the build is, and the trees.
+    /// Addresses of the shapes, the shape of each primitive of the build, and the trees.
     pub struct ShapeAddresses {
         pub spheres: Address<Sphere>,
         pub boxes: Address<Box>,
@@ -41,14 +41,14 @@ common::shader_struct! {
 /// The shapes in device memory, and the top level that holds them beside the meshes.
 pub struct ShapesOnGpu {
     pub tlas: AccelerationStructure,
-    /// Where shaders find the shapes: a [`ShapeAddresses`].
+    /// The buffer with the addresses of the shapes: a [`ShapeAddresses`].
     pub addresses: Buffer,
-    /// How many boxes a line through all spheres, or all boxes, is expected to be tested against.
+    /// Expected number of boxes tested against a line through all spheres, or all boxes.
     pub expected_tests: [f64; 2],
     pub host_c: HostC,
     /// Corners of the box around everything.
     bounds: order::Bounds,
-    /// How far rays may begin from a shape; the margin of the boxes grows with it.
+    /// Bound on the distance from a ray's origin to a shape; the margin of the boxes grows with it.
     reach: f32,
     build: Build,
     _levels: Vec<AccelerationStructure>,
@@ -157,7 +157,7 @@ impl ShapesOnGpu {
         })
     }
 
-    /// Whether they must be made again, for another build or because the eye has gone far.
+    /// Tests whether they must be rebuilt, for other parameters or because the eye has moved far.
     pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
         let reach = if build.margin { reach(self.bounds, eye) } else { 0.0 };
         build != self.build || reach != self.reach

@@ -10,7 +10,7 @@ use crate::formation::{Formation, Piece};
 use crate::instances;
 
 common::shader_struct! {
-    /// What a piece has of its own, at its custom index.
+    /// Data of one piece, found by its custom index.
     pub struct PieceRecord {
         inverse: Mat3,
         at: Vec3,
@@ -20,8 +20,7 @@ common::shader_struct! {
     }
 }
 
-/// What the instances are made for: where the set is, seen from an origin, and the flags of its white
-/// pieces.
+/// Parameters of the instances: the set's place seen from an origin, and the flags of its white pieces.
 #[derive(Clone, Copy, PartialEq)]
 pub struct TopLevelBuild {
     pub shift: DVec3,

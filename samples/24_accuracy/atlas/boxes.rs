@@ -29,10 +29,10 @@ const CASES: [(f64, f64); 9] = [
     (10.0, 1e6),
 ];
 
-/// What 08 lets a box be tested wrongly by: so many times 2^-24 of the way to it.
+/// The error that 08 allows the device's test of a box: so many times 2^-24 of the distance to it.
 const RELIED: f64 = 10.0;
 
-/// How deep within the box a ray passes that was lost, by 2^-24 of the way to the box's far side.
+/// Depth within the box of the deepest lost ray, by 2^-24 of the distance to the box's far side.
 const DEEPEST: &str = "deepest lost, 2^-24 of way";
 
 /// Measures `rays` rays a case.
@@ -83,7 +83,7 @@ impl Growth {
     }
 }
 
-/// What became of a case's rays.
+/// Counts of a case's rays by result.
 #[derive(Default)]
 struct Tally {
     meet: u64,
@@ -92,7 +92,7 @@ struct Tally {
     /// In ULP of the way from the ray's origin to the box, and of the box's largest coordinate.
     way: Growth,
     coordinate: Growth,
-    /// How deep within the box a ray passes that was lost, by 2^-24 of the way.
+    /// Depth within the box of the deepest lost ray, by 2^-24 of the distance.
     deepest: f64,
 }
 

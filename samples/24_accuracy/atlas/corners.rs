@@ -15,7 +15,7 @@ use crate::query::Ray;
 /// Triangles beside each other, none behind another.
 const TRIANGLES: usize = 512;
 
-/// What a device must offer: the extension, and with it the feature.
+/// Requirements of the device: the extension, and with it the feature.
 const NEEDED: [&str; 2] = ["VK_KHR_ray_tracing_position_fetch", "rayTracingPositionFetch"];
 
 /// Asks the same device once more, opened with what this takes; the row, and the messages of validation.

@@ -265,7 +265,7 @@ pub fn depth<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 32)
 }
 
-/// How often it is scattered.
+/// Maximum number of times a path is scattered.
 pub fn bounces<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 8)
 }
@@ -275,7 +275,7 @@ pub fn blades<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 12)
 }
 
-/// How far away a lens is in focus.
+/// The distance at which a lens is in focus.
 pub fn maybe_focus<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
     within(from, f64::from(*FOCUS.start()), f64::from(*FOCUS.end())).map(Some)
 }
@@ -291,13 +291,13 @@ pub fn maybe_pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Patter
     word(from, "pattern", &patterns).map(Some)
 }
 
-/// How light enters a material.
+/// The kind of glass, thick or thin.
 pub fn maybe_glass<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GlassKind>, D::Error> {
     let kinds = [("thick", GlassKind::Thick), ("thin", GlassKind::Thin)];
     word(from, "kind of glass", &kinds).map(Some)
 }
 
-/// Where a light is.
+/// The kind of a light, directional or point.
 pub fn light_kind<'de, D: Deserializer<'de>>(from: D) -> Result<LightKind, D::Error> {
     let kinds = [("directional", LightKind::Directional), ("point", LightKind::Point)];
     word(from, "kind of light", &kinds)

@@ -24,7 +24,7 @@ use crate::{Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLen
 const MOST: usize = 100_000;
 
 impl Description {
-    /// What the file describes.
+    /// Builds the composition that the file describes.
     ///
     /// # Errors
     /// If it contradicts itself, or names what there is not.

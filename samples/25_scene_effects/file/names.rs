@@ -1,4 +1,4 @@
-//! What the tables of a scene file call by name.
+//! Names in the tables of a scene file.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::source::Source;
 use crate::Finish;
 
-/// What is called by a name, by position: the first of several.
+/// Positions by name: the first of several.
 pub(super) type Numbers = HashMap<String, usize>;
 
 /// The numbers of names.

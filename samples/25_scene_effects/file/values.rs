@@ -74,7 +74,7 @@ impl MaterialTable {
         material.transmission = self.through.unwrap_or(material.transmission);
     }
 
-    /// Whether nothing is said of glass that it cannot be.
+    /// Checks that nothing is said of glass that it cannot be.
     pub(super) fn check_glass(&self) -> Result<(), &'static str> {
         let &Self { mirror, opacity, pattern, lines, .. } = self;
         match (mirror, opacity, pattern.is_some() || lines.is_some_and(|width| width > 0.0)) {

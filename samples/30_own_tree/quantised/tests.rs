@@ -29,7 +29,7 @@ fn node(boxes: [Option<Bounds>; 2]) -> Node {
     Node { children: boxes.map(|bounds| bounds.map_or(Child::NONE, child)) }
 }
 
-/// Whether each box holds the one that it stands for, whoever finds it; and one around nothing holds nothing.
+/// Tests whether each box holds the one that it stands for, whoever finds it; and one around nothing holds nothing.
 fn holds(exact: &Node) -> bool {
     let packed = quantised(&[*exact]).unwrap()[0];
     let held = exact.children.iter().enumerate().all(|(side, child)| {
