@@ -287,7 +287,7 @@ fn a_readers_copy_is_checked_and_never_overwritten() {
     assert!(fixture.read("shaders/02_basic/camera.rgen").contains("payload);"));
 }
 
-/// What readers of the book have answered.
+/// Answers that readers of the book have given.
 #[test]
 fn answers_are_judged_by_what_matters_in_them() {
     for (name, answer, right) in [

@@ -97,7 +97,7 @@ impl Built {
     }
 }
 
-/// What the tests of one device share.
+/// The scenes and programs that the tests of one device share.
 struct Bench {
     gpu: Gpu,
     builder: DeviceBuilder,

@@ -1,4 +1,4 @@
-//! How far two pictures may be apart that come from the same formulas.
+//! Bounds on the difference of two pictures that come from the same formulas.
 //!
 //! Vulkan promises equal results of *identical* pipelines, made of the same SPIR-V and the same state
 //! (specification, appendix Invariance, rules 4 and 7). Of two others it says no more than how far each may be
@@ -59,8 +59,8 @@ pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     }
 }
 
-/// How far a chapter's picture by this device may be from the golden one, by the mean FLIP: `own` is what
-/// the software driver, which made it, keeps. `None` if a picture shows the device's own errors.
+/// Bound on the mean FLIP between a chapter's picture by this device and the golden one: `own` is the bound for the
+/// software driver, which made it. `None` if a picture shows the device's own errors.
 pub(crate) fn golden_tolerance(name: &str, picture: &Picture, own: f32) -> Option<f32> {
     if device::is_software() {
         return Some(own);

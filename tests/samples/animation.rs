@@ -179,8 +179,8 @@ fn everything_is_where_its_formula_says() {
     figures::hold("14_animation/cloth", json!({ "largest": hundred_millionths / 1e8 }));
 }
 
-/// Whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a candidate
-/// within the bounds, or it is on the flag, whose corners are rounded otherwise here.
+/// Tests whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a
+/// candidate within the bounds, or it is on the flag, whose corners are rounded otherwise here.
 fn is_at_an_edge(
     exact: &reference::scene::Scene,
     ray: &Ray,

@@ -149,7 +149,7 @@ fn same_by_both(size: &str, scene: &[&str]) -> Run {
     own
 }
 
-/// Whether a run's pipeline is made of these stages, by the modules that the driver got.
+/// Checks that a run's pipeline is made of these stages, by the modules that the driver got.
 fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str) {
     let pipeline = &report["chapter"]["pipeline"];
     assert_eq!(pipeline["effects"], json!(effects.names()), "{name}");
@@ -318,7 +318,7 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
     }
 }
 
-/// What `Cargo.toml` says of a chapter: its name and its effects.
+/// Entries of `Cargo.toml` for each chapter: its name and its effects.
 fn declared() -> Vec<(String, Vec<String>)> {
     let manifest: toml::Value =
         toml::from_str(&std::fs::read_to_string(root().join("Cargo.toml")).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! What is wrong on a page is said in a line with its place, and then there is no site.
+//! Faults of a page: each is reported in a line with its place, and then there is no site.
 
 use std::fs;
 use std::path::Path;

@@ -16,7 +16,7 @@ struct Losing {
     _layer: Layer,
 }
 
-/// How a sample is opened: with arguments and environment.
+/// The way to open a sample: with arguments and environment.
 type Open = fn(&str, &[&str], &[(&str, &Path)]) -> Desk;
 
 impl Losing {

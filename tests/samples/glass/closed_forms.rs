@@ -71,7 +71,7 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
     figures::hold("27_glass/slab", json!({ "aside": aside, "off": off, "turned": turned }));
 }
 
-/// Where a ray passes nearest to the z axis.
+/// The point where a ray passes nearest to the z axis.
 fn crossing(origin: DVec3, direction: DVec3) -> f64 {
     let (o, d) = (origin.truncate(), direction.truncate());
     origin.z - direction.z * o.dot(d) / d.dot(d)

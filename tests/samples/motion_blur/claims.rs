@@ -1,4 +1,4 @@
-//! What the chapter says of shutters, methods and poses.
+//! Claims of the chapter about shutters, methods and poses.
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
@@ -40,7 +40,7 @@ fn without_a_shutter_it_is_its_parent_to_the_bit() {
     assert!(differs(&["shutter=0"]), "nothing turns");
 }
 
-/// Where nothing is under way, samples are all the same, and their mean is what one sees.
+/// Samples are all the same if nothing is under way, and so is their mean.
 #[test]
 fn a_board_at_rest_is_as_sharp_as_with_one_sample() {
     let [one, many] =
@@ -125,7 +125,7 @@ fn chapter(sets: &[&str]) -> Value {
     render(NAME, "240x150", &sets.collect::<Vec<_>>()).report["chapter"].clone()
 }
 
-/// What is counted of both methods, in one frame of 16 samples.
+/// Counts of both methods, in one frame of 16 samples.
 #[test]
 fn methods_cost_what_is_counted() {
     let of = |method| chapter(&["frame=934", "shutter=2", "count calls=on", method]);

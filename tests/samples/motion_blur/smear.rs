@@ -1,4 +1,4 @@
-//! How long each pixel sees what is under way: a ball by its closed form, a turning knight at 1,024 times.
+//! Time for which each pixel sees a moving object: a ball by its closed form, a turning knight at 1,024 times.
 
 use std::f64::consts::PI;
 
@@ -42,8 +42,8 @@ fn seen(file: &str, size: &str, sets: &[&str]) -> (Vec<(DVec3, DVec3)>, Vec<f64>
     (rays.collect(), smear)
 }
 
-/// What part of the time from 0 to 1 a line meets a ball that moves by `way`: that where |(o - c)×d| is less than the
-/// radius times |d|, a quadratic in the time.
+/// The part of the time from 0 to 1 in which a line meets a ball that moves by `way`: that where |(o - c)×d| is
+/// less than the radius times |d|, a quadratic in the time.
 fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
     let (from, by) = ((o - center).cross(d), -way.cross(d));
     let (a, b) = (by.length_squared(), from.dot(by));
@@ -158,7 +158,7 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
     );
 }
 
-/// Whether a ray meets a triangle (Möller and Trumbore 1997, which the shader does not use).
+/// Tests whether a ray meets a triangle (Möller and Trumbore 1997, which the shader does not use).
 fn meets(o: DVec3, d: DVec3, a: DVec3, b: DVec3, c: DVec3) -> bool {
     let (e1, e2) = (b - a, c - a);
     let p = d.cross(e2);

@@ -15,7 +15,7 @@ use crate::structures::{
 /// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`.
 const FOUR_STATES: u32 = 2;
 
-/// What a micromap is built of.
+/// Input of a micromap's build.
 pub struct Input<'a> {
     data: &'a MicromapData,
     usages: &'a [Usage],
