@@ -898,7 +898,7 @@ impl<'a> Gpu<'a> {
     }
 }
 
-// ---- Which device
+// ---- Choice of the device
 
 /// A physical device, and what it lacks; nothing if it will do.
 struct Candidate {
@@ -1007,7 +1007,7 @@ fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> 
     })
 }
 
-// ---- What validation says
+// ---- Messages of validation
 
 /// Warnings and errors from validation, in order.
 type Messages = Mutex<Vec<String>>;
@@ -1060,7 +1060,7 @@ unsafe extern "system" fn on_message(
     vk::FALSE
 }
 
-// ---- What the program tells
+// ---- Report of the steps
 
 /// The program's account of its work, one line per step. Silent where the report is on standard output.
 struct Story {
