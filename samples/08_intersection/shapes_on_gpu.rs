@@ -66,6 +66,7 @@ impl ShapesOnGpu {
         let reach = if build.margin { reach(everything, eye) } else { 0.0 };
 
         let ordering = scene.options.ordering;
+        let orders = [&spheres, &boxes].map(|bounds| order::for_build(gpu, bounds, ordering));
         // ANCHOR: instances
         let mut instances = Vec::new();
         for (index, piece) in pieces {
@@ -74,15 +75,8 @@ impl ShapesOnGpu {
         }
         // One more instance for all spheres and one for all boxes. The record offset makes the device
         // run their intersection shaders: hit group 0 is that of triangles, 1 of spheres, 2 of boxes.
-        let spheres = Level::new(
-            gpu,
-            "spheres",
-            &spheres,
-            &order::for_build(gpu, &spheres, ordering),
-            reach,
-        )?;
-        let boxes =
-            Level::new(gpu, "boxes", &boxes, &order::for_build(gpu, &boxes, ordering), reach)?;
+        let spheres = Level::new(gpu, "spheres", &spheres, &orders[0], reach)?;
+        let boxes = Level::new(gpu, "boxes", &boxes, &orders[1], reach)?;
         for (record, level) in [(1, &spheres), (2, &boxes)] {
             if let Some(blas) = &level.blas {
                 let index = source.instances.len() + record as usize - 1;
