@@ -634,7 +634,7 @@ impl std::fmt::Display for Structure {
     }
 }
 
-/// Who writes memory, and who reads it.
+/// Memory by its writer and its reader.
 #[derive(Clone, Copy)]
 enum Place {
     /// The device alone.
@@ -645,7 +645,7 @@ enum Place {
     ToHost,
 }
 
-/// What the helpers share, and every object made, to be destroyed in reverse order.
+/// The handles that the helpers share, and every object made, to be destroyed in reverse order.
 struct Gpu<'a> {
     device: &'a Device,
     structures: &'a khr::acceleration_structure::Device,
@@ -899,7 +899,7 @@ impl<'a> Gpu<'a> {
     }
 }
 
-// ---- Which device
+// ---- Choice of the device
 
 /// A physical device, and what it lacks; nothing if it will do.
 struct Candidate {
@@ -1008,9 +1008,9 @@ fn choose(candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> 
     })
 }
 
-// ---- What validation says
+// ---- Messages of validation
 
-/// What validation said: warnings and errors, in order.
+/// Warnings and errors from validation, in order.
 type Messages = Mutex<Vec<String>>;
 
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -1061,9 +1061,9 @@ unsafe extern "system" fn on_message(
     vk::FALSE
 }
 
-// ---- What the program tells
+// ---- Report of the steps
 
-/// What the program tells while it works, a line a step. Silent where the report is on standard output.
+/// The program's account of its work, one line per step. Silent where the report is on standard output.
 struct Story {
     lines: Vec<String>,
     silent: bool,

@@ -30,14 +30,14 @@ struct Demo {
 
 // ANCHOR: show
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
 }
 // ANCHOR_END: show
 
 // ANCHOR: push
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

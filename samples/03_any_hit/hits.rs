@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use ash::vk;
 use common::gpu::{Buffer, Gpu};
 
-/// How many hits of a ray the list has room for; the same number is in `push.glsl`.
+/// Capacity of a ray's list of hits; `push.glsl` has the same number.
 pub const MAX_HITS: u32 = 32;
 
 common::shader_struct! {

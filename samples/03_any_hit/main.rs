@@ -38,13 +38,13 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
-    /// What the any-hit shader decides by.
+    /// The rule by which the any-hit shader decides.
     enum Mode: MODE { Opaque, Cutout = "cut-out", Random, Naive = "naive random", AllHits }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -52,7 +52,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

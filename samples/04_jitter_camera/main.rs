@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
+/// Pieces in the tabulated inverse of a filter's CDF; `filter.glsl` has the same number.
 const PIECES: usize = 1024;
 
 struct Demo {
@@ -37,14 +37,14 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction" }
-    /// What weighs a pixel's neighbourhood.
+    /// The filter that weighs a pixel's neighbourhood.
     enum Filter: FILTER { Box, Tent, BlackmanHarris = "Blackman-Harris" }
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -22,7 +22,7 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How often a path may be reflected at most.
+/// Maximum number of reflections of a path.
 const MAX_DEPTH: u32 = 8;
 
 struct Demo {
@@ -38,22 +38,22 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
     }
 }
 
-/// What a pipeline is made for: the specialization constant of its shaders, and the method.
+/// The specialization constant of a pipeline's shaders, and the method.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    /// How often a path may be reflected if hits trace the rays; `None` if a loop does.
+    /// Maximum number of reflections of a path if hits trace the rays; `None` if a loop does.
     recursive: Option<u32>,
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -7,14 +7,14 @@ use common::gpu::{Binding, Gpu, HitGroup, RayTracingPipeline, TextureTable};
 use super::{Constants, MAX_DEPTH, Push};
 
 common::shader_enum! {
-    /// What traces a path: a loop, or hits by recursion.
+    /// The way to trace a path: a loop, or hits by recursion.
     enum Method { Iterative, Recursive }
 }
 
-/// Whether hits trace the rays, and how deep these may nest.
+/// The method that traces paths, and the maximum number of reflections by recursion.
 pub struct Recursion {
     method: Method,
-    /// How often a path may be reflected by recursion on this device.
+    /// Maximum number of reflections of a path by recursion on this device.
     deepest: u32,
 }
 
@@ -31,7 +31,7 @@ impl Recursion {
         if self.method == Method::Recursive { self.deepest } else { MAX_DEPTH }
     }
 
-    /// What [`Constants::recursive`] has to be for paths of this depth.
+    /// The value of [`Constants::recursive`] for paths of this depth.
     pub fn nested(&self, depth: u32) -> Option<u32> {
         (self.method == Method::Recursive).then_some(depth)
     }

@@ -23,7 +23,7 @@ fn main() -> ExitCode {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Direction = "ray direction", Group, Record }
     /// The hit groups, in the order in which the pipeline gets them.
     enum Group: GROUP { Plain, Marble, Wood, Lacquer, Inspect }
@@ -49,7 +49,7 @@ struct Demo {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -22,10 +22,3 @@ pub fn bottom(
     let options = BuildOptions { compact: true, ..BuildOptions::default() };
     AccelerationStructure::bottom(gpu, name, &[geometry], options)
 }
-
-/// How far a ray may begin from a shape: at the eye or, as shadow rays do, anywhere on the scene.
-/// Rounded up to a power of two, so that few steps of a camera change it.
-pub fn reach((low, high): Bounds, eye: Vec3) -> f32 {
-    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
-    farthest.length().log2().ceil().exp2()
-}

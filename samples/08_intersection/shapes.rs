@@ -1,10 +1,12 @@
 //! The scenes of this chapter: spheres and boxes, and where they are.
 
-use common::gpu::Address;
 use common::gpu::order::Bounds;
+use common::gpu::sphere_bounds;
 use common::model::Model;
 use common::scene::{Camera, Instance, Material};
 use glam::{DVec3, Vec3};
+
+use super::random::unit;
 
 common::shader_struct! {
     /// A sphere.
@@ -24,31 +26,10 @@ common::shader_struct! {
     }
 }
 
-common::shader_struct! {
-    /// Where shaders find them, and which of them a primitive of the build is.
-    pub struct ShapeAddresses {
-        pub spheres: Address<Sphere>,
-        pub boxes: Address<Box>,
-        pub sphere_ids: Address,
-        pub box_ids: Address,
-    }
-}
-
 impl Sphere {
     /// Corners of the box around it, never inside it by rounding.
     pub fn bounds(&self) -> Bounds {
-        let grown = |sign: f32| {
-            Vec3::from_array(self.center.to_array().map(|c| {
-                let exact = f64::from(c) + f64::from(sign * self.radius);
-                let rounded = exact as f32;
-                match f64::from(sign) * (exact - f64::from(rounded)) > 0.0 {
-                    true if sign > 0.0 => rounded.next_up(),
-                    true => rounded.next_down(),
-                    false => rounded,
-                }
-            }))
-        };
-        (grown(-1.0), grown(1.0))
+        sphere_bounds(self.center, self.radius)
     }
 }
 
@@ -57,14 +38,14 @@ common::shader_enum! {
     pub enum SceneKind { Chess, Grid, RandomBall, Planet, OneSphere, Dust }
 }
 
-/// What there is besides triangles.
+/// The shapes beside the triangles.
 #[derive(Default)]
 pub struct Shapes {
     pub spheres: Vec<Sphere>,
     pub boxes: Vec<Box>,
 }
 
-/// How many primitives a scene has if nobody says; 0 where that is not free.
+/// Default number of primitives in a scene; 0 where it is fixed.
 pub fn default_count(scene: SceneKind) -> u32 {
     match scene {
         SceneKind::RandomBall => 1024,
@@ -206,15 +187,16 @@ impl Shapes {
             let depth = -2.4 - 9.0 * z;
             let foot = Vec3::new((x - 0.5) * -0.9 * depth, 0.0, depth);
             let material = first + i % 5;
-            match kind < 0.5 {
-                true => self.ball(foot + Vec3::Y * size, size, material),
-                false => self.block(foot, size, 2.0 * size, material),
+            if kind < 0.5 {
+                self.ball(foot + Vec3::Y * size, size, material);
+            } else {
+                self.block(foot, size, 2.0 * size, material);
             }
         }
     }
 }
 
-/// Whether *chess* puts shapes in a piece's place.
+/// Tests whether *chess* replaces a piece with shapes.
 pub fn is_replaced(model: &Model, piece: &Instance) -> bool {
     ["pawn", "rook"].contains(&model.meshes[piece.mesh].name.as_str())
 }
@@ -238,23 +220,6 @@ pub fn materials() -> impl Iterator<Item = Material> {
         shininess: 120.0,
         ..Material::default()
     })
-}
-
-/// Four numbers in [0, 1) that belong to a shape and a purpose: the hash of
-/// `shaders/common/random.glsl`.
-fn unit(shape: u32, purpose: u32) -> [f64; 4] {
-    let mut v = [shape, purpose, 0, 0]
-        .map(|word: u32| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
-    // One component after the other: each takes what the ones before it have become.
-    let stir = |v: &mut [u32; 4]| {
-        for (i, (a, b)) in [(1, 3), (2, 0), (0, 1), (1, 2)].into_iter().enumerate() {
-            v[i] = v[i].wrapping_add(v[a].wrapping_mul(v[b]));
-        }
-    };
-    stir(&mut v);
-    v = v.map(|word| word ^ word >> 16);
-    stir(&mut v);
-    v.map(|word| f64::from(word >> 8) / f64::from(1 << 24))
 }
 
 /// A point that is uniform in the unit ball: the first in a cube that falls into it.

@@ -8,7 +8,7 @@ use glam::{Affine3A, DVec3, Mat3, Vec2, Vec3};
 common::shader_enum! {
     /// The scenes.
     pub enum SceneKind { Ripples, Specimens }
-    /// How a mesh is there many times: by instances, or by copies of it.
+    /// The way to repeat a mesh: by instances, or by copies of it.
     pub enum Geometry { Instances, Copies }
 }
 
@@ -17,7 +17,7 @@ pub const BOARD: u8 = 1;
 pub const WHITE: u8 = 2;
 pub const BLACK: u8 = 4;
 
-/// What meshes and pieces are made from; where it changes, they are made again.
+/// Parameters of meshes and pieces; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
@@ -40,11 +40,11 @@ pub struct Piece {
     pub material: usize,
     /// Turns, stretches, shears and mirrors the mesh.
     pub linear: Mat3,
-    /// Where it stands.
+    /// Position.
     pub at: DVec3,
     /// Wood is lighter and darker: multiplies the base colour.
     pub tone: f32,
-    /// Which masks see it: one of [`BOARD`], [`WHITE`], [`BLACK`].
+    /// Mask of the instance: one of [`BOARD`], [`WHITE`], [`BLACK`].
     pub mask: u8,
 }
 
@@ -130,7 +130,7 @@ impl Formation {
         if scene == SceneKind::Specimens { Ok(set.specimens()) } else { Ok(set.ripples(squares)) }
     }
 
-    /// How many triangles are seen, all pieces together.
+    /// Number of visible triangles, all pieces together.
     pub fn triangles(&self, model: &Model) -> usize {
         self.pieces.iter().map(|piece| model.meshes[piece.mesh].triangles.len()).sum()
     }
@@ -154,7 +154,7 @@ impl Formation {
     }
 }
 
-/// What there is to place, by name.
+/// Meshes and materials to place, by name.
 struct Set {
     /// King, queen, bishop, knight, rook, pawn.
     meshes: [usize; 6],
@@ -267,7 +267,7 @@ impl Set {
 
 const WAVE_LENGTH: f64 = 8.0;
 const WAVE_HEIGHT: f64 = 1.6;
-/// Where a wave is half as high as in the middle.
+/// Distance at which a wave is half as high as in the middle.
 const FADING: f64 = 25.0;
 
 /// The `count` squares nearest to the middle.

@@ -4,6 +4,7 @@
 //! a piece; and normals under any matrix.
 
 mod formation;
+mod instances;
 mod pieces;
 mod top_level;
 
@@ -17,8 +18,9 @@ use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Scene
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use formation::{Build, Geometry, SceneKind};
 use glam::Vec3;
+use instances::{FLAGS, SEEN};
 use pieces::Pieces;
-use top_level::{FLAGS, PieceRecord, SEEN};
+use top_level::PieceRecord;
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
@@ -38,18 +40,18 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         InstanceId, ObjectNormal,
     }
-    /// Which triangles a ray passes through.
+    /// The triangles a ray passes through.
     enum Culling: CULL { Off, Back = "back faces", Front = "front faces" }
-    /// What takes a normal to the world.
+    /// The matrix that takes a normal to the world.
     enum Normals: NORMALS { Matrix, DeviceInverse, HostInverse }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -58,7 +60,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

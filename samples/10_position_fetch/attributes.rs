@@ -1,4 +1,4 @@
-//! What is left of a vertex without its position: normal and texture coordinates, 20 bytes of 32.
+//! Attributes of a vertex without its position: normal and texture coordinates, 20 bytes of 32.
 
 use anyhow::Result;
 use common::gpu::{Address, Buffer, Gpu};
@@ -14,7 +14,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where a shader finds the vertices of a mesh.
+    /// The address of a mesh's vertices.
     pub struct MeshRecord {
         vertices: Address<Attributes>,
     }

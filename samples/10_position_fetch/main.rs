@@ -32,16 +32,16 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Geometric = "geometric normal", Triangle, Hit, Direction = "ray direction",
         HitPoint = "hit point", RayPoint = "ray point",
     }
-    /// Where the hit shader finds the corners of its triangle.
+    /// The source of a triangle's corners in the hit shader.
     enum Positions: POSITIONS { Structure = "acceleration structure", Buffer }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -49,7 +49,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -25,8 +25,8 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How often a path may be reflected at most. If each surface takes 5 % of
-/// its light, less than 2·10^-6 of it is left by then.
+/// Maximum number of reflections of a path. If each surface takes 5 % of its light, less than
+/// 2·10^-6 of it is left by then.
 const MAX_DEPTH: u32 = 256;
 
 struct Demo {
@@ -47,13 +47,13 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Direct, Bounced, Rays }
-    /// How samples are added up.
+    /// The way to add up samples.
     enum Sum: SUM { Integers, Floats }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -63,7 +63,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

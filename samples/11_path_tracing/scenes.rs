@@ -22,13 +22,13 @@ common::shader_enum! {
         /// A square that shines at a right angle to one that does not.
         PerpendicularSquares,
     }
-    /// What a ray sees that meets nothing.
+    /// The light of a ray that meets nothing.
     pub enum Sky: SKY { Day, White, Black }
 }
 
-/// What stands where, how it is looked at, and what lights it.
+/// A scene with its camera and its lights.
 pub struct Staged {
-    /// What is placed, and the view.
+    /// The placed meshes, and the view.
     pub scene: Scene,
     /// The sun.
     pub sun: Sun,

@@ -45,18 +45,18 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Rungs,
     }
-    /// How a ray meets the plane.
+    /// The formula that intersects the plane.
     enum Rung: PLANE { Pov, Point, CutOff = "cut-off", Compensated }
-    /// When the plane is tested: before the scene is traced, or after.
+    /// The moment to test the plane: before the scene is traced, or after.
     enum PlaneTest: TEST { Before, After }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -67,7 +67,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
@@ -78,7 +78,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What is in the world beside the scene.
+    /// The world beside the scene.
     struct World {
         reflections: Address,
         plane: Plane,

@@ -7,19 +7,19 @@ use common::scene::plane::{HalfSpace, Plane};
 use glam::{DVec3, Vec3};
 
 common::shader_enum! {
-    /// What is seen of the plane from inside: its surface, a colour of its own, or nothing.
+    /// The look of the plane from inside: its surface, a colour of its own, or nothing.
     pub enum Inside: INSIDE { Surface, Color, Through }
 }
 
 /// A plane without end, as a scene has it beside its triangles.
 pub struct InfinitePlane {
-    /// Whether it is there.
+    /// True if there is a plane.
     pub exists: bool,
     /// The plane is the surface of this.
     pub half_space: HalfSpace,
-    /// What is seen of it from inside.
+    /// The look of the plane from inside.
     pub inside: Inside,
-    /// What lies on it.
+    /// The board on it.
     pub board: Board,
 }
 
@@ -51,7 +51,7 @@ impl InfinitePlane {
         c.slider("plane roughness", &mut board.roughness, 0.05..=1.0);
     }
 
-    /// Whether there is a plane: a normal of length 0 has none.
+    /// Tests whether there is a plane: a normal of length 0 has none.
     pub fn is_there(&self) -> bool {
         self.exists && self.half_space.normal != Vec3::ZERO
     }

@@ -10,23 +10,23 @@ use glam::{Affine3A, DVec3, Mat3A, Vec2, Vec3, Vec3Swizzles};
 common::shader_enum! {
     /// The names of the presets.
     pub enum PresetName { Board, FourSpheres, Pov }
-    /// Which lights shine.
+    /// The lights that shine.
     pub enum Lights { Directional, Point, Both }
 }
 
-/// What stands where, how it is lit and looked at, and the plane beside it.
+/// A scene with its lights, its camera, and the plane beside it.
 pub struct Preset {
-    /// What is placed, and the view.
+    /// The placed meshes, and the view.
     pub scene: Scene,
     /// The sun.
     pub sun: Sun,
     /// The lamp.
     pub lamp: PointLight,
-    /// Which of them shine.
+    /// The lights that shine.
     pub lights: Lights,
     /// The plane is the surface of this.
     pub plane: HalfSpace,
-    /// What lies on it.
+    /// The board on it.
     pub board: Board,
 }
 
@@ -68,9 +68,9 @@ pub fn extend(model: &mut Model) {
     }
 }
 
-/// What part of the light a material mirrors when looked at straight. In an MTL file that is the
-/// specular colour, if the illumination model reflects (`illum 3`); the balls have a list of
-/// their own, and their mirror images have their colour.
+/// The part of the light that a material mirrors at normal incidence. In an MTL file that is the
+/// specular colour, if the illumination model reflects (`illum 3`); the balls have a list of their
+/// own, and their mirror images have their colour.
 pub fn reflection(material: &Material) -> Vec3 {
     match PAINTS.iter().find(|paint| paint.0 == material.name) {
         Some(Paint(_, color, _, reflection)) => color / color.max_element() * reflection,

@@ -1,4 +1,4 @@
-//! What a material is made of: a pattern and its two colours, as data that a shader chooses by.
+//! The finish of a material: a pattern and its two colours, as data by which a shader chooses.
 
 use common::model::Model;
 use glam::Vec3;
@@ -9,13 +9,13 @@ common::shader_enum! {
 }
 
 common::shader_struct! {
-    /// How a material looks.
+    /// The look of a material.
     pub struct Finish {
-        /// Where the pattern is 0, linear RGB.
+        /// Colour where the pattern is 0, linear RGB.
         first: Vec3,
         /// Cells of the pattern's lattice a unit of the mesh's own space.
         scale: f32,
-        /// Where the pattern is 1, linear RGB.
+        /// Colour where the pattern is 1, linear RGB.
         second: Vec3,
         /// A [`Pattern`].
         pub pattern: u32,

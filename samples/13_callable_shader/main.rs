@@ -34,18 +34,18 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Weight = "pattern", Object = "object position",
     }
-    /// How a surface's pattern, and the light's kind, become code.
+    /// The mechanism that selects code for a surface's pattern and for a kind of light.
     enum Choose: CHOOSE { Callable, Switch, HitGroup }
-    /// Which shader asks for the pattern.
+    /// The shader that evaluates the pattern.
     enum Stage: STAGE { Raygen, Hit = "closest hit" }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -54,7 +54,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

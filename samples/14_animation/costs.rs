@@ -1,4 +1,4 @@
-//! What builds and updates cost, by the device's clock.
+//! Costs of builds and updates, by the device's clock.
 
 use std::cell::{Cell, RefCell};
 
@@ -7,7 +7,7 @@ use ash::vk;
 use common::gpu::{Gpu, Timer};
 use instruments::Milliseconds;
 
-/// How many times are kept of each kind: a window may stay open for days.
+/// Maximum number of times kept of each kind: a window may stay open for days.
 const MOST: usize = 10_000;
 
 /// A clock for each of two levels, and what it has told: builds apart from updates.
@@ -17,7 +17,7 @@ pub struct Costs {
 
 struct Level {
     timer: Timer,
-    /// What was recorded and not asked for yet: whether it is a build.
+    /// Work recorded and not read back yet: true for a build.
     recorded: Cell<Option<bool>>,
     /// Milliseconds of updates, and of builds.
     times: RefCell<[Vec<f64>; 2]>,

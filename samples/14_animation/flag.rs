@@ -11,22 +11,22 @@ use glam::{UVec2, Vec2, Vec3};
 pub const SIZE: Vec2 = Vec2::new(4.2, 2.6);
 
 common::shader_struct! {
-    /// What the compute shader is told of a frame.
+    /// Push constants of the compute shader.
     struct Cloth {
         vertices: Address<Vertex>,
-        /// How many cells the cloth has across and down.
+        /// Cells of the cloth, across and down.
         cells: UVec2,
         size: Vec2,
-        /// How far it turns to either side, in radians.
+        /// Swing to either side, in radians.
         swing: f32,
-        /// How much of a wave has passed the pole, 0 to 1.
+        /// The part of a wave that has passed the pole, 0 to 1.
         phase: f32,
     }
 }
 
 /// The flag on the device.
 pub struct Flag {
-    /// How many cells it has across; down they are two thirds as many.
+    /// Number of cells across; down they are two thirds as many.
     pub across: u32,
     /// The record of its instance, whose material is still to be filled in.
     pub record: InstanceRecord,
@@ -63,7 +63,7 @@ impl Flag {
         Ok(Self { across, record, cells, vertices, ordered, count, pipeline, gpu, _buffers })
     }
 
-    /// What its bottom level is built from: the addresses stay, whatever lies there.
+    /// The geometry of its bottom level: the addresses stay, whatever lies there.
     pub fn geometry(&self) -> Geometry {
         Geometry::Triangles {
             vertices: self.vertices.address,
@@ -95,8 +95,8 @@ pub fn bounds() -> (Vec3, Vec3) {
     (Vec3::new(-0.5 * SIZE.x, -1.25 * SIZE.y, -SIZE.x), Vec3::new(SIZE.x, 0.1, SIZE.x))
 }
 
-/// How far the cloth swings at a frame, and the phase of its waves: in 64 bits, so that the last frame of a long
-/// game is as exact as the first.
+/// The swing of the cloth at a frame, and the phase of its waves: in 64 bits, so that the last frame of a long game
+/// is as exact as the first.
 fn wind(frame: u32) -> [f32; 2] {
     let seconds = f64::from(frame) / f64::from(Playback::RATE);
     let gust = 0.8 + 0.25 * (1.3 * seconds).sin();

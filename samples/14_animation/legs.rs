@@ -9,13 +9,14 @@ use anyhow::{Context, Result, bail, ensure};
 use common::model::text::{Text, quoted, shown, uncommented};
 use glam::Vec3;
 
-use super::motion::{KINDS, Leg, Motion, Piece, SIDES, UNDER_WAY};
+use super::leg::{Leg, Motion, Piece, UNDER_WAY};
+use super::motion::{KINDS, SIDES};
 
 /// The most bytes, pieces and frames of a file.
 const BYTES: u64 = 64 << 10;
 const PIECES: usize = 256;
 const FRAMES: u32 = 36_000;
-/// How far from the board's middle a piece may go.
+/// Maximum distance of a piece from the middle of the board.
 const FAR: f32 = 100.0;
 
 const LINES: &str = "a line is 'last FRAME', 'piece SIDE KIND X Y Z', or 'leg FRAME PIECE X Y Z LIFT' and a KIND \

@@ -11,7 +11,7 @@ use super::flag::Flag;
 use super::world::World;
 
 common::shader_enum! {
-    /// What is done to a level when a frame has moved something.
+    /// The way a level follows its frame.
     pub enum Policy {
         /// It is built again.
         Rebuilt,
@@ -20,12 +20,12 @@ common::shader_enum! {
     }
 }
 
-/// What is done at each frame.
+/// The policy of each level.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Plan {
     pub flag: Policy,
     pub top: Policy,
-    /// What is updated is built again at the frames that this divides.
+    /// Interval in frames at which levels that are updated are also rebuilt.
     pub every: u32,
 }
 
@@ -36,7 +36,7 @@ pub struct Levels {
     flag: AccelerationStructure,
     instances: Buffer,
     scratch: [Buffer; 2],
-    /// Which instance each of the build is.
+    /// The instance of each primitive of the build.
     order: Vec<u32>,
     shown: Option<(u32, Plan)>,
     /// The frame of the last build of both.
@@ -63,7 +63,7 @@ impl Levels {
         Ok(Self { tlas, flag: bottom, instances, scratch, order, shown, built, costs, gpu })
     }
 
-    /// Whether they are at a frame, as the plan has it.
+    /// Tests whether they are at a frame, by this plan.
     pub fn are_at(&self, frame: u32, plan: Plan) -> bool {
         self.shown == Some((frame, plan))
     }
@@ -104,9 +104,12 @@ impl Levels {
         flag.deform(cmd, frame)?;
         let is_built = |policy| anew || policy == Policy::Rebuilt;
         let (geometry, [for_flag, for_top]) = ([flag.geometry()], &self.scratch);
-        self.costs.time(cmd, 0, is_built(plan.flag), || match is_built(plan.flag) {
-            true => self.flag.rebuild(cmd, &geometry, for_flag),
-            false => self.flag.update(cmd, &geometry, for_flag),
+        self.costs.time(cmd, 0, is_built(plan.flag), || {
+            if is_built(plan.flag) {
+                self.flag.rebuild(cmd, &geometry, for_flag)
+            } else {
+                self.flag.update(cmd, &geometry, for_flag)
+            }
         })?;
 
         // An update keeps the order of the build: instance i of both is the same piece.
@@ -118,9 +121,12 @@ impl Levels {
         self.instances.update(cmd, &bytes)?;
         let count = instances.len() as u32;
         let input = [Geometry::Instances { instances: self.instances.address, count }];
-        self.costs.time(cmd, 1, is_built(plan.top), || match is_built(plan.top) {
-            true => self.tlas.rebuild(cmd, &input, for_top),
-            false => self.tlas.update(cmd, &input, for_top),
+        self.costs.time(cmd, 1, is_built(plan.top), || {
+            if is_built(plan.top) {
+                self.tlas.rebuild(cmd, &input, for_top)
+            } else {
+                self.tlas.update(cmd, &input, for_top)
+            }
         })
     }
 

@@ -5,9 +5,11 @@
 
 mod costs;
 mod flag;
+mod leg;
 mod legs;
 mod levels;
 mod motion;
+mod pole;
 mod turned;
 mod world;
 
@@ -26,8 +28,8 @@ use common::scene::{
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use flag::Flag;
 use glam::{DVec3, Vec3};
+use leg::Motion;
 use levels::{Levels, Plan, Policy};
-use motion::Motion;
 use world::World;
 
 fn main() -> ExitCode {
@@ -40,7 +42,7 @@ struct Demo {
     levels: Levels,
     playback: Playback,
     plan: Plan,
-    /// How many cells the flag shall have across.
+    /// Wanted number of cells across the flag.
     cells: u32,
     options: SceneOptions,
     pipelines: Variants<Show>,
@@ -50,14 +52,14 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
     }
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
@@ -105,7 +107,7 @@ impl Sample for Demo {
         c.camera(&mut self.camera);
     }
 
-    /// What was set is reached before the next frame: its time is that of tracing.
+    /// Applies changed controls before the next frame, whose time is then that of tracing alone.
     fn changed(&mut self, gpu: &Gpu) -> Result<()> {
         if self.flag.across != self.cells {
             self.flag = Flag::new(gpu, self.cells, self.options)?;

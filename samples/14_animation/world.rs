@@ -5,26 +5,28 @@ use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
 use common::model::{Model, Texture};
 use common::scene::{
-    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
-    instance_on_gpu,
+    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions,
+    input_usage, instance_on_gpu, moved_bounds,
 };
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
 use super::flag;
-use super::motion::{KINDS, Motion, Placed, SIDES};
+use super::leg::Motion;
+use super::motion::{KINDS, Placed, SIDES};
+use super::pole;
 use super::turned::{self, TABLE};
 
-/// Where the flag's pole stands, and how the wind turns the cloth.
+/// The position of the flag's pole, and the direction of the wind.
 const POLE: Vec3 = Vec3::new(5.7, TABLE, -5.2);
 const POLE_HEIGHT: f32 = 6.4;
 const WIND: f32 = 2.9;
 
-/// What there is, and where it is at a frame.
+/// Everything in the world, and its place at a frame.
 pub struct World {
     /// The meshes on the device; what moves has a top level of its own.
     pub scene: SceneOnGpu,
     pub motion: Motion,
-    /// Where shaders find records and materials.
+    /// Addresses of records and materials.
     pub addresses: SceneAddresses,
     standing: Vec<Standing>,
     host: Scene,
@@ -130,7 +132,7 @@ impl World {
                 Some(mesh) => self.host.model.meshes[mesh].bounds(),
                 None => flag::bounds(),
             };
-            around(corners, &shown.at)
+            moved_bounds(corners, &shown.at)
         });
         order::for_build(gpu, &bounds.collect::<Vec<_>>(), self.scene.options.ordering)
     }
@@ -179,7 +181,7 @@ fn furnish(model: &mut Model) -> usize {
     let first = model.materials.len();
     model.materials.extend([felt, brass, cloth]);
     model.meshes.push(turned::table(9.6, first));
-    model.meshes.push(turned::pole(POLE_HEIGHT, first + 1));
+    model.meshes.push(pole::pole(POLE_HEIGHT, first + 1));
     first + 2
 }
 
@@ -193,15 +195,6 @@ fn checks() -> Texture {
     };
     let rgba = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(texel).collect();
     Texture { name: "flag".to_owned(), width, height, rgba, srgb: true }
-}
-
-/// The box around a box that was moved.
-fn around((low, high): (Vec3, Vec3), at: &Affine3A) -> order::Bounds {
-    let middle = at.transform_point3((low + high) * 0.5);
-    let half = (high - low) * 0.5;
-    let Mat3A { x_axis, y_axis, z_axis } = at.matrix3;
-    let reach = Vec3::from(x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z);
-    (middle - reach, middle + reach)
 }
 
 fn mesh(model: &Model, name: &str) -> Result<usize> {

@@ -5,19 +5,19 @@ use glam::DVec2;
 /// Alpha from here on counts as opaque.
 pub const THRESHOLD: f64 = 0.5;
 
-/// How far from the threshold a texel has to be. A device's filter has few bits, and two devices may answer
-/// differently where alpha is this near.
+/// Least distance of a texel from the threshold. A device's filter has few bits, and two devices may differ where
+/// alpha is this near.
 pub const GUARD: f64 = 0.02;
 
-/// How far a device's filter may look beside the place it is asked for, in texels: it knows a place to at least
-/// four binary digits of a texel (`subTexelPrecisionBits`).
+/// The error of a device's filter in its place, in texels: a device resolves a place to at least four binary digits
+/// of a texel (`subTexelPrecisionBits`).
 pub const SUBTEXEL: f64 = 1.0 / 16.0;
 
 /// The alpha channel of a texture, repeated beyond its edges.
 pub struct Alpha {
     size: [usize; 2],
     alpha: Vec<u8>,
-    /// How many texels above and left of a corner are surely opaque, and how many surely transparent.
+    /// Numbers of texels above and left of a corner that are surely opaque, and surely transparent.
     sums: Vec<[u32; 2]>,
 }
 
@@ -45,8 +45,8 @@ impl Alpha {
         DVec2::new(self.size[0] as f64, self.size[1] as f64)
     }
 
-    /// What every lookup between two corners of a box answers, in texture coordinates: opaque, transparent, or
-    /// nothing certain. A lookup lies between the least and the largest of the texels that it reads, whatever
+    /// The common result of every lookup between two corners of a box, in texture coordinates: opaque, transparent,
+    /// or nothing certain. A lookup lies between the least and the largest of the texels that it reads, whatever
     /// their shares.
     pub fn certain(&self, low: DVec2, high: DVec2) -> Option<bool> {
         let (columns, rows) =
@@ -64,7 +64,7 @@ impl Alpha {
         if opaque == all { Some(true) } else { (transparent == all).then_some(false) }
     }
 
-    /// How many texels of a rectangle are surely opaque, and how many surely transparent.
+    /// Numbers of texels in a rectangle that are surely opaque, and surely transparent.
     fn count(&self, [left, right]: [usize; 2], [top, bottom]: [usize; 2]) -> [u32; 2] {
         let at = |x: usize, y: usize| self.sums[y * (self.size[0] + 1) + x];
         let (a, b, c, d) = (at(right, bottom), at(left, bottom), at(right, top), at(left, top));

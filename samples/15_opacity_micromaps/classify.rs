@@ -1,4 +1,4 @@
-//! Which state a micro-triangle has: by a bound on what the any-hit shader can answer, or by samples.
+//! States of micro-triangles: by a bound on the any-hit shader's result, or by samples.
 
 use glam::{DVec2, Vec2};
 
@@ -6,7 +6,7 @@ use super::alpha::{Alpha, THRESHOLD};
 use super::curve::{self, State};
 
 common::shader_enum! {
-    /// How a state is found.
+    /// The way to find a state.
     pub enum Rule {
         /// Opaque or transparent only where no lookup can answer otherwise.
         Conservative,
@@ -15,14 +15,14 @@ common::shader_enum! {
     }
 }
 
-/// How far outside of a triangle the weights of a hit may lie, by the rounding of the device. Beyond that the
-/// shader takes no state for true. The same number is in `micromap.glsl`.
+/// The distance by which the barycentrics of a hit may lie outside of a triangle, by the rounding of the device.
+/// Beyond that the shader does not trust a state. `micromap.glsl` has the same number.
 pub const SLACK: f64 = 1.0 / 16384.0;
 
-/// What the search for a micro-triangle rounds, as a part of the triangle: below 2^-22 in 32 bits.
+/// The rounding error of the search for a micro-triangle, as a part of the triangle: below 2^-22 in 32 bits.
 pub const SEARCH: f64 = 1.0 / 1_048_576.0;
 
-/// What the shader rounds where it interpolates texture coordinates and multiplies them by the texture's size,
+/// The shader's rounding error where it interpolates texture coordinates and multiplies them by the texture's size,
 /// as a part of the largest coordinate. A dozen roundings of 2^-24 each are less.
 pub const ROUNDING: f64 = 1.0 / 1_048_576.0;
 

@@ -4,7 +4,7 @@
 /// The finest level that the chapter offers.
 pub const FINEST: u32 = 6;
 
-/// What is known of a micro-triangle, by the specification's numbers.
+/// The opacity state of a micro-triangle, by the specification's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// No point of it counts.
@@ -20,7 +20,7 @@ pub enum State {
 /// A point of a triangle: the weights of its three corners, in units of 2^-level.
 pub type Weights = [i32; 3];
 
-/// How many micro-triangles a triangle has.
+/// Number of micro-triangles in a triangle.
 pub const fn count(level: u32) -> u32 {
     1 << (2 * level)
 }
@@ -53,7 +53,7 @@ fn middle(a: Weights, b: Weights) -> Weights {
     [(a[0] + b[0]) >> 1, (a[1] + b[1]) >> 1, (a[2] + b[2]) >> 1]
 }
 
-/// How many micro-triangles have each state, by the specification's numbers.
+/// Number of micro-triangles in each state, by the specification's numbers.
 pub fn tally(states: &[State]) -> [u64; 4] {
     let mut counts = [0; 4];
     states.iter().for_each(|&state| counts[state as usize] += 1);

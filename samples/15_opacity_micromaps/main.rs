@@ -39,15 +39,15 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", States, Calls, Reads,
     }
-    /// How finely triangles are cut.
+    /// The subdivision of triangles.
     enum Level {
         None, Zero = "0", One = "1", Two = "2", Three = "3", Four = "4", Five = "5", Six = "6",
     }
-    /// Who reads the states.
+    /// The reader of the states.
     enum Way {
         /// The any-hit shader.
         Shader,
@@ -62,18 +62,18 @@ impl Level {
     }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    /// Whether shaders read states at all.
+    /// True if shaders read states at all.
     known: bool,
-    /// Whether traversal does.
+    /// True if traversal reads states.
     by_device: bool,
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -22,18 +22,18 @@ use crate::{Level, Way};
 const MOST_BYTES: usize = 64 << 20;
 
 common::shader_struct! {
-    /// Where a shader finds the states of an instance's triangles.
+    /// The address of the states of an instance's triangles.
     pub struct Micromap {
         /// 32 bits each, 16 states. Triangle after triangle, in the model's order.
         pub states: Address,
-        /// How finely they are cut; -1 where there are none.
+        /// Subdivision level; -1 where there are no states.
         pub level: i32,
         /// Keeps the address of the next at a multiple of 8.
         pub padding: u32,
     }
 }
 
-/// What micromaps are made of; where it changes, they are made again.
+/// Parameters of the micromaps; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub level: Level,
@@ -41,7 +41,7 @@ pub struct Build {
     pub way: Way,
 }
 
-/// What has states of its own: a mesh, and the texture that gives its opacity.
+/// The owner of a set of states: a mesh, and the texture that gives its opacity.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Pair {
     pub mesh: usize,
@@ -64,11 +64,11 @@ pub struct Micromaps {
     /// The same states, where traversal reads them.
     pub on_device: Option<OnDevice>,
     pub build: Build,
-    /// How finely triangles are cut, if they are.
+    /// Subdivision level, if there is one.
     pub level: Option<u32>,
     /// Bytes of all states.
     pub bytes: usize,
-    /// How many micro-triangles have each state, by the specification's numbers.
+    /// Number of micro-triangles in each state, by the specification's numbers.
     pub counts: [u64; 4],
     _states: Buffer,
 }
@@ -139,7 +139,7 @@ impl Micromaps {
         Ok(Self { records, on_device, build, level, bytes, counts, _states: states })
     }
 
-    /// How many micro-triangles are unknown, as a part of all.
+    /// The fraction of micro-triangles that are unknown.
     pub fn unknown(&self) -> f64 {
         let [_, _, a, b] = self.counts;
         (a + b) as f64 / self.counts.iter().sum::<u64>().max(1) as f64
@@ -167,7 +167,7 @@ fn fitted(gpu: &Gpu, level: u32, way: Way) -> Result<u32> {
     Ok(level.min(finest))
 }
 
-/// Whether the states of so many triangles may be made.
+/// Checks that the states of so many triangles fit in memory.
 fn fits(triangles: usize, level: u32) -> Result<()> {
     let bytes = |level| triangles.saturating_mul(curve::bytes(level));
     let finest = (0..=FINEST).rev().find(|&level| bytes(level) <= MOST_BYTES);

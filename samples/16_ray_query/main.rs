@@ -26,17 +26,17 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
     }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
-    /// Which of [`WORKGROUPS`].
+    /// Index into [`WORKGROUPS`].
     workgroup: u32,
 }
 
@@ -47,7 +47,7 @@ const WORKGROUPS: [(&str, [u32; 2]); 5] =
 // ANCHOR_END: workgroups
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

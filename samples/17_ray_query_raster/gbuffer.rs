@@ -13,7 +13,7 @@ const SEEN: vk::Format = vk::Format::R32G32B32A32_UINT;
 const NOTHING: [u32; 4] = [u32::MAX; 4];
 
 common::shader_enum! {
-    /// What the depth test compares.
+    /// The quantity that the depth test compares.
     pub enum Depth: DEPTH {
         Reversed = "reversed float", Usual = "usual float", Short = "usual 16 bits",
     }
@@ -37,7 +37,7 @@ impl Depth {
 }
 
 common::shader_struct! {
-    /// Where an instance stands: both matrices by columns.
+    /// The transform of an instance: both matrices by columns.
     pub struct Placed {
         to_world: [Vec3; 4],
         to_object: [Vec3; 4],
@@ -45,7 +45,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What the vertex shader can read.
+    /// Push constants of the vertex shader.
     struct Draw {
         camera: CameraBasis,
         scene: SceneAddresses,
@@ -59,7 +59,7 @@ pub struct GBuffer {
     targets: Option<Targets>,
     pipelines: Variants<Depth, GraphicsPipeline>,
     placed: Buffer,
-    /// How many triangles each instance has.
+    /// Number of triangles of each instance.
     triangles: Vec<u32>,
     depth: Depth,
     near: f32,
@@ -98,12 +98,12 @@ impl GBuffer {
         c.slider("near plane", &mut self.near, 0.001..=1.0);
     }
 
-    /// Where the instances stand, for shaders.
+    /// The address of the instances' transforms.
     pub fn placed(&self) -> Address<Placed> {
         self.placed.address.into()
     }
 
-    /// What was seen, in layout `GENERAL`.
+    /// The image of visible surfaces, in layout `GENERAL`.
     pub fn seen(&self) -> Result<&Image> {
         Ok(&self.targets.as_ref().context("no G-buffer")?.seen)
     }

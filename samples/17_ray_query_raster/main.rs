@@ -33,7 +33,7 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Triangle, Weights, Hit, Direction = "ray direction", Shadow,
         Occlusion = "ambient occlusion",
@@ -41,11 +41,11 @@ common::shader_enum! {
 }
 
 common::shader_enum! {
-    /// Who finds the surface that a pixel sees.
+    /// The method that finds the surface behind a pixel.
     enum Primary: PRIMARY { Raster, Rays }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -53,7 +53,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What the compute shader of this chapter can read.
+    /// Push constants of this chapter's compute shader.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

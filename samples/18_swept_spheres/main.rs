@@ -3,7 +3,10 @@
 //! New since 08_intersection: `swept.rint` with three rungs, chains whose segments share their ends, the
 //! normal of a cone, and the same strands as triangles.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
+#[path = "../08_intersection/random.rs"]
+mod random;
 mod scenes;
 mod strands;
 mod strands_on_gpu;
@@ -41,15 +44,15 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Segment, Hit, Direction = "ray direction", Along }
-    /// What strands are shaded by: the normal of their surface, or that of a cylinder around their axis.
+    /// The normal that shades strands: that of their surface, or that of a cylinder around their axis.
     enum Normal: NORMAL { Surface, Axis }
-    /// Which way swept spheres are intersected.
+    /// The formula that intersects swept spheres.
     enum Rung: SWEPT { Textbook, Stable, TwoFloat = "two-float" }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -58,7 +61,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

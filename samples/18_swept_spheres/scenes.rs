@@ -5,6 +5,7 @@ use std::f32::consts::{PI, TAU};
 use common::scene::{Camera, Material};
 use glam::{DVec3, Vec3};
 
+use super::random::unit;
 use super::strands::{Node, Strands};
 
 common::shader_enum! {
@@ -85,9 +86,10 @@ impl Strands {
             let angle = TAU * (turn - TURNS + 0.25);
             middle + radius * Vec3::new(angle.cos(), 0.0, angle.sin())
         };
-        let at = |way: f32| match way <= TURNS {
-            true => spiral(way),
-            false => {
+        let at = |way: f32| {
+            if way <= TURNS {
+                spiral(way)
+            } else {
                 let x = way - TURNS;
                 spiral(TURNS) + Vec3::new(-x, 0.0, 0.1 * ((2.4 * x).cos() - 1.0) + 0.12 * x)
             }
@@ -101,9 +103,10 @@ impl Strands {
                 let next = (step + 1) as f32 / steps as f32;
                 // As long a step in the spiral as in the tail, whose unit is not a turn but a length.
                 let inner = 7.3;
-                let next = match next * (inner + TAIL) < inner {
-                    true => TURNS * (next * (inner + TAIL) / inner).powf(0.62),
-                    false => TURNS + next * (inner + TAIL) - inner,
+                let next = if next * (inner + TAIL) < inner {
+                    TURNS * (next * (inner + TAIL) / inner).powf(0.62)
+                } else {
+                    TURNS + next * (inner + TAIL) - inner
                 };
                 let (here, there) = (at(way), at(next));
                 let along = (there - here).normalize();
@@ -175,21 +178,4 @@ pub fn materials() -> impl Iterator<Item = Material> {
         shininess: 90.0,
         ..Material::default()
     })
-}
-
-/// Four numbers in [0, 1) that belong to a hair and a purpose: the hash of
-/// `shaders/common/random.glsl`.
-fn unit(hair: u32, purpose: u32) -> [f64; 4] {
-    let mut v = [hair, purpose, 0, 0]
-        .map(|word: u32| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
-    // One component after the other: each takes what the ones before it have become.
-    let stir = |v: &mut [u32; 4]| {
-        for (i, (a, b)) in [(1, 3), (2, 0), (0, 1), (1, 2)].into_iter().enumerate() {
-            v[i] = v[i].wrapping_add(v[a].wrapping_mul(v[b]));
-        }
-    };
-    stir(&mut v);
-    v = v.map(|word| word ^ word >> 16);
-    stir(&mut v);
-    v.map(|word| f64::from(word >> 8) / f64::from(1 << 24))
 }

@@ -1,7 +1,7 @@
 //! Chains of swept spheres: segments between nodes.
 
-use common::gpu::Address;
 use common::gpu::order::Bounds;
+use common::gpu::{Address, sphere_bounds};
 use glam::Vec3;
 
 common::shader_struct! {
@@ -26,7 +26,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where shaders find them, and which segment a primitive of the build is.
+    /// Addresses of the strands, and the segment of each primitive of the build.
     pub struct StrandAddresses {
         /// All nodes, chain after chain.
         pub nodes: Address<Node>,
@@ -40,7 +40,7 @@ common::shader_struct! {
 /// All segments of a scene.
 #[derive(Clone, Default)]
 pub struct Strands {
-    /// Where segments begin and end, chain after chain.
+    /// Ends of segments, chain after chain.
     pub nodes: Vec<Node>,
     /// In the order in which they were added.
     pub segments: Vec<Segment>,
@@ -69,17 +69,6 @@ impl Strands {
 impl Node {
     /// Corners of the box around it, never inside it by rounding.
     fn bounds(&self) -> Bounds {
-        let grown = |sign: f32| {
-            Vec3::from_array(self.center.to_array().map(|c| {
-                let exact = f64::from(c) + f64::from(sign * self.radius);
-                let rounded = exact as f32;
-                match f64::from(sign) * (exact - f64::from(rounded)) > 0.0 {
-                    true if sign > 0.0 => rounded.next_up(),
-                    true => rounded.next_down(),
-                    false => rounded,
-                }
-            }))
-        };
-        (grown(-1.0), grown(1.0))
+        sphere_bounds(self.center, self.radius)
     }
 }

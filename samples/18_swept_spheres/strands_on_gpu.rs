@@ -1,26 +1,27 @@
 //! The strands on the device: a bottom level of boxes, in order, beside the meshes.
 
 use anyhow::{Result, ensure};
-use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
+use common::gpu::order::{self, around};
+use common::gpu::{AccelerationStructure, Buffer, Gpu, reach};
 use common::scene::{
     Instance, Scene, SceneOnGpu, SceneOptions, build_top, input_usage, instance_on_gpu,
 };
 use glam::{Affine3A, Vec3};
 
-use crate::boxes::{self, reach};
+use crate::boxes;
 use crate::scenes::{self, SceneKind};
 use crate::strands::{StrandAddresses, Strands};
 use crate::tubes;
 
-/// How many triangles the tubes of all strands may have.
+/// Maximum number of triangles in the tubes of all strands.
 const MOST_TRIANGLES: usize = 1 << 24;
 
 common::shader_enum! {
-    /// What the device is given: boxes and an intersection shader, or triangles.
+    /// The device's geometry: boxes and an intersection shader, or triangles.
     pub enum Shape { Swept, Triangles }
 }
 
-/// What the strands are built from; where it changes, they are built again.
+/// Parameters of the strands; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
@@ -35,11 +36,11 @@ pub struct StrandsOnGpu {
     pub tlas: AccelerationStructure,
     /// The meshes: those of the board, and of the strands where they are triangles.
     pub scene: SceneOnGpu,
-    /// Where shaders find the strands: a [`StrandAddresses`].
+    /// The buffer with the addresses of the strands: a [`StrandAddresses`].
     pub addresses: Buffer,
     /// Corners of the box around everything.
     bounds: order::Bounds,
-    /// How far rays may begin from a strand; the margin of the boxes grows with it.
+    /// Bound on the distance from a ray's origin to a strand; the margin of the boxes grows with it.
     reach: f32,
     build: Build,
     _level: Option<AccelerationStructure>,
@@ -132,14 +133,8 @@ impl StrandsOnGpu {
         })
     }
 
-    /// Whether they must be made again, for another build or because the eye has gone far.
+    /// Tests whether they must be rebuilt, for other parameters or because the eye has moved far.
     pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
         build != self.build || reach(self.bounds, eye) != self.reach
     }
-}
-
-/// The box around boxes.
-fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bounds {
-    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
 }

@@ -30,7 +30,7 @@ pub fn meshes(strands: &Strands, sides: u32) -> Vec<Mesh> {
     meshes
 }
 
-/// How many triangles they have, or a few more.
+/// Upper bound of their number of triangles.
 pub fn count(strands: &Strands, sides: u32) -> usize {
     let rings = |chain: &[Segment]| chain.len() + 1 + 2 * sides.div_ceil(4) as usize;
     chains(&strands.segments).map(|chain| 2 * sides as usize * rings(chain)).sum()
@@ -54,10 +54,7 @@ fn tube(mesh: &mut Mesh, nodes: &[Node], sides: u32) {
         let kept = side - side.dot(along) * along;
         side = kept.try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
         // How far from the middle of the cap it ends, as an angle: the body leans, and touches the ball there.
-        let steps = match i == 0 || i > last {
-            true => sides.div_ceil(4),
-            false => 0,
-        };
+        let steps = if i == 0 || i > last { sides.div_ceil(4) } else { 0 };
         let pair = &nodes[i.min(last)..][..2];
         let lean = (pair[1].radius - pair[0].radius) / (pair[1].center - pair[0].center).length();
         let edge = lean.clamp(-1.0, 1.0).acos();

@@ -5,7 +5,7 @@ use common::model::Texture;
 use common::scene::{Camera, Instance, Material, Mesh, Scene, Vertex};
 use glam::{Affine3A, DVec3, Vec2, Vec3};
 
-/// How far the floor reaches from the middle of the board.
+/// Distance from the middle of the board to the end of the floor.
 const REACH: f32 = 2000.0;
 /// Pieces of the floor along a side. Where a shadow ray starts depends on the size of the triangle that it leaves.
 const PIECES: u32 = 40;

@@ -29,13 +29,13 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Lines, Normal = "geometric normal" }
-    /// What is the same everywhere along a line: its width in pixels, or its part of the triangle.
+    /// The quantity that is constant along a line: its width in pixels, or its part of the triangle.
     enum Constant: CONSTANT { Width, Weight = "barycentric" }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -44,7 +44,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

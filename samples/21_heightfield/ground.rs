@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3};
 
 use super::shape::HeightfieldShape;
 
-/// How wide a hill is, and the pond beside it.
+/// Width of a hill, and of the pond beside it.
 pub const CELL: f32 = 16.0;
-/// Where the hill stands on whose top the world began.
+/// Position of the middle hill, on whose top the world began.
 pub const MIDDLE: Vec3 = Vec3::new(8.0, 0.0, 0.0);
 
 /// A landscape by what can be set of it.
@@ -14,7 +14,7 @@ pub const MIDDLE: Vec3 = Vec3::new(8.0, 0.0, 0.0);
 pub struct Landscape {
     /// Scales all heights; 0 is flat ground.
     pub k: f32,
-    /// How many rings of hills and ponds lie around the middle hill.
+    /// Rings of hills and ponds around the middle hill.
     pub rings: u32,
 }
 

@@ -8,14 +8,14 @@ use glam::{Affine3A, Vec3};
 use super::boxes;
 use super::ground::{Ground, Landscape};
 
-/// How much the ground may fall under a piece's foot.
+/// Greatest drop of the ground under a piece's foot.
 const STEEP: f64 = 0.6;
 
 /// The top level.
 pub struct Land {
     /// Pieces and ground.
     pub tlas: AccelerationStructure,
-    /// What was built.
+    /// The landscape that was built.
     pub landscape: Landscape,
     /// Corners of the ground's box.
     pub bounds: (Vec3, Vec3),
@@ -32,7 +32,7 @@ impl Land {
         landscape: Landscape,
         eye: Vec3,
     ) -> Result<Self> {
-        let reach = boxes::reach(landscape.bounds(0.0), eye);
+        let reach = gpu::reach(landscape.bounds(0.0), eye);
         let bounds = landscape.bounds(gpu::margin(reach));
         let blas = boxes::bottom(gpu, "ground", [bounds], reach)?;
 
@@ -64,9 +64,9 @@ impl Land {
         Ground { shape: self.landscape.shape(), low, high, error, material }
     }
 
-    /// Whether another landscape is wanted, or another eye sees it.
+    /// Tests whether another landscape or another eye needs a rebuild.
     pub fn is_outdated(&self, landscape: Landscape, eye: Vec3) -> bool {
-        self.landscape != landscape || self.reach != boxes::reach(landscape.bounds(0.0), eye)
+        self.landscape != landscape || self.reach != gpu::reach(landscape.bounds(0.0), eye)
     }
 }
 

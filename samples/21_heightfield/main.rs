@@ -3,6 +3,7 @@
 //! New since 08_intersection: a height for every (x, z), four ways to march a ray to it, pieces that
 //! stand on the ground, views of steps and errors, and five views of the land.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
 mod ground;
 mod land;
@@ -43,16 +44,16 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Steps, Error, March,
     }
-    /// How rays are marched.
+    /// The way to march rays.
     enum Rung: HEIGHTFIELD { Relaxed, Lipschitz, OverRelaxed = "over-relaxed", Bisected }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -60,7 +61,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -56,7 +56,7 @@ pub fn framed(mut scene: Scene) -> Scene {
     scene
 }
 
-/// What the ground is made of. Its colour differs from place to place: `terrain.rchit` knows it.
+/// The material of the ground. Its colour varies from place to place and is computed in `terrain.rchit`.
 pub fn earth() -> Material {
     Material { name: "earth".to_owned(), shininess: 1.0, ..Material::default() }
 }

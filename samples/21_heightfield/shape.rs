@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// What one rounding costs at most, relative.
+/// Bound of one rounding error, relative.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
 common::shader_struct! {
@@ -12,15 +12,15 @@ common::shader_struct! {
         pub k: f32,
         /// Height of the hills.
         pub a: f32,
-        /// How many hills a unit of x.
+        /// Hills per unit of x.
         pub fx: f32,
-        /// How many hills a unit of z.
+        /// Hills per unit of z.
         pub fz: f32,
         /// Height of the ridges.
         pub b: f32,
-        /// How many ridges a unit of x.
+        /// Ridges per unit of x.
         pub gx: f32,
-        /// How many ridges a unit of z.
+        /// Ridges per unit of z.
         pub gz: f32,
         /// No slope is steeper.
         pub lipschitz: f32,

@@ -4,14 +4,14 @@ use common::Controls;
 use glam::Vec3;
 
 common::shader_enum! {
-    /// Where fog is: nowhere, in the solids too, or outside of them.
+    /// The place of the fog: nowhere, in the solids also, or only outside of them.
     pub enum Extent: FOG { None, Everywhere, Outside }
 }
 
 common::shader_struct! {
     /// Fog, as shaders get it.
     pub struct Fog {
-        /// What is seen of it from within, linear RGB.
+        /// Colour of the fog seen from within, linear RGB.
         pub color: Vec3,
         /// After which way 1/e of the light is left; 0 where there is no fog.
         pub distance: f32,
@@ -37,8 +37,8 @@ impl Fog {
         Self { distance: (f64::from(self.distance) * size) as f32, ..*self }
     }
 
-    /// Where it is; hollow solids let it in. A camera that a closed solid encloses sees none: no path
-    /// ever comes out.
+    /// The place of the fog; hollow solids let it in. A camera enclosed by a closed solid sees
+    /// none: no path ever leaves.
     pub fn extent(&self, hollow: bool, enclosed: bool) -> Extent {
         match (self.distance > 0.0, hollow, enclosed) {
             (false, ..) | (true, false, true) => Extent::None,

@@ -3,6 +3,7 @@
 //! New since 08_intersection: solids by an intersection shader, union, intersection, difference and
 //! inverse, a clip that cuts open, fog that fills what is outside, and seven scenes.
 
+#[path = "../08_intersection/boxes.rs"]
 mod boxes;
 mod fog;
 mod modifiers;
@@ -45,16 +46,16 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Kind = "hit kind", Section, Fog,
     }
-    /// Which way half-spaces are met.
+    /// The formula that intersects half-spaces.
     enum Rung: RUNG { Pov, Point, Compensated }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -63,7 +64,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

@@ -1,4 +1,4 @@
-//! What is asked of the solids: which, of how many planes, cut, inside out, hollow.
+//! Options of the solids: which, of how many planes, cut, inside out, hollow.
 
 use common::Controls;
 use glam::Vec3;
@@ -11,12 +11,12 @@ common::shader_enum! {
     pub enum Cut { Nothing, ClippedBy, Intersection }
 }
 
-/// What the user asks of all solids.
+/// The user's options for all solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modifiers {
     /// The one solid of that preset, a number in [`SHAPES`].
     pub shape: u32,
-    /// How many planes its crystal has.
+    /// Number of planes of its crystal.
     pub planes: u32,
     /// By how many degrees that one is turned about the vertical.
     pub turn: f32,
@@ -24,11 +24,11 @@ pub struct Modifiers {
     pub inverse: bool,
     /// Fog comes in.
     pub hollow: bool,
-    /// How each is cut.
+    /// The cut through each.
     pub cut: Cut,
     /// The cutting plane in the solid's own space: what lies beyond is gone.
     pub cut_normal: Vec3,
-    /// How far that plane is from the solid's origin.
+    /// Distance of that plane from the solid's origin.
     pub cut_distance: f32,
     /// Planes that are equal are stored once.
     pub shared: bool,

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::solid::{Bound, Solid, ball, block, plane};
 
-/// What two balls have in common, standing on its rim.
+/// The intersection of two balls, standing on its rim.
 pub fn lens(material: &'static str) -> Solid {
     let side = |x: f32| Solid::Convex(vec![ball(Vec3::X * x, 1.7)], material);
     side(1.3).intersection(side(-1.3))
@@ -80,7 +80,7 @@ fn slice(middle: f32, radius: f32, low: f32, high: f32) -> Vec<Bound> {
     vec![ball(Vec3::Y * middle, radius), plane(Vec3::Y, high), plane(Vec3::NEG_Y, -low)]
 }
 
-/// What bishop and king stand on: a foot, a stem and a collar.
+/// The lower part of bishop and king: a foot, a stem and a collar.
 fn stem(material: &'static str, collar: f32) -> Solid {
     let part = |bounds| Solid::Convex(bounds, material);
     part(slice(-1.55, 0.85, -1.4, -1.05))

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use super::solid::{Ball, Bound, Solid, half_space};
 
 common::shader_enum! {
-    /// What bounds a convex part.
+    /// A surface that bounds a convex part.
     pub enum FaceKind: FACE { Plane, Ball }
 }
 
@@ -16,7 +16,7 @@ common::shader_struct! {
     pub struct Face {
         /// A plane or a ball.
         pub kind: Number<FaceKind>,
-        /// Which.
+        /// Index of the surface.
         pub index: u32,
         /// -1 where the part lies on the side that the plane's normal points to.
         pub side: f32,
@@ -52,7 +52,7 @@ pub struct Programs {
     given: Vec<(Vec3, f32)>,
     /// The solid of each plane: solids are not compared with each other.
     first_plane: usize,
-    /// Whether planes and balls that are equal are stored once.
+    /// True if equal planes and balls are stored once.
     shared: bool,
 }
 

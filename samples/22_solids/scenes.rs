@@ -15,23 +15,23 @@ common::shader_enum! {
     pub enum PresetName { Board, ConvexSolids, Csg, Clipped, Inside, Ties, OneSolid }
 }
 
-/// What stands where, and how it is lit and looked at.
+/// A scene with its lights and its camera.
 pub struct Preset {
-    /// What is placed, and the view.
+    /// The placed meshes, and the view.
     pub scene: Scene,
     /// The solids, and from their spaces to the world.
     pub solids: Vec<SolidInstance>,
     /// The sun.
     pub sun: Sun,
-    /// What fills the air.
+    /// The fog in the air.
     pub fog: Fog,
 }
 
 /// A solid in the world.
 pub struct SolidInstance {
-    /// What it is.
+    /// The solid itself.
     pub solid: Solid,
-    /// Where.
+    /// Its place in the world.
     pub transform: Affine3A,
     /// The clip: its surface outside this is left out.
     pub clip: Option<Bound>,
@@ -167,7 +167,7 @@ fn convex_solids(scene: &Scene) -> Preset {
     Preset::on_board(scene, &[], solids, camera)
 }
 
-/// What union, intersection and difference make of cubes, columns and balls.
+/// Union, intersection and difference of cubes, columns and balls.
 fn csg(scene: &Scene) -> Preset {
     let solids = vec![
         at("die", [0.0, 0.45, 2.0], 0.45, 30.0),

@@ -142,7 +142,7 @@ fn tilted_cube() -> Solid {
     Solid::Convex(tilted([[1.0; 2]; 3], 1.0), "ivory")
 }
 
-/// What is taken from the cube.
+/// The part taken from the cube.
 fn bite() -> Solid {
     Solid::Convex(vec![ball(Vec3::new(0.75, 0.7, 0.8), 0.95)], "red")
 }

@@ -5,19 +5,19 @@ use glam::{DVec3, Vec3};
 /// A solid: a convex part, or what becomes of others.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
-    /// What lies within all of these, of one material.
+    /// The points inside all of these, of one material.
     Convex(Vec<Bound>, &'static str),
-    /// What lies in either.
+    /// The points in either.
     Union(Box<[Solid; 2]>),
-    /// What lies in both.
+    /// The points in both.
     Intersection(Box<[Solid; 2]>),
-    /// What lies in the first and not in the second.
+    /// The points in the first and not in the second.
     Difference(Box<[Solid; 2]>),
-    /// What lies outside.
+    /// The points outside.
     Inverse(Box<Solid>),
 }
 
-/// What bounds a convex part.
+/// A surface that bounds a convex part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// The part lies on the inner side of POV-Ray's `plane { <A,B,C>, D }`: `N·p <= D·|N|`, where the
@@ -56,17 +56,17 @@ pub fn block(low: Vec3, high: Vec3) -> Vec<Bound> {
 }
 
 impl Solid {
-    /// What is in this or in that.
+    /// The points in this or in that.
     pub fn union(self, other: Self) -> Self {
         Self::Union(Box::new([self, other]))
     }
 
-    /// What is in this and in that.
+    /// The points in this and in that.
     pub fn intersection(self, other: Self) -> Self {
         Self::Intersection(Box::new([self, other]))
     }
 
-    /// What is in this and not in that.
+    /// The points in this and not in that.
     pub fn difference(self, other: Self) -> Self {
         Self::Difference(Box::new([self, other]))
     }
@@ -76,7 +76,7 @@ impl Solid {
         Self::Inverse(Box::new(self))
     }
 
-    /// Whether a point lies in it, by f64 numbers.
+    /// Tests whether a point lies in it, by f64 numbers.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Convex(bounds, _) => bounds.iter().all(|bound| bound.contains(point)),
@@ -113,7 +113,7 @@ impl Solid {
 }
 
 impl Bound {
-    /// Whether a point lies on the inner side.
+    /// Tests whether a point lies on the inner side.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Plane(normal, distance) => {

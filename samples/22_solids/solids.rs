@@ -6,6 +6,7 @@ use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, order};
 use common::scene::plane::Plane;
 use common::scene::{
     Moved, Placement, Scene, SceneOnGpu, Size, build_top, input_usage, instance_on_gpu,
+    moved_bounds,
 };
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec4};
 
@@ -15,16 +16,16 @@ use crate::program::{Face, Part, Programs};
 use crate::scenes::{self, PresetName, SolidInstance};
 use crate::solid::{Ball, Bound, REACH, Solid, block};
 
-/// What the solids are built from; where it changes, they are built again.
+/// Parameters of the solids; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
-    /// What stands where.
+    /// The scene of the preset.
     pub preset: PresetName,
-    /// How large everything is.
+    /// The size of everything.
     pub size: Size,
-    /// How far away everything is.
+    /// The distance of everything from the origin.
     pub moved: Moved,
-    /// What is asked of all solids.
+    /// The options of all solids.
     pub modifiers: Modifiers,
 }
 
@@ -36,19 +37,19 @@ impl Default for Build {
 }
 
 impl Build {
-    /// Where everything is.
+    /// The placement of everything.
     pub fn placement(&self) -> Placement {
         Placement::new(self.size, self.moved)
     }
 
-    /// Whether the pieces, too, are other ones or elsewhere.
+    /// Tests whether the pieces also differ, or stand elsewhere.
     pub fn places_otherwise(&self, other: &Self) -> bool {
         Self { modifiers: other.modifiers, ..*self } != *other
     }
 }
 
 common::shader_struct! {
-    /// Where shaders find the solids, and which instances they are.
+    /// Addresses of the solids, and their custom indices.
     pub struct Solids {
         pub planes: Address<Plane>,
         pub balls: Address<Ball>,
@@ -96,9 +97,9 @@ impl SolidRecord {
 pub struct SolidsOnGpu {
     /// Everything.
     pub tlas: AccelerationStructure,
-    /// Where shaders find them: a [`Solids`].
+    /// The buffer with the addresses of the solids: a [`Solids`].
     pub addresses: Buffer,
-    /// What they were built from.
+    /// The parameters they were built from.
     pub build: Build,
     /// Each solid, its clips, and the matrix from the world to its space.
     inside: Vec<(Solid, Vec<Bound>, DAffine3)>,
@@ -142,7 +143,7 @@ impl SolidsOnGpu {
             let level = boxes::bottom(gpu, "solid", [corners], 0.0)?;
             let to_world = place(&solid_instance.transform, &build.placement());
             instances.push(instance_on_gpu(&to_world, first + records.len(), 1, &level));
-            bounds.push(around(&to_world, corners));
+            bounds.push(moved_bounds(corners, &to_world));
             let to_object = to_world_f64(&to_world).inverse();
             let record = [first_part, part_count, first_step, step_count, clip];
             records.push(SolidRecord::new(record, &to_object));
@@ -183,8 +184,8 @@ impl SolidsOnGpu {
         })
     }
 
-    /// Whether a point of the world lies in a solid that is closed all around. Out of an open one, light
-    /// comes without meeting a surface: that is left to the shaders.
+    /// Tests whether a point of the world lies in a solid that is closed all around. Light enters an open one
+    /// without meeting a surface: that is left to the shaders.
     pub fn enclose(&self, point: DVec3) -> bool {
         self.inside.iter().any(|(solid, clips, to_object)| {
             clips.is_empty() && solid.contains(to_object.transform_point3(point))
@@ -199,9 +200,10 @@ impl SolidsOnGpu {
 fn box_around(low: DVec3, high: DVec3) -> order::Bounds {
     let margin = 0.01 * (high - low).max_element();
     // Where a solid is empty, any box will do: its shader finds nothing.
-    match low.is_finite() && low.cmple(high).all() {
-        true => ((low - margin).as_vec3(), (high + margin).as_vec3()),
-        false => (Vec3::ZERO, Vec3::splat(1e-3)),
+    if low.is_finite() && low.cmple(high).all() {
+        ((low - margin).as_vec3(), (high + margin).as_vec3())
+    } else {
+        (Vec3::ZERO, Vec3::splat(1e-3))
     }
 }
 
@@ -210,7 +212,7 @@ fn filled(data: &[u8]) -> &[u8] {
     if data.is_empty() { &[0; 16] } else { data }
 }
 
-/// Where a placement of the scene puts what stands there.
+/// The transform of an instance after a placement of the scene.
 fn place(transform: &Affine3A, placement: &Placement) -> Affine3A {
     let axis = |axis: glam::Vec3A| (axis.as_dvec3() * placement.size).as_vec3a();
     let Affine3A { matrix3, translation } = *transform;
@@ -226,14 +228,4 @@ fn to_world_f64(transform: &Affine3A) -> DAffine3 {
         matrix3: glam::Mat3::from(transform.matrix3).as_dmat3(),
         translation: transform.translation.as_dvec3(),
     }
-}
-
-/// The box in the world around a box.
-fn around(to_world: &Affine3A, (low, high): order::Bounds) -> order::Bounds {
-    let middle: Vec3 = to_world.transform_point3((low + high) * 0.5);
-    let matrix = to_world.matrix3;
-    let half = (high - low) * 0.5;
-    let reach =
-        matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
-    (middle - Vec3::from(reach), middle + Vec3::from(reach))
 }

@@ -12,7 +12,7 @@ use super::sweep::Sweep;
 use super::world::{Shown, World};
 
 common::shader_enum! {
-    /// How what moves is in the top level.
+    /// The representation of moving pieces in the top level.
     pub enum Method: METHOD {
         /// Once for each of a few moments, seen by the rays of that moment alone.
         Moments,
@@ -28,21 +28,21 @@ common::shader_struct! {
         close_rotation: Vec4,
         open_place: Vec3,
         close_place: Vec3,
-        /// Which record of the scene's it has.
+        /// Index of its record in the scene.
         record: u32,
-        /// How many triangles.
+        /// Number of triangles.
         triangles: u32,
     }
 }
 
 common::shader_struct! {
-    /// How often the intersection shader was called.
+    /// Number of calls of the intersection shader.
     pub struct Calls {
         count: u32,
     }
 }
 
-/// What is built for a frame.
+/// Parameters of a frame's levels.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Plan {
     pub method: Method,
@@ -53,9 +53,10 @@ pub struct Plan {
     pub turns: u32,
 }
 
-/// What marks the custom index of what is under way; shaders have the same number.
+/// The bit of the custom index that marks a moving piece; shaders have the same number.
 const UNDER_WAY: usize = 1 << 23;
-/// How far from a triangle a ray may begin, for the margin of its box: eyes farther away see no detail of it.
+/// Bound on the distance from a ray's origin to a triangle, for the margin of its box: eyes farther away see no
+/// detail of it.
 const REACH: f32 = 64.0;
 
 /// The levels, and the frame that they show.
@@ -63,9 +64,9 @@ pub struct Levels {
     /// The top level.
     pub tlas: AccelerationStructure,
     pub movers: Buffer,
-    /// How often the intersection shader was called.
+    /// Number of calls of the intersection shader.
     pub calls: Buffer,
-    /// Whether anything is under way.
+    /// True if a piece is under way.
     pub moves: bool,
     /// The bottom levels of what is under way, for the method `swept`.
     swept: Vec<AccelerationStructure>,
@@ -104,10 +105,8 @@ impl Levels {
         let calls =
             Buffer::with_data(gpu, "calls", &[0u32], usage | vk::BufferUsageFlags::TRANSFER_SRC)?;
         let widest = swept.iter().map(AccelerationStructure::build_scratch).max().unwrap_or(0);
-        let scratch = match widest > tlas.build_scratch() {
-            true => swept[0].scratch()?,
-            false => tlas.scratch()?,
-        };
+        let scratch =
+            if widest > tlas.build_scratch() { swept[0].scratch()? } else { tlas.scratch()? };
         Ok(Self {
             tlas,
             movers,
@@ -124,7 +123,7 @@ impl Levels {
         })
     }
 
-    /// Whether they have room for what another plan has.
+    /// Tests whether they have room for another plan.
     pub fn fit(&self, plan: Plan) -> bool {
         let of = |plan: Plan| (plan.method, plan.moments, plan.shutter);
         of(self.room_for) == of(plan)
@@ -217,7 +216,7 @@ impl Levels {
     }
 }
 
-/// What shaders are told of all that is under way.
+/// Data for the shaders about all moving pieces.
 fn movers(world: &World, shown: &[Shown]) -> Vec<Mover> {
     let mover = |Shown { mesh, record, moved, .. }: &Shown| {
         let [open, close] = (*moved)?;

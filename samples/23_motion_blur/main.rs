@@ -3,12 +3,16 @@
 //! New since 14_animation: a shutter; a time for each sample, in strata; what is under way in the top level once for
 //! each moment, or swept, with its triangles moved by an intersection shader; rotations between two poses.
 
+mod ball;
+#[path = "../14_animation/leg.rs"]
+mod leg;
 #[path = "../14_animation/legs.rs"]
 mod legs;
 mod levels;
 mod motion;
 mod shutter;
 mod sweep;
+#[path = "../14_animation/turned.rs"]
 mod turned;
 mod world;
 
@@ -23,8 +27,8 @@ use common::model::text;
 use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Sun, assets};
 use common::{Controls, Frame, Playback, Sample, Setup, Variant, Variants};
 use glam::{DVec3, Vec3};
+use leg::Motion;
 use levels::{Calls, Levels, Method, Mover, Plan};
-use motion::Motion;
 use shutter::Between;
 use world::World;
 
@@ -47,17 +51,17 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin", Smear,
     }
-    /// Which times samples have.
+    /// The distribution of the samples' times.
     enum Times: TIMES { Middle, Random, Strata }
-    /// Whether calls of the intersection shader are counted.
+    /// The counting of calls of the intersection shader.
     enum Counting: COUNTING { Off, On }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -68,7 +72,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

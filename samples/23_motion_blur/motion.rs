@@ -1,67 +1,13 @@
-//! Where every piece is at a time, in frames: a function of that time, and of nothing else.
+//! The place of every piece at a time, in frames: a function of that time alone.
 
 use glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
 
+use super::leg::{Leg, Motion, UNDER_WAY, smooth};
 use super::shutter::Pose;
 
-/// Whose a piece is, and what it is.
+/// Names of the sides, and of the kinds of pieces.
 pub const SIDES: [&str; 2] = ["white", "black"];
 pub const KINDS: [&str; 7] = ["pawn", "rook", "knight", "bishop", "queen", "king", "ball"];
-
-/// Frames that a piece is under way.
-pub const UNDER_WAY: u32 = 34;
-
-/// A piece on its way: from here to there, in these frames.
-pub struct Leg {
-    pub begin: u32,
-    pub from: Vec3,
-    pub to: Vec3,
-    pub lift: f32,
-    pub becomes: Option<usize>,
-}
-
-impl Leg {
-    /// The place at a time that is not before the first.
-    fn at(&self, time: f64) -> Vec3 {
-        let part = self.part(time);
-        let (across, up) = match self.lift > 0.0 {
-            true => (smooth((part - 0.2) / 0.6), smooth(part / 0.35) * smooth((1.0 - part) / 0.35)),
-            false => (smooth(part), 0.0),
-        };
-        self.from.lerp(self.to, across) + up * self.lift * Vec3::Y
-    }
-
-    /// The part of it that is over.
-    fn part(&self, time: f64) -> f32 {
-        (time - f64::from(self.begin)) as f32 / UNDER_WAY as f32
-    }
-
-    /// How far a piece that is lifted has turned, in degrees; it arrives as it set out.
-    fn turned(&self, time: f64, turns: u32) -> f32 {
-        let across = smooth((self.part(time) - 0.2) / 0.6);
-        if self.lift > 0.0 && across < 1.0 { 360.0 * turns as f32 * across } else { 0.0 }
-    }
-}
-
-/// From 0 to 1 without a jerk at either end.
-fn smooth(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
-/// A piece through a whole game: its side and kind by number, where it stands at first, and its legs in order.
-pub struct Piece {
-    pub side: usize,
-    pub kind: usize,
-    pub home: Vec3,
-    pub legs: Vec<Leg>,
-}
-
-/// All pieces, and the last frame.
-pub struct Motion {
-    pub pieces: Vec<Piece>,
-    pub last: u32,
-}
 
 /// A piece at a time: its kind, for a pawn may have become a queen, and its place.
 pub struct Placed {
@@ -80,6 +26,14 @@ impl Placed {
     pub fn at(&self) -> Affine3A {
         let matrix3 = Mat3A::from_rotation_y(self.yaw.to_radians());
         Affine3A { matrix3, translation: Vec3A::from(self.place) }
+    }
+}
+
+impl Leg {
+    /// The angle by which a lifted piece has turned, in degrees; it arrives as it set out.
+    fn turned(&self, time: f64, turns: u32) -> f32 {
+        let across = smooth((self.part(time) - 0.2) / 0.6);
+        if self.lift > 0.0 && across < 1.0 { 360.0 * turns as f32 * across } else { 0.0 }
     }
 }
 

@@ -1,9 +1,9 @@
-//! What a piece does while the shutter is open: the two poses between which it goes.
+//! The motion of a piece while the shutter is open: from one pose to another.
 
 use glam::{Affine3A, Mat3A, Quat, Vec3};
 
 common::shader_enum! {
-    /// What lies between two poses.
+    /// The interpolation of two poses.
     pub enum Between: BETWEEN {
         /// A rotation between both rotations.
         Rotation,
@@ -12,7 +12,7 @@ common::shader_enum! {
     }
 }
 
-/// Where something is, and how it is turned.
+/// A position and an orientation.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Pose {
     pub place: Vec3,

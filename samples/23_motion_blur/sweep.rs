@@ -17,14 +17,14 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What the compute shader is told.
+    /// Push constants of the compute shader.
     struct Sweeping {
         movers: Address<Mover>,
         instances: Address<InstanceRecord>,
         boxes: Address<Bounds>,
-        /// How many boxes each has room for.
+        /// Capacity of each, in boxes.
         room: u32,
-        /// How much larger a box is on each side.
+        /// Margin of a box on each side.
         margin: f32,
     }
 }
@@ -50,7 +50,7 @@ impl Sweep {
         Ok(Self { boxes, room, pipeline, gpu: gpu.clone() })
     }
 
-    /// What the bottom level of a piece is built from.
+    /// The geometry of a piece's bottom level.
     pub fn geometry(&self, piece: u32) -> Geometry {
         let offset = u64::from(piece * self.room) * size_of::<Bounds>() as u64;
         let boxes = self.boxes.address + offset;

@@ -5,29 +5,31 @@ use common::gpu::{Buffer, Gpu, order};
 use common::model::Model;
 use common::scene::{
     InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
-    triangle_order,
+    moved_bounds, triangle_order,
 };
-use glam::{Affine3A, Mat3A, Vec3};
+use glam::{Affine3A, Vec3};
 
-use super::motion::{KINDS, Motion, Placed, SIDES};
+use super::ball;
+use super::leg::Motion;
+use super::motion::{KINDS, Placed, SIDES};
 use super::shutter::Pose;
 use super::turned::{self, TABLE};
 
 /// The radius of a ball.
 pub const BALL: f32 = 0.5;
 
-/// What there is, and where it is at a time.
+/// Everything in the world, and its place at a time.
 pub struct World {
     /// The meshes on the device; what moves has a top level of its own.
     pub scene: SceneOnGpu,
     pub motion: Motion,
-    /// Where shaders find records and materials.
+    /// Addresses of records and materials.
     pub addresses: SceneAddresses,
     /// The meshes of the kinds of pieces, in their order.
     pub kinds: Vec<usize>,
     standing: Vec<Standing>,
     host: Scene,
-    /// How many triangles each mesh is built from.
+    /// Number of triangles that each mesh is built from.
     primitives: Vec<u32>,
     _records: Buffer,
 }
@@ -38,11 +40,11 @@ struct Standing {
     at: Affine3A,
 }
 
-/// What is there while the shutter is open.
+/// An object seen while the shutter is open.
 pub struct Shown {
     pub mesh: usize,
     pub record: usize,
-    /// Where it is when the shutter opens.
+    /// Transform when the shutter opens.
     pub at: Affine3A,
     /// Its poses when the shutter opens and when it closes, if these differ.
     pub moved: Option<[Pose; 2]>,
@@ -113,7 +115,7 @@ impl World {
         still.chain(moving).collect()
     }
 
-    /// How many instances there are.
+    /// Number of instances.
     pub fn count(&self) -> usize {
         self.standing.len() + self.motion.pieces.len()
     }
@@ -124,19 +126,14 @@ impl World {
         counts.max().unwrap_or(0)
     }
 
-    /// How many a mesh is built from: its own, in order, some of them perhaps twice.
+    /// Number of triangles that a mesh is built from: its own, in order, some of them perhaps twice.
     pub fn triangles(&self, mesh: usize) -> u32 {
         self.primitives[mesh]
     }
 
     /// The box around a mesh in its place.
     pub fn around(&self, mesh: usize, at: &Affine3A) -> order::Bounds {
-        let (low, high) = self.host.model.meshes[mesh].bounds();
-        let middle = at.transform_point3((low + high) * 0.5);
-        let half = (high - low) * 0.5;
-        let Mat3A { x_axis, y_axis, z_axis } = at.matrix3;
-        let reach = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
-        (middle - Vec3::from(reach), middle + Vec3::from(reach))
+        moved_bounds(self.host.model.meshes[mesh].bounds(), at)
     }
 }
 
@@ -150,7 +147,7 @@ fn furnish(model: &mut Model) {
     let first = model.materials.len();
     model.materials.push(felt);
     model.meshes.push(turned::table(9.6, first));
-    model.meshes.push(turned::ball(BALL, first));
+    model.meshes.push(ball::ball(BALL, first));
 }
 
 fn mesh(model: &Model, name: &str) -> Result<usize> {

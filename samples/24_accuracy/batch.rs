@@ -1,4 +1,4 @@
-//! What the device is asked: queries in its memory, and their shapes in a top level.
+//! Input of the device: queries in its memory, and their shapes in a top level.
 
 use anyhow::{Result, ensure};
 use ash::vk;
@@ -79,7 +79,7 @@ impl Batch {
         })
     }
 
-    /// How many queries there are.
+    /// Number of queries.
     pub fn count(&self) -> u32 {
         self.count
     }

@@ -1,4 +1,4 @@
-//! What a GPU's own compiler makes of each rung: estimates of Mesa's RADV, for GPUs that are not there.
+//! Estimates of each rung by a GPU's own compiler, Mesa's RADV, for GPUs that are not installed.
 
 use std::fmt::Write as _;
 
@@ -53,7 +53,7 @@ pub fn compile(rungs: &mut [MeasuredRung], progress: &mut Progress) -> Result<()
     Ok(())
 }
 
-/// What clock and compiler say of one rung.
+/// Time and estimate of one rung.
 pub struct Pair<'a> {
     pub row: &'a MeasuredRung,
     /// MeasuredRung time, and estimated inverse throughput on [`SHOWN`], over the least of the ladder each.
@@ -62,7 +62,7 @@ pub struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// How many times the larger is the smaller.
+    /// The ratio of the larger to the smaller.
     pub fn apart(&self) -> f64 {
         (self.estimate / self.time).max(self.time / self.estimate)
     }

@@ -11,7 +11,7 @@ const PANEL: (u32, u32) = (320, 330);
 const COLUMNS: usize = 5;
 /// Pixels above the panels.
 const HEAD: u32 = 114;
-/// Where both axes have their labels.
+/// Labels of both axes.
 const TICKS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
 /// The panels of a measurement.

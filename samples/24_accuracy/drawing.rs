@@ -12,7 +12,7 @@ pub const ORANGE: RGBColor = RGBColor(230, 159, 0);
 pub const GRID: RGBColor = RGBColor(228, 228, 228);
 pub const TEXT: RGBColor = RGBColor(40, 40, 40);
 
-/// What drawing on a backend returns.
+/// The result of drawing on a backend.
 pub type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 /// Something that can be drawn at any scale.
@@ -85,8 +85,8 @@ pub fn head<B: DrawingBackend>(
     Ok(())
 }
 
-/// Where each label goes: to the right of its dot, as near as other dots, other labels and the axis at
-/// `bottom` leave room. All in pixels, y downwards.
+/// Offsets of the labels: to the right of each dot, as near as other dots, other labels and the axis at `bottom`
+/// leave room. All in pixels, y downwards.
 pub fn label_offsets(dots: &[(f64, f64)], bottom: f64) -> Vec<(i32, i32)> {
     let places = (0..20).flat_map(|x| (-28..12).map(move |y| (10 + 4 * x, -6 + 4 * y)));
     let mut places: Vec<(i32, i32)> = places.collect();

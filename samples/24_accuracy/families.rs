@@ -20,14 +20,14 @@ use truth::Truth;
 pub struct Family {
     pub name: &'static str,
     pub shapes: Vec<Shape>,
-    /// Which shape, which ray.
+    /// Pairs of a shape's index and a ray.
     pub rays: Vec<(usize, Ray)>,
     pub expected: Vec<Expected>,
-    /// Whether each shape can stand in an acceleration structure: not if there is one for every ray.
+    /// True if each shape can stand in an acceleration structure: not if there is one per ray.
     pub is_traced: bool,
 }
 
-/// What a family asks of each ray: given a source of random numbers, a shape and a ray.
+/// A family's generator: given a source of random numbers, it makes a shape and a ray.
 pub type Make<'a> = dyn FnMut(&mut Random, usize) -> (usize, DVec3, DVec3) + 'a;
 
 impl Family {

@@ -1,4 +1,4 @@
-//! What geometry costs: the sphere of an intersection shader beside meshes that are nearly spheres.
+//! Costs of geometry: the sphere of an intersection shader beside meshes that are nearly spheres.
 
 use std::collections::HashMap;
 use std::time::Instant;
@@ -20,7 +20,7 @@ use crate::batch::{IDENTITY, instance};
 
 /// Pixels of the picture's side; the sphere's diameter is a little less.
 const SIDE: u32 = 512;
-/// How often each triangle of an octahedron is cut into four.
+/// Number of times each triangle of an octahedron is cut into four.
 const CUTS: [u32; 3] = [2, 4, 6];
 
 /// A sphere of radius 1, in one of its forms.
@@ -31,7 +31,7 @@ pub struct Form {
     pub triangles: usize,
     /// Of every million pixels that see the sphere, how many do not see this.
     pub lost: f64,
-    /// How far inside the sphere's outline the deepest of them is, in pixels of a picture 512 high.
+    /// Distance of the deepest of them inside the sphere's outline, in pixels of a picture 512 high.
     pub depth: f64,
     /// Error of the distance where both are seen, in radii: 99 of 100 pixels are at least as good.
     pub p99: f64,
@@ -97,7 +97,7 @@ fn camera() -> Camera {
     Camera::new(4.0 * DVec3::new(0.36, 0.48, 0.8), DVec3::ZERO, 30.0)
 }
 
-/// What a pixel sees of the sphere itself.
+/// The exact hit of a pixel's ray with the sphere.
 struct ExactHit {
     t: f64,
     /// Pixels from the outline.

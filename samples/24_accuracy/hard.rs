@@ -21,15 +21,15 @@ use crate::shape::Shape;
 /// away the device's own box test decides.
 const RANGE: f32 = 1e7;
 
-/// What a run of a case file found.
+/// Results of a run of a case file.
 #[derive(Serialize)]
 struct Findings {
     file: String,
     device: String,
     driver: String,
-    /// How the shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of the shaders: the value of `--arithmetic`.
     arithmetic: String,
-    /// Whether `fma()` rounds once here.
+    /// True if `fma()` rounds once here.
     fused: bool,
     cases: usize,
     /// Cases that a rung was not asked though the device has it. Any is a failure.
@@ -38,7 +38,7 @@ struct Findings {
     traced_within: f32,
     rungs: Vec<Row>,
     answers: Vec<Line>,
-    /// What a top rung got wrong.
+    /// Errors of top rungs.
     failures: Vec<String>,
     validation_messages: Vec<String>,
 }
@@ -51,7 +51,7 @@ struct Row {
     name: &'static str,
     way: &'static str,
     top: bool,
-    /// Why the device does not have it.
+    /// The reason why the device lacks it.
     #[serde(skip_serializing_if = "Option::is_none")]
     unavailable: Option<String>,
     cases: usize,

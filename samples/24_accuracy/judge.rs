@@ -8,7 +8,7 @@ use crate::probe::Way;
 use crate::query::{Answer, Ray};
 use crate::shape::{Leaving, Shape};
 
-/// Whether there is a hit.
+/// The verdict of hit or miss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ExpectedHit {
@@ -18,7 +18,7 @@ pub enum ExpectedHit {
     Either,
 }
 
-/// What is known exactly, here rounded to f64.
+/// The exact result, here rounded to f64.
 #[derive(Clone, Debug)]
 pub struct Expected {
     pub hit: ExpectedHit,
@@ -31,7 +31,7 @@ pub struct Expected {
     pub surface: Option<f64>,
 }
 
-/// How far off a top rung may be; what is missing is not checked.
+/// Error limits of a top rung; a missing one is not checked.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
@@ -50,7 +50,7 @@ impl Tolerance {
     }
 }
 
-/// What became of a query.
+/// The outcome of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -73,7 +73,7 @@ pub struct Judgement {
     pub t: Option<f32>,
     /// Error of t in units in the last place.
     pub ulp: Option<f64>,
-    /// What is farther off than it may be.
+    /// Quantities beyond their limits.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub why: String,
 }

@@ -1,4 +1,4 @@
-//! What the laboratory does without a picture: hard cases through every rung, measurements, and the atlas.
+//! The laboratory's work without a picture: hard cases through every rung, measurements, and the atlas.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use crate::ladder::Primitive;
 use crate::plot::Plot;
 use crate::{Demo, hard, measure};
 
-/// What the laboratory takes beside every sample's arguments.
+/// Arguments of the laboratory, beside every sample's.
 #[derive(clap::Args)]
 pub struct Lab {
     /// Run every case of a file of hard cases through every rung; exit 1 if a top rung is wrong
@@ -70,10 +70,10 @@ fn primitive(name: &str) -> Result<Primitive, String> {
 const RAYS: u32 = 10_000;
 const ATLAS_RAYS: u32 = 50_000;
 
-/// What --atlas writes.
+/// Files written by --atlas.
 const ATLAS: [&str; 2] = ["atlas.json", "atlas.md"];
 
-/// What --measure writes.
+/// Files written by --measure.
 const FILES: [&str; 6] = [
     "accuracy.json",
     "accuracy.md",

@@ -3,7 +3,7 @@
 use ash::vk;
 use common::gpu::Gpu;
 
-/// What a ray, or a sum, is asked of. The order is that of `PRIMITIVE` in `query.glsl`.
+/// The primitive, or sum, that a query tests, in the order of `PRIMITIVE` in `query.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Primitive {
     Sphere,
@@ -44,7 +44,7 @@ impl Primitive {
         }
     }
 
-    /// Whether there is a ray that an acceleration structure could be asked about.
+    /// Tests whether an acceleration structure can trace it.
     pub fn is_traced(self) -> bool {
         self != Self::Accumulation
     }
@@ -64,7 +64,7 @@ impl Primitive {
     }
 }
 
-/// Where a rung's code is, and so what the device must offer.
+/// The place of a rung's code, and so what the device must support.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
     /// Plain GLSL, any device.
@@ -78,7 +78,7 @@ pub enum Code {
 }
 
 impl Code {
-    /// Why this device cannot run it; `None` if it can.
+    /// The reason why this device cannot run it; `None` if it can.
     pub fn unavailable(self, gpu: &Gpu) -> Option<String> {
         let (floats, features) = (&gpu.limits.vulkan12, &gpu.features.core);
         let lacks = |what: &str| Some(format!("{} does not offer {what}", gpu.name));
@@ -102,22 +102,22 @@ impl Code {
 pub struct Rung {
     /// Its place on the ladder, such as `S2`.
     pub label: &'static str,
-    /// What it does, in a word or two.
+    /// Name in a word or two.
     pub name: &'static str,
     /// Its number in the shader.
     pub constant: u32,
     pub code: Code,
-    /// Whether every hard case must be right.
+    /// True if every hard case must be right.
     pub is_top: bool,
 }
 
 impl Rung {
-    /// Why this device does not have the rung; `None` if it does.
+    /// The reason why this device lacks the rung; `None` if it has it.
     pub fn unavailable(&self, gpu: &Gpu) -> Option<String> {
         self.code.unavailable(gpu)
     }
 
-    /// Whether every hard case must be right here: in the worst arithmetic, 64 bits are worth 32.
+    /// Tests whether every hard case must be right here: in the worst arithmetic, 64 bits are worth 32.
     pub fn is_held(&self, gpu: &Gpu) -> bool {
         self.is_top && !(self.code == Code::Float64 && gpu.driver_shim.name() != "driver")
     }

@@ -1,4 +1,4 @@
-//! What the rungs that have been looked at cost and are worth, at the specimen in the window.
+//! Costs and errors of the rungs looked at so far, on the specimen in the window.
 
 use anyhow::{Context, Result};
 use common::app::chart::{Chart, Dot};
@@ -18,7 +18,7 @@ use crate::specimen::{SUN, Specimen};
 
 /// Rays across the view, and down.
 const SIDE: u32 = 48;
-/// How often each ray is asked while time is taken, and how many such times are taken.
+/// Load of one timed launch, and the number of launches.
 const LOAD: Load = Load { repeat: 16, copies: 1 };
 const TIMES: u32 = 5;
 
@@ -30,7 +30,7 @@ pub struct Live {
     found: Vec<LiveFigures>,
 }
 
-/// What was found of one rung, on rays through the view.
+/// Results of one rung, on rays through the view.
 #[derive(Serialize)]
 pub struct LiveFigures {
     pub rung: &'static str,
@@ -111,7 +111,7 @@ impl Live {
     }
 }
 
-/// Whether a ray meets the unit sphere where the way to the sun leads out of it.
+/// Tests whether a ray meets the unit sphere where the way to the sun leads out of it.
 fn leaves(origin: DVec3, direction: DVec3) -> bool {
     let ray = Ray { origin, direction, tmin: 0.0, tmax: f64::INFINITY };
     let hit = Sphere { center: DVec3::ZERO, radius: 1.0 }.intersect(&ray);

@@ -58,7 +58,7 @@ struct Demo {
 }
 
 common::shader_struct! {
-    /// What the picture's shader can read.
+    /// Push constants of the picture's shader.
     struct Push {
         camera: CameraBasis,
         numbers: Address,

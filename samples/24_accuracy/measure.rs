@@ -1,4 +1,4 @@
-//! What accuracy costs: every rung on seeded random families, errors and time in one run.
+//! Price of accuracy: every rung on seeded random families, errors and time in one run.
 
 use std::time::SystemTime;
 
@@ -18,7 +18,7 @@ use crate::measurement::{Errors, March, MeasuredRung, Measurement, Time};
 use crate::probe::{Instrument, Load, Probe, Way};
 use crate::query::Answer;
 
-/// How many milliseconds a launch has to take to be worth timing; a software driver begins at once.
+/// Least time of a launch that is worth timing, in milliseconds; a software driver begins at once.
 const LEAST: f64 = 5.0;
 const LEAST_ON_SOFTWARE: f64 = 2.0;
 /// And how many the dearest rung may take: a system takes a device that is silent for two seconds for lost.
@@ -81,9 +81,10 @@ pub fn measure(
         }
         rungs.extend(measured);
     }
-    let no_compiler = match gpu.driver_shim.name() != "driver" {
-        true => Some(String::from("no GPU computes as badly as it may")),
-        false => compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}")),
+    let no_compiler = if gpu.driver_shim.name() != "driver" {
+        Some(String::from("no GPU computes as badly as it may"))
+    } else {
+        compiled::compile(&mut rungs, &mut progress).err().map(|why| format!("{why:#}"))
     };
     let compiler = rungs.iter().find_map(|row| row.compiled_for.first());
     let compiler = compiler.map(|compiled| compiled.program.compiler.clone());
@@ -180,7 +181,7 @@ pub fn tally(family: &Family, way: Way, answers: &[Answer]) -> Errors {
     Errors { p50: at(0.5), p99: at(0.99), max: at(1.0), ..errors }
 }
 
-/// How often to ask each query for a launch that is worth timing, and which rung is the cheapest.
+/// The repetitions of each query for a launch that is worth timing, and the cheapest rung.
 fn enough(
     probe: &Probe,
     instruments: &[(&Rung, Instrument)],

@@ -14,11 +14,11 @@ use crate::geometry::Form;
 pub struct Measurement {
     pub device: String,
     pub driver: String,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of the shaders: the value of `--arithmetic`.
     pub arithmetic: String,
     /// The day, as 2026-11-21.
     pub date: String,
-    /// Whether `fma()` rounds once here.
+    /// True if `fma()` rounds once here.
     pub fused: bool,
     /// Rays of each family.
     pub rays: usize,
@@ -26,7 +26,7 @@ pub struct Measurement {
     pub rounds: u32,
     /// The GPU compiler of the estimates, with its version.
     pub compiler: Option<String>,
-    /// Why there are no estimates.
+    /// The reason why there are no estimates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_compiler: Option<String>,
     pub rungs: Vec<MeasuredRung>,
@@ -43,7 +43,7 @@ pub struct MeasuredRung {
     pub primitive: &'static str,
     pub rung: &'static str,
     pub name: &'static str,
-    /// Why the device does not have it.
+    /// The reason why the device lacks it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unavailable: Option<String>,
     pub errors: Vec<Errors>,
@@ -51,14 +51,14 @@ pub struct MeasuredRung {
     pub time: Option<Time>,
     /// Of every family, where a rung takes as many steps as a ray is hard.
     pub marches: Vec<March>,
-    /// What a GPU's compiler makes of it, asked directly: one program for each family.
+    /// Estimates of a GPU's compiler, called directly: one program per family.
     pub compiled_for: Vec<Compiled>,
-    /// What the direct pipeline is made from.
+    /// Description of the direct pipeline.
     #[serde(skip)]
     pub desc: Option<PipelineDesc>,
 }
 
-/// How wrong a rung is on a family.
+/// Errors of a rung on a family.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Errors {
     pub family: &'static str,
@@ -75,7 +75,7 @@ pub struct Errors {
     pub not_finite: usize,
 }
 
-/// What a rung costs.
+/// Costs of a rung.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Time {
     /// Millions of intersections a second.
@@ -84,11 +84,11 @@ pub struct Time {
     pub ratio: Ratio,
     /// The cheapest rung against itself: no smaller difference can be seen.
     pub noise: Ratio,
-    /// How many invocations began with each ray, so that the device was full.
+    /// Number of invocations that began with each ray, to fill the device.
     pub copies: u32,
 }
 
-/// What a march costs on a family, over the rung that is cheapest there.
+/// Cost of a march on a family, relative to the cheapest rung there.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct March {
     pub family: &'static str,

@@ -99,7 +99,7 @@ impl Drawing for Plot<'_> {
     }
 }
 
-/// Where the time axis has its labels.
+/// Labels of the time axis.
 const TICKS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 50.0];
 
 impl Panel<'_> {

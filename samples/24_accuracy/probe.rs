@@ -27,15 +27,16 @@ common::shader_struct! {
     }
 }
 
-/// How many samples one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
+/// Samples that one dispatch adds to a sum: a shader that runs for longer may be taken for a hang.
 const SAMPLES_AT_ONCE: u32 = 1 << 19;
 
-/// How much a launch asks of its queries, where it is timed.
+/// The load of a launch that is timed.
 #[derive(Clone, Copy, Debug)]
 pub struct Load {
-    /// How many an invocation answers, one after the other.
+    /// Queries that an invocation computes, one after the other.
     pub repeat: u32,
-    /// How many invocations begin with each. One keeps its answer; the others fill a device that takes more at once.
+    /// Invocations that begin with each query. One keeps its answer; the others fill a device that takes more at
+    /// once.
     pub copies: u32,
 }
 
@@ -43,7 +44,7 @@ impl Load {
     /// Every query once.
     pub const ONCE: Self = Self { repeat: 1, copies: 1 };
 
-    /// How often a query is answered.
+    /// Number of times a query is computed.
     pub const fn times(self) -> u32 {
         self.repeat * self.copies
     }
@@ -70,8 +71,8 @@ pub struct Instrument {
 }
 
 impl Instrument {
-    /// What the pipeline is made from, for a GPU whose `fma()` rounds once, as AMD's does: it is what the
-    /// laboratory would make on that GPU, where it would have asked.
+    /// Description of the pipeline for a GPU whose `fma()` rounds once, as AMD's does: the one that the laboratory
+    /// would make on that GPU, where it would have asked.
     pub fn desc(&self) -> PipelineDesc {
         let mut desc = (*self.pipeline.desc).clone();
         for [constant, value] in &mut desc.constants {
@@ -87,7 +88,7 @@ impl Instrument {
 pub struct Probe {
     gpu: Gpu,
     timer: Timer,
-    /// Whether `fma()` rounds once.
+    /// True if `fma()` rounds once.
     pub fused: bool,
 }
 
@@ -112,7 +113,7 @@ impl Probe {
         Ok(probe)
     }
 
-    /// Whether the device is a software driver.
+    /// Tests whether the device is a software driver.
     pub fn is_software(&self) -> bool {
         self.gpu.software
     }

@@ -1,4 +1,4 @@
-//! What the device is asked, and what it says: a ray and a shape, and whether and where they meet.
+//! Queries and answers of the device: a ray and a shape, and whether and where they meet.
 
 use glam::Vec3;
 
@@ -20,7 +20,7 @@ impl Ray {
 }
 
 common::shader_struct! {
-    /// What is asked: a ray, and where the numbers of its shape are.
+    /// A query: a ray, and the place of its shape's numbers.
     pub struct Query {
         pub origin: Vec3,
         pub tmin: f32,
@@ -33,7 +33,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What the device said.
+    /// The device's answer.
     pub struct Answer {
         pub offered: u32,
         pub hit: u32,

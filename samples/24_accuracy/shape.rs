@@ -1,4 +1,4 @@
-//! What a ray may be asked of: its numbers as shaders read them, and the box around it.
+//! Shapes that a ray may be tested against: their numbers as shaders read them, and the boxes around them.
 
 use glam::{DMat3, DVec3, Vec3};
 
@@ -50,7 +50,7 @@ pub struct Heightfield {
     pub lipschitz: f32,
 }
 
-/// Where a ray leaves a sphere, and what it may meet.
+/// A ray's start on a sphere, and the shape it may meet.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaving {
     pub center: Vec3,
@@ -88,7 +88,7 @@ pub enum Pattern {
     Head(f32),
 }
 
-/// How far from the origin a plane or a heightfield is offered.
+/// Extent of the box around a plane or a heightfield, from the origin.
 const FAR: f32 = 1e18;
 
 impl Shape {
@@ -228,7 +228,7 @@ fn plane(normal: Vec3, distance: f64, origin: Vec3) -> [f32; 9] {
     [nx, ny, nz, distance as f32, low_part(distance), ax, ay, az, rest as f32]
 }
 
-/// What rounding to 32 bits leaves over, itself rounded.
+/// The rest that rounding to 32 bits leaves, itself rounded.
 fn low_part(x: f64) -> f32 {
     (x - f64::from(x as f32)) as f32
 }

@@ -1,4 +1,4 @@
-//! What the window looks at: one shape of each kind, and a camera that has it in view.
+//! Specimens in the window: one shape of each kind, and a camera that has it in view.
 
 use common::scene::Camera;
 use glam::{DVec3, Vec3};
@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use crate::ladder::Primitive;
 use crate::shape::{Heightfield, Leaving, Shape};
 
-/// What can be looked at; a sum cannot.
+/// Primitives that can be looked at; a sum cannot.
 pub const PRIMITIVES: [Primitive; 8] = [
     Primitive::Sphere,
     Primitive::Box,

@@ -1,4 +1,4 @@
-//! What was measured, as the page shows it.
+//! Measurements as the page shows them.
 
 use std::fmt::Write as _;
 
@@ -197,7 +197,7 @@ fn forms(forms: &[Form]) -> String {
 }
 
 impl Errors {
-    /// Whether the same was found, whichever way.
+    /// Tests for the same result, whatever the way to it.
     fn same(&self, other: &Self) -> bool {
         let Self { p50, p99, max, false_hits, false_misses, never_offered, .. } = *self;
         let errors = [p50, p99, max] == [other.p50, other.p99, other.max];

@@ -38,7 +38,7 @@ pub struct Heightfield {
 pub struct SceneLight {
     /// The light, as a disk.
     pub disk: DiskLight,
-    /// Whether shadow rays are traced to it.
+    /// True if shadow rays are traced to it.
     pub shadows: bool,
 }
 
@@ -55,7 +55,7 @@ pub struct BoardPlane {
     pub dark: Vec3,
     /// Length of a square's side.
     pub square: f32,
-    /// What part of the light is mirrored, looked at straight.
+    /// The part of the light that is mirrored at normal incidence.
     pub reflection: f32,
 }
 
@@ -64,7 +64,7 @@ pub struct BoardPlane {
 pub struct Composition {
     /// Meshes in use, materials, instances, the camera.
     pub scene: Scene,
-    /// What the camera looks through.
+    /// The camera's lens.
     pub lens: ThinLens,
     /// A finish for each material; none for those that nothing wears.
     pub finishes: Vec<Finish>,
@@ -86,23 +86,23 @@ pub struct Composition {
     pub strands: Strands,
     /// The landscape, if there is one.
     pub heightfield: Option<Heightfield>,
-    /// Whether textures are averaged over what a pixel sees of them.
+    /// True if textures are averaged over a pixel's footprint.
     pub filtered: bool,
-    /// How bright the sky is, 0 to 1.
+    /// Brightness of the sky, 0 to 1.
     pub sky: f32,
     /// Rays a pixel.
     pub samples: u32,
     /// Shadow rays a hit, to a light that has a size.
     pub light_samples: u32,
-    /// How often a path may be reflected or refracted.
+    /// Maximum number of reflections and refractions of a path.
     pub depth: u32,
-    /// How often it may be scattered.
+    /// Maximum number of times it is scattered.
     pub bounces: u32,
 }
 
 /// The most lights of a composition.
 pub const MAX_LIGHTS: usize = 4;
-/// How far away a lens may be in focus.
+/// Range of distances at which a lens can be in focus.
 pub const FOCUS: RangeInclusive<f32> = 0.015625..=1024.0;
 
 impl Composition {
@@ -150,12 +150,12 @@ impl Composition {
         meshes.chain(spheres).chain(boxes).chain(solids).chain(strands).collect()
     }
 
-    /// How many spheres move while the shutter is open.
+    /// Number of spheres that move while the shutter is open.
     pub fn moving(&self) -> usize {
         self.spheres.iter().filter(|sphere| sphere.moves != Vec3::ZERO).count()
     }
 
-    /// Whether a material may become glass: neither a strand nor what moves wears it.
+    /// Tests whether a material may become glass: neither a strand nor a moving object wears it.
     pub fn may_be_glass(&self, material: u32) -> bool {
         let moves = |sphere: &Sphere| sphere.material == material && sphere.moves != Vec3::ZERO;
         !self.strands.segments.iter().any(|segment| segment.material == material)

@@ -1,4 +1,4 @@
-//! What a shader module contains: its stage, what it calls, and how large its payloads are.
+//! Contents of a shader module: its stage, its calls, and the sizes of its payloads.
 
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Op, StorageClass};
@@ -11,18 +11,18 @@ use common::gpu::Reflection;
 pub struct Contents {
     /// The stage: the execution model of its entry point.
     pub stage: String,
-    /// How many places trace a ray.
+    /// Number of places that trace a ray.
     pub traces: usize,
-    /// How many places report a hit.
+    /// Number of places that report a hit.
     pub reports: usize,
-    /// Whether it reads a texture.
+    /// True if it reads a texture.
     pub samples: bool,
     /// Bytes of the largest payload, a scalar taken for 4.
     pub payload: usize,
 }
 
 impl Contents {
-    /// What a module contains.
+    /// Collects the contents of a module.
     pub fn of(reflection: &Reflection) -> Self {
         let module = &reflection.module;
         let count = |op: Op| instructions(module).filter(|i| i.class.opcode == op).count();

@@ -1,4 +1,4 @@
-//! What each effect costs: the picture's time with it, less the time without.
+//! Costs of each effect: the picture's time with it, less the time without.
 
 use anyhow::Result;
 use common::Frame;
@@ -10,10 +10,10 @@ use crate::recipe::Recipe;
 /// Rounds of a measurement, between one that warms up and one that nobody reads. A frame is a round.
 const ROUNDS: usize = 5;
 
-/// What an effect costs.
+/// The cost of an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
-    /// Which.
+    /// Index of the surface.
     pub effect: Effect,
     /// Milliseconds: the median of the rounds' differences.
     pub milliseconds: f64,
@@ -28,7 +28,7 @@ pub struct Costs {
     timers: Vec<(Option<Effect>, Timer)>,
     /// Milliseconds by round and timer.
     rounds: Vec<Vec<f64>>,
-    /// Whether the timers hold a band that is not in the last round yet.
+    /// True if the timers hold a band that is not in the last round yet.
     is_due: bool,
 }
 
@@ -89,7 +89,7 @@ impl Costs {
         Ok(())
     }
 
-    /// Whether there are rounds to come.
+    /// Tests whether there are rounds to come.
     pub fn wants_more(&self) -> bool {
         self.rounds.len() < ROUNDS + 2
     }

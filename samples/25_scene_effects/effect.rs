@@ -84,12 +84,12 @@ impl Effects {
         Effect::ALL.iter().copied().fold(Self(0), Self::with)
     }
 
-    /// Whether the effect is in the set.
+    /// Tests whether the effect is in the set.
     pub fn has(self, effect: Effect) -> bool {
         self.0 & 1 << effect as u32 != 0
     }
 
-    /// Whether one of the effects is in the set.
+    /// Tests whether one of the effects is in the set.
     pub fn has_any(self, effects: &[Effect]) -> bool {
         effects.iter().any(|&effect| self.has(effect))
     }

@@ -1,4 +1,4 @@
-//! What a scene calls for, found from the scene alone, with the reason.
+//! Effects that a scene needs, found from the scene alone, with the reason.
 
 use common::gpu::ShaderEnum;
 use common::scene::{LightKind, Material};
@@ -6,18 +6,18 @@ use common::scene::{LightKind, Material};
 use crate::Effect::{self, *};
 use crate::{Composition, Effects, Finish, SceneLight, is_glass};
 
-/// Whether an effect is called for, and why.
+/// The need for an effect, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Which effect.
+    /// The effect in question.
     pub effect: Effect,
-    /// Whether the scene calls for it.
+    /// True if the scene needs it.
     pub needed: bool,
-    /// What in the scene says so.
+    /// The reason, from the scene.
     pub why: String,
 }
 
-/// What a scene calls for: a finding for every effect, in the order of [`Effect::ALL`].
+/// Findings for every effect, in the order of [`Effect::ALL`].
 pub fn findings(scene: &Composition) -> Vec<Finding> {
     let finding = |&effect| match found(scene, effect) {
         Some(why) => Finding { effect, needed: true, why },
@@ -32,8 +32,8 @@ pub fn needed(findings: &[Finding]) -> Effects {
     needed.fold(Effects::default(), |set, finding| set.with(finding.effect))
 }
 
-/// Why a scene calls for an effect, if it does. Only what is placed counts: a material that nothing
-/// wears calls for nothing.
+/// The reason why a scene needs an effect, if it does. Only placed objects count: a material that
+/// no object uses triggers no effect.
 fn found(scene: &Composition, effect: Effect) -> Option<String> {
     let worn = |is: &dyn Fn(&Material) -> bool, what: &str| {
         let mut worn = scene.materials_in_use();

@@ -1,4 +1,4 @@
-//! What a material of a scene file has beyond those of an MTL file: a pattern, and lines along edges.
+//! Features of a scene file's material beyond those of an MTL file: a pattern, and lines along edges.
 
 use common::gpu::ShaderEnum;
 use glam::Vec3;
@@ -34,7 +34,7 @@ common::shader_struct! {
         pub scale: f32,
         /// Colour of the lines, linear RGB.
         pub ink: Vec3,
-        /// How wide lines along the edges of triangles are, in pixels; 0 for none.
+        /// Width of lines along the edges of triangles, in pixels; 0 for none.
         pub lines: f32,
         /// A [`Pattern`].
         pub pattern: u32,

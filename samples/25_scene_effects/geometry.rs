@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use ash::vk;
-use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, order, padded};
+use common::gpu::order::{self, around};
+use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu, padded};
 use common::scene::{SceneOnGpu, boxes_on_gpu, build_top, input_usage, transform};
 use effects::{Composition, EmitterAddresses, Lamps, Sphere};
 use glam::{Affine3A, Vec3};
@@ -10,13 +11,13 @@ use glam::{Affine3A, Vec3};
 use crate::recipe::{GeometryKind, Recipe};
 use crate::world::Shapes;
 
-/// What rays can meet, but for the plane.
+/// Everything rays can meet, except the plane.
 pub struct SceneGeometry {
     /// Meshes, materials, textures.
     pub scene: SceneOnGpu,
-    /// Where shaders find the shapes.
+    /// Addresses of the shapes.
     pub shapes: Shapes,
-    /// How far from a shape a ray may begin, which its box allows for.
+    /// Bound on the distance from a ray's origin to a shape, which its box allows for.
     reach: f32,
     instances: Vec<Placed>,
     /// A top level for each set of hit records that a pipeline asked for, by its cull mask.
@@ -90,7 +91,7 @@ impl SceneGeometry {
         Ok(geometry)
     }
 
-    /// Whether rays may begin at an eye.
+    /// Tests whether rays may begin at an eye.
     pub fn reaches(&self, from: &Composition, eye: Vec3) -> bool {
         reach(from, eye) <= self.reach
     }
@@ -143,7 +144,7 @@ impl SceneGeometry {
         Ok(address)
     }
 
-    /// What shines; `order` is that of the spheres.
+    /// Uploads the emitters; `order` is that of the spheres.
     fn lamps(&mut self, gpu: &Gpu, lamps: &Lamps, order: &[u32]) -> Result<EmitterAddresses> {
         let Lamps { emitters, of_instances, of_spheres } = lamps;
         let as_they_come = |count: usize| (0..count as u32).collect::<Vec<_>>();
@@ -202,14 +203,8 @@ fn sphere_bounds(sphere: &Sphere) -> order::Bounds {
     (low - radius, high + radius)
 }
 
-/// The box around boxes.
-fn around(bounds: &[order::Bounds]) -> order::Bounds {
-    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    bounds.iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
-}
-
-/// How far a ray may begin from a shape: at the eye, on the plane below the eye, or on the scene.
-/// Rounded up to a power of two, so that few steps of a camera change it.
+/// Bound on the distance from a ray's origin to a shape: at the eye, on the plane below the eye, or
+/// on the scene. Rounded up to a power of two, so that few steps of a camera change it.
 fn reach(scene: &Composition, eye: Vec3) -> f32 {
     let meshes = scene.scene.bounds_of_instances().into_iter();
     let spheres = scene.spheres.iter().map(sphere_bounds);

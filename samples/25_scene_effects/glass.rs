@@ -1,5 +1,5 @@
-//! Which materials of a composition are glass, and which bodies of it a point is in: chapter 27's own file
-//! reads what an MTL file says, and knows meshes; here there are shapes, too.
+//! Glass in a composition: its materials, and the bodies around a point. Chapter 27's own file reads an MTL file's
+//! values, and knows meshes; here there are also shapes.
 
 use common::scene::Material;
 use glam::{DVec3, Vec3};
@@ -8,17 +8,18 @@ use crate::Composition;
 use crate::glass_of_27::{AIR, media_at};
 pub use crate::glass_of_27::{Glass, Kind as GlassKind};
 
-/// Whether light enters a material.
+/// Tests whether light enters a material.
 pub fn is_glass(material: &Material) -> bool {
     Glass::from(material).kind != GlassKind::None as u32
 }
 
 impl Composition {
-    /// What each material is for light that enters it, if any material in use is glass; shaders read no others.
+    /// The glass of each material, if any material in use is glass; shaders read no others.
     pub fn glasses_to_read(&self) -> Vec<Glass> {
-        match self.materials_in_use().any(is_glass) {
-            true => self.scene.model.materials.iter().map(Glass::from).collect(),
-            false => Vec::new(),
+        if self.materials_in_use().any(is_glass) {
+            self.scene.model.materials.iter().map(Glass::from).collect()
+        } else {
+            Vec::new()
         }
     }
 

@@ -1,4 +1,4 @@
-//! What of a composition shines on the rest of it, as chapter 29 has it: its own files make the list.
+//! Emitters of a composition, as in chapter 29, whose own files make the list.
 
 use anyhow::{Result, ensure};
 use common::model::Model;
@@ -19,11 +19,11 @@ pub struct Lamps {
     pub of_spheres: Vec<u32>,
 }
 
-/// What no shadow ray asks for light.
+/// The number of a surface that no shadow ray samples.
 const NO_EMITTER: u32 = u32::MAX;
 
-/// Whether shadow rays may ask a material for its light. They end before it: so they would not see whether
-/// they go through one of its holes.
+/// Tests whether shadow rays may sample a material's light. They end before it, so they cannot tell whether they
+/// pass through one of its holes.
 fn is_lamp(material: &Material) -> bool {
     material.emission.max_element() > 0.0 && !material.has_cutout()
 }
@@ -37,7 +37,7 @@ impl Composition {
         lamps.into_iter().find(|material| is_lamp(material))
     }
 
-    /// Whether anything scatters light: has a colour, and is no glass.
+    /// Tests whether anything scatters light: has a colour, and is not glass.
     pub(crate) fn scatters(&self) -> bool {
         let is_colored = |color: Vec3| color.max_element() > 0.0;
         let glass = |material: &Material| is_glass(material) && self.depth > 0;
@@ -50,7 +50,7 @@ impl Composition {
             || self.heightfield.is_some()
     }
 
-    /// What shadow rays may ask for light, if there is anything.
+    /// The emitters that shadow rays may sample, if there are any.
     ///
     /// # Errors
     /// If there is too much of it.

@@ -1,4 +1,4 @@
-//! What scenes call for: effects, found from a scene alone, and the scene files that say what there is.
+//! Effects that scenes need, found from a scene alone, and the scene files that describe them.
 //!
 //! Nothing here knows a device. The chapter makes its pipelines from these bits; its tests make scenes from
 //! them. What chapters 18, 27, 28 and 29 teach of the host is read from their own files.

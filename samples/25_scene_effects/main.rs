@@ -56,13 +56,13 @@ struct Demo {
     measure: bool,
     light: u32,
     material: u32,
-    /// Why the scene that was chosen cannot be opened.
+    /// The reason why the chosen scene cannot be opened.
     trouble: Option<anyhow::Error>,
     options: SceneOptions,
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,
@@ -195,7 +195,7 @@ impl Demo {
     }
 
     // ANCHOR: recipe
-    /// What the pipeline shall be made for.
+    /// The recipe of the wanted pipeline.
     fn recipe(&self) -> Recipe {
         let mut recipe = match self.pipeline {
             PIPELINE_EVERYTHING => Recipe::everything(),

@@ -1,4 +1,4 @@
-//! What the panel lets the reader change of a material, and what it tells of the effects.
+//! Panel with the material's controls and the notes on effects.
 
 use common::Controls;
 use common::Variant;

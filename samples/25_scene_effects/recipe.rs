@@ -42,16 +42,16 @@ impl GeometryKind {
     }
 }
 
-/// What a pipeline is made for.
+/// The features a pipeline is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recipe {
-    /// What it can do.
+    /// Effects it supports.
     pub effects: Effects,
-    /// Which kinds of light it knows: bit 0 directional, bit 1 point.
+    /// Kinds of light it supports: bit 0 directional, bit 1 point.
     pub light_kinds: u32,
-    /// How many lights at most.
+    /// Maximum number of lights.
     pub lights: u32,
-    /// Which patterns it knows, one bit each.
+    /// Patterns it supports, one bit each.
     pub patterns: u32,
 }
 
@@ -112,7 +112,7 @@ impl Recipe {
         }
     }
 
-    /// What the device need not look for, where it can be told.
+    /// Flags that let the device skip kinds of geometry, where it supports them.
     fn skipped(&self, gpu: &Gpu) -> vk::PipelineCreateFlags {
         let kinds = self.kinds();
         let meshes = kinds.contains(&GeometryKind::Mesh);

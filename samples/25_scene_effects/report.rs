@@ -1,4 +1,4 @@
-//! What the chapter reports: the effects with their reasons and costs, and what was compiled.
+//! Report of the chapter: the effects with their reasons and costs, and the compiled shaders.
 
 use anyhow::Result;
 use common::Variant;
@@ -35,7 +35,7 @@ pub fn report(demo: &Demo) -> Result<Value> {
     }))
 }
 
-/// What was compiled, from the very words that the driver got.
+/// The compiled shaders, from the very words passed to the driver.
 fn compiled(variant: &Variant<Recipe>) -> Result<Value> {
     let Variant { key: recipe, pipeline, sbt } = variant;
     let Pipeline { desc, build_time, .. } = &**pipeline;

@@ -29,9 +29,9 @@ pub const SCENES: [&str; 21] = [
     "file",
 ];
 
-/// What the chapter begins with.
+/// Number of the scene at the start of the chapter.
 pub const EVERYTHING: u32 = 19;
-/// Where `--scene` names a file.
+/// Number of the scene that `--scene` opens.
 pub const FILE: u32 = 20;
 
 /// The file of one of them.

@@ -34,11 +34,11 @@ common::shader_struct! {
     /// A convex solid as shaders get it: what is inside all of its faces.
     #[derive(PartialEq)]
     pub struct Solid {
-        /// What the faces' distances are from.
+        /// The origin of the faces' distances.
         pub center: Vec3,
         /// Its first face, by position among [`crate::Composition::faces`].
         pub first: u32,
-        /// How many faces it has.
+        /// Number of faces.
         pub count: u32,
         /// The material, by position in the model.
         pub material: u32,

@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::ground::Ground;
 use crate::shape::HeightfieldShape;
 
-/// Where shaders find the shapes; 0 where there are none.
+/// Addresses of the shapes; 0 where there are none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shapes {
     /// Of [`effects::Sphere`].
@@ -33,20 +33,20 @@ pub struct Shapes {
     pub finishes: vk::DeviceAddress,
     /// Of [`effects::Glass`].
     pub glasses: vk::DeviceAddress,
-    /// How many of those.
+    /// Number of those.
     pub glass_count: u32,
-    /// What shines, if anything does.
+    /// Addresses of the emitters, if there are any.
     pub emitters: Option<EmitterAddresses>,
 }
 
 common::shader_struct! {
-    /// What lies on the plane.
+    /// The board on the plane.
     pub struct Board {
         /// Colour of the light squares, linear RGB.
         pub light: Vec3,
         /// Colour of the dark ones.
         pub dark: Vec3,
-        /// What part of the light is mirrored, looked at straight.
+        /// The part of the light that is mirrored at normal incidence.
         pub reflection: f32,
         /// Length of a square's side.
         pub square: f32,
@@ -60,7 +60,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What is in the world beside the meshes.
+    /// The world beside the meshes.
     pub struct World {
         pub spheres: Address,
         pub boxes: Address,
@@ -93,7 +93,7 @@ common::shader_struct! {
     }
 }
 
-/// What lies behind the world's address.
+/// Layouts of the structures behind the world's address.
 pub const LAYOUTS: [StructLayout; 19] = [
     World::LAYOUT,
     Plane::LAYOUT,

@@ -1,10 +1,10 @@
-//! What light does within a material, from what an MTL file says of it.
+//! Light within a material, from the values in an MTL file.
 
 use common::scene::{Material, Scene};
 use glam::{DVec3, Vec3};
 
 common::shader_enum! {
-    /// What a material is for light that enters it.
+    /// The behaviour of a material for light that enters it.
     pub enum Kind: GLASS {
         /// Nothing: light does not enter.
         None,
@@ -18,7 +18,7 @@ common::shader_enum! {
 common::shader_struct! {
     /// A material as light finds it that enters.
     pub struct Glass {
-        /// What is left after a unit of length is exp(-absorption).
+        /// Absorption: exp(-absorption) is left after a unit of length.
         pub absorption: Vec3,
         /// Index of refraction.
         pub index: f32,
@@ -65,8 +65,8 @@ pub fn media_at(scene: &Scene, point: DVec3) -> [u32; 4] {
     [media[0], media[1], media[2], media[3]]
 }
 
-/// How often the surface of an instance goes around a point: the solid angle of its triangles, over that of
-/// a sphere (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30:2, 1983). 1 inside, 0 outside.
+/// The number of times an instance's surface winds around a point: the solid angle of its triangles, over that of a
+/// sphere (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30:2, 1983). 1 inside, 0 outside.
 fn turns(scene: &Scene, instance: &common::scene::Instance, point: DVec3) -> f64 {
     let mesh = &scene.model.meshes[instance.mesh];
     let to = |corner: u32| {

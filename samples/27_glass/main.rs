@@ -28,7 +28,7 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How many surfaces a path may leave at most: clear glass ends none.
+/// Maximum number of surfaces that a path leaves: clear glass ends none.
 const MAX_DEPTH: u32 = 256;
 
 struct Demo {
@@ -52,11 +52,12 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows: of the last two, the last ray's, where each surface lets through what it can.
+    /// The quantity shown per pixel: the last two belong to the last ray, where each surface lets through what it
+    /// can.
     enum Show: SHOW { Picture, Origin = "last origin", Direction = "last direction" }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -64,7 +65,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         world: Address<World>,
@@ -76,7 +77,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What stays as it is while samples are added up.
+    /// Data that stays constant while samples are added up.
     struct World {
         scene: SceneAddresses,
         glasses: Address<Glass>,
@@ -202,7 +203,7 @@ impl Sample for Demo {
     }
 }
 
-/// What each material is for light that enters it.
+/// The glass of each material.
 fn glasses(gpu: &Gpu, scene: &Scene) -> Result<Buffer> {
     let glasses: Vec<Glass> = scene.model.materials.iter().map(Glass::from).collect();
     Buffer::with_data(gpu, "glasses", &glasses, input_usage())

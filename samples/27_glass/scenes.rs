@@ -29,13 +29,13 @@ common::shader_enum! {
         /// A sheet without an inside.
         Pane,
     }
-    /// What a ray sees that meets nothing.
+    /// The light of a ray that meets nothing.
     pub enum Sky: SKY { Evening, Day, White }
 }
 
-/// What stands where, how it is looked at, and what lights it.
+/// A scene with its camera and its lights.
 pub struct Staged {
-    /// What is placed, and the view.
+    /// The placed meshes, and the view.
     pub scene: Scene,
     /// The lamp.
     pub lamp: PointLight,
@@ -43,10 +43,10 @@ pub struct Staged {
     pub sky: Sky,
 }
 
-/// How far the pane leans back, in radians.
+/// Tilt of the pane, in radians.
 const PANE: f32 = 1.2;
 
-/// How far a piece stands above the board: glass on wood has air below it.
+/// Height of a piece above the board: glass on wood has air below it.
 const GAP: f32 = 1e-3;
 
 /// The chess set: white men of glass, black ones of ruby glass, kings and queens of gold.
@@ -160,7 +160,7 @@ fn furnace(source: &Scene) -> Scene {
     scene
 }
 
-/// How thick the glass of the drink is.
+/// Thickness of the glass around the drink.
 const WALL: f32 = 0.07;
 
 /// A drink in a glass on the chess board; `into` is how far it reaches into the wall.

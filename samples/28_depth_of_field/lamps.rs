@@ -10,7 +10,7 @@ use glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 struct Garland {
     from: [f32; 3],
     to: [f32; 3],
-    /// How far the middle hangs below the ends.
+    /// Drop of the middle below the ends.
     sag: f32,
     lamps: u32,
     /// Of a lamp.
@@ -22,7 +22,7 @@ const GARLANDS: [Garland; 3] = [
     Garland { from: [-18.5, 1.5, 2.3], to: [-1.5, 2.6, -16.5], sag: 1.5, lamps: 14, radius: 0.14 },
     Garland { from: [0.4, 2.1, 6.4], to: [4.8, 2.12, 2.0], sag: 0.15, lamps: 8, radius: 0.022 },
 ];
-/// What lamps send out: one colour after the other.
+/// Colours of the lamps, one after the other.
 const COLORS: [Vec3; 3] =
     [Vec3::new(12.0, 7.0, 2.6), Vec3::new(11.0, 4.2, 1.0), Vec3::new(10.0, 8.4, 6.0)];
 

@@ -10,9 +10,9 @@ pub struct ThinLens {
     pub diameter: f32,
     /// From the eye to the plane in focus, along the view; may be infinite.
     pub focus: f32,
-    /// How many straight blades bound the aperture; with less than 3 it is a disk.
+    /// Number of straight blades that bound the aperture; with less than 3 it is a disk.
     pub blades: u32,
-    /// How far the blades are turned, in degrees.
+    /// Rotation of the blades, in degrees.
     pub rotation: f32,
 }
 

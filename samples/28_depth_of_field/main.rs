@@ -22,7 +22,7 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How many pieces the inverse of a filter's CDF is tabulated in; the same number is in `filter.glsl`.
+/// Pieces in the tabulated inverse of a filter's CDF; `filter.glsl` has the same number.
 const PIECES: usize = 1024;
 
 struct Demo {
@@ -42,20 +42,20 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Normal, Triangle, Hit, Origin = "ray origin", Direction = "ray direction" }
-    /// What places the rays in their pixels.
+    /// The sequence that places the rays in their pixels.
     enum Sequence: SEQUENCE { Centre, Random, Halton = "Halton", R2 = "R2", Sobol = "Sobol" }
-    /// What makes the pixels' sequences differ.
+    /// The scrambling that makes the pixels' sequences differ.
     enum Scrambling: SCRAMBLING { None, Rotation, Owen = "Owen" }
-    /// What weighs a pixel's neighbourhood.
+    /// The filter that weighs a pixel's neighbourhood.
     enum Filter: FILTER { Box, Tent, BlackmanHarris = "Blackman-Harris" }
     /// From where a ray's point in focus is seen when its direction is computed: from the world's origin,
     /// from the eye, or from where the ray starts.
     enum Rung: RUNG { World, Eye, Start }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -63,7 +63,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

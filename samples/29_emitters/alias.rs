@@ -5,9 +5,9 @@ use anyhow::{Result, ensure};
 common::shader_struct! {
     /// A column of the table.
     pub struct Column {
-        /// What part of it is its own number's, a multiple of 2^-24.
+        /// The part of the column that belongs to its own number, a multiple of 2^-24.
         pub own: f32,
-        /// Whose the rest is.
+        /// The number that owns the rest.
         pub other: u32,
     }
 }
@@ -17,14 +17,14 @@ pub struct AliasTable {
     /// As many columns as the next power of two, so that a binary fraction finds one without rounding; none
     /// if nothing has a weight.
     pub columns: Vec<Column>,
-    /// How much of all columns each number has, in parts of [`UNITS`] to a column: all together, all of it.
+    /// The share of all columns that each number has, in parts of [`UNITS`] to a column: all together, all of it.
     pub shares: Vec<u64>,
 }
 
 /// Into how many parts a column can be divided: as many as `to_unit` has numbers.
 pub const UNITS: u64 = 1 << 24;
 
-/// How many numbers there may be: fewer than a column has parts, since each with a weight has one at least.
+/// Maximum count of numbers: fewer than a column has parts, since each with a weight has at least one.
 pub const MOST: usize = 1 << 20;
 
 impl AliasTable {
@@ -94,7 +94,7 @@ fn columns(shares: &[u64], count: usize) -> Vec<Column> {
 mod tests {
     use super::*;
 
-    /// What each number has in the columns, in parts.
+    /// The share of each number in the columns, in parts.
     fn counted(table: &AliasTable) -> Vec<u64> {
         let mut found = vec![0; table.columns.len()];
         for (i, column) in table.columns.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What shines in a scene: its spheres, and each triangle of a mesh whose material has a `Ke`.
+//! Emitters of a scene: its spheres, and each triangle of a mesh whose material has a `Ke`.
 
 use anyhow::{Context, Result};
 use common::gpu::Address;
@@ -31,7 +31,7 @@ common::shader_struct! {
         pub probability: f32,
         /// From a triangle's first corner to its third.
         pub along: Vec3,
-        /// Which material.
+        /// Index of its material.
         pub material: u32,
         /// A ray that ends so far above it, and [`Emitter::slack`] times its length, does not meet it.
         pub height: f32,
@@ -41,7 +41,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where shaders find them.
+    /// Addresses of the emitters.
     pub struct EmitterAddresses {
         /// All spheres, then the triangles of each mesh that shines.
         pub emitters: Address<Emitter>,
@@ -49,11 +49,11 @@ common::shader_struct! {
         pub columns: Address<Column>,
         /// Of each instance: which emitter its triangle 0 is; and of the spheres' instance, the last.
         pub first: Address,
-        /// Which sphere each primitive of the build is.
+        /// The sphere of each primitive of the build.
         pub sphere_ids: Address,
-        /// How many emitters there are.
+        /// Number of emitters.
         pub count: u32,
-        /// How many columns.
+        /// Number of columns.
         pub column_count: u32,
     }
 }
@@ -114,10 +114,10 @@ impl Emitter {
     }
 }
 
-/// How near a ray may end to a sphere: as 08 has it for one that starts there, and `slack` for the way. Along
-/// that, the device may be off by 25u where it takes origin and direction into the spheres' space (its
-/// matrix is the identity), and the shader by 30u: 1u for f, 10u for the foot of the perpendicular and what is
-/// left of the radius there, 19u for root, c and quotient.
+/// The least distance from a ray's end to a sphere: as in 08 for one that starts there, and `slack` for the way.
+/// Along that, the device may be off by 25u where it takes origin and direction into the spheres' space (its matrix
+/// is the identity), and the shader by 30u: 1u for f, 10u for the foot of the perpendicular and what is left of the
+/// radius there, 19u for root, c and quotient.
 fn sphere(sphere: &Sphere) -> Emitter {
     let (center, radius) = (sphere.center.as_dvec3(), f64::from(sphere.radius));
     let height = 56.0 * (center.length() + radius) + 46.0 * radius;
@@ -141,9 +141,10 @@ fn triangles(scene: &Scene, instance: &Instance) -> impl Iterator<Item = Emitter
     })
 }
 
-/// How near a ray may end to a triangle: as common/above.glsl has it for one that starts there, for the
-/// farthest corner. What grows with the way is `slack`: 25u for origin and direction in the mesh's space, and
-/// those parts of the triangle's test that there are multiples of its longest edge; and 10u of where it aims.
+/// The least distance from a ray's end to a triangle: as in common/above.glsl for one that starts there, for the
+/// farthest corner. The part that grows with the way is `slack`: 25u for origin and direction in the mesh's space,
+/// and those parts of the triangle's test that there are multiples of its longest edge; and 10u of the target's
+/// place.
 fn triangle(corners: [DVec3; 3], instance: &Instance) -> Emitter {
     let linear: DMat3 = instance.transform.matrix3.as_dmat3();
     let shift = instance.transform.translation.as_dvec3();

@@ -10,7 +10,7 @@ use glam::{Affine3A, Vec3};
 use super::emitters::{EmitterAddresses, Emitters};
 use super::scenes::Staged;
 
-/// What is traced, and what shines of it.
+/// The traced scene, and its emitters.
 pub struct LitScene {
     /// Meshes, materials, textures.
     pub on_gpu: SceneOnGpu,
@@ -18,7 +18,7 @@ pub struct LitScene {
     pub tlas: AccelerationStructure,
     /// An [`EmitterAddresses`].
     pub emitters: Buffer,
-    /// How far from the spheres rays may begin.
+    /// Bound on the distance from a ray's origin to the spheres.
     reach: f32,
     _spheres: Option<AccelerationStructure>,
     _buffers: [Buffer; 4],
@@ -112,13 +112,13 @@ impl LitScene {
         })
     }
 
-    /// Whether the eye has gone farther than the boxes around spheres allow for.
+    /// Tests whether the eye has gone farther than the boxes around spheres allow for.
     pub fn is_outdated(&self, staged: &Staged, eye: Vec3) -> bool {
         reach(staged, eye) != self.reach
     }
 }
 
-/// How far from a sphere a ray may begin, rounded up to a power of two, from 1024 on.
+/// Bound on the distance from a ray's origin to a sphere, rounded up to a power of two, from 1024 on.
 fn reach(staged: &Staged, eye: Vec3) -> f32 {
     let (low, high) = staged.bounds();
     let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);

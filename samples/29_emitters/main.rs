@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How often light may be reflected at most.
+/// Maximum number of reflections.
 const MAX_DEPTH: u32 = 256;
 
 struct Demo {
@@ -49,17 +49,17 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW { Picture, Rays }
-    /// Who finds the light of an emitter: the rays of the path, shadow rays, or both.
+    /// The rays that find the light of an emitter: those of the path, shadow rays, or both.
     enum Estimator: ESTIMATOR { Bsdf = "BSDF", Light, Mis = "MIS" }
-    /// Which emitters are asked by shadow rays.
+    /// The emitters that shadow rays sample.
     enum Choice: CHOICE { One, All, Power = "by power" }
-    /// How a point of a triangle is chosen.
+    /// The distribution of points on a triangle.
     enum Triangles: TRIANGLES { Area, SolidAngle }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -70,7 +70,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

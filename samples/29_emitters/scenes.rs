@@ -28,11 +28,11 @@ common::shader_enum! {
         /// A square that shines at a right angle to one that does not.
         PerpendicularSquares,
     }
-    /// What a ray sees that meets nothing.
+    /// The light of a ray that meets nothing.
     pub enum Sky: SKY { Night, Day, Black }
 }
 
-/// What stands where, and how it is looked at.
+/// A scene with its camera.
 #[derive(Clone)]
 pub struct Staged {
     /// The meshes, and the view.
@@ -117,7 +117,7 @@ fn screen(size: Vec2) -> impl Iterator<Item = (Vec3, Vec3, bool)> {
     std::iter::once((size.extend(1.0), Vec3::ZERO, false)).chain(bars)
 }
 
-/// What shines and reflects nothing.
+/// A material that shines and reflects nothing.
 fn lamp(name: &str, emission: Vec3) -> Material {
     Material { name: name.to_owned(), base_color: Vec3::ZERO, emission, ..Material::default() }
 }

@@ -58,9 +58,9 @@ struct Primitive {
 
 /// A build.
 struct Growth {
-    /// How many primitives a leaf may have.
+    /// Maximum number of primitives in a leaf.
     most: u32,
-    /// How many more threads may be at work.
+    /// Number of further threads that may be at work.
     idle: AtomicIsize,
 }
 
@@ -172,14 +172,14 @@ fn partition(part: &mut [Primitive], is_first: impl Fn(&Primitive) -> bool) -> u
     firsts
 }
 
-/// Where the bins of a part lie: from the first middle of a primitive to the last.
+/// The bins of a part: from the first middle of a primitive to the last.
 struct Grid {
     low: [f32; 3],
     /// Bins a unit of length.
     density: [f32; 3],
     /// The axis along which the middles go farthest.
     longest: usize,
-    /// How many bins an axis has.
+    /// Number of bins per axis.
     bins: usize,
 }
 
@@ -199,7 +199,7 @@ impl Grid {
         Self { low: axes.map(|axis| middles.low(axis)), density, longest, bins }
     }
 
-    /// Where a primitive is, in bins from the first's start.
+    /// The place of a primitive, in bins from the first's start.
     fn place(&self, hull: &Hull, axis: usize) -> f32 {
         (hull.half_middle(axis) - self.low[axis]) * self.density[axis]
     }
@@ -209,7 +209,7 @@ impl Grid {
     }
 }
 
-/// What lies in the bins along each axis: the box around it, and how many.
+/// Contents of the bins along each axis: the box around the primitives, and their number.
 struct Bins<'a> {
     bins: [[(Hull, u32); BINS]; 3],
     grid: &'a Grid,

@@ -1,4 +1,4 @@
-//! Who builds the trees.
+//! Builders of the trees.
 
 use anyhow::{Context, Result};
 use common::gpu::{Buffer, Gpu};
@@ -12,7 +12,7 @@ use crate::subtree::FOLDED;
 use crate::{Bounds, Corners, DeviceBuilder, DeviceTree, Scratch, Tree, Triangles};
 
 common::shader_enum! {
-    /// How the trees of meshes are built. The tree over the instances is built on the host.
+    /// The builder of the meshes' trees. The tree over the instances is built on the host.
     pub enum Builder {
         /// From the root down, by the surface area heuristic.
         Binned,
@@ -23,7 +23,7 @@ common::shader_enum! {
     }
 }
 
-/// How often the whole of a tree is looked at for what lies badly.
+/// Number of passes over the whole tree in search of badly placed nodes.
 const ROUNDS: u32 = 3;
 
 impl Builder {

@@ -1,4 +1,4 @@
-//! What every tree promises, whoever built it.
+//! Promises of every tree, whoever built it.
 
 use anyhow::{Context, Result, ensure};
 use common::glam::Vec3;
@@ -13,8 +13,8 @@ pub const DEPTH: u32 = 48;
 /// The most primitives in a leaf.
 pub const LEAF: u32 = 8;
 
-/// Whether a tree keeps its promises: each primitive that has a place lies in just one leaf, each box holds
-/// all that lies below it, each node is reached in just one way, and depth and leaves have their bounds.
+/// Checks that a tree keeps its promises: each primitive that has a place lies in just one leaf, each box holds all
+/// that lies below it, each node is reached in just one way, and depth and leaves have their bounds.
 ///
 /// # Errors
 /// The first promise that is broken, and where.
@@ -44,8 +44,8 @@ pub fn check(tree: &Tree, bounds: &[Bounds]) -> Result<()> {
     Ok(())
 }
 
-/// Whether all numbers of a tree over so many primitives lead somewhere, and each way down ends. Bytes that a device
-/// wrote may hold any numbers: this comes before they are followed. [`check`] also looks at the boxes.
+/// Checks that all numbers of a tree over so many primitives lead somewhere, and each way down ends. Bytes that a
+/// device wrote may hold any numbers: this comes before they are followed. [`check`] also looks at the boxes.
 ///
 /// # Errors
 /// The first number that is wrong, and where.
@@ -65,7 +65,7 @@ pub(crate) fn check_links(tree: &Tree, primitives: usize) -> Result<()> {
     depth(tree).map(drop)
 }
 
-/// What a check has met so far.
+/// Findings of a check so far.
 struct Found<'a> {
     order: &'a [u32],
     bounds: &'a [Bounds],
@@ -123,7 +123,7 @@ mod tests {
         (binned(&cubes), cubes)
     }
 
-    /// What is said of a row whose tree was damaged.
+    /// The message about a row whose tree was damaged.
     fn said(damage: impl Fn(&mut Tree)) -> String {
         let (mut tree, cubes) = row();
         damage(&mut tree);

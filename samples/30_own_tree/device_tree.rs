@@ -1,4 +1,4 @@
-//! What a build on the device leaves there, and the memory that it needs meanwhile.
+//! Results of a build on the device, and the memory that it needs meanwhile.
 
 use anyhow::{Result, ensure};
 use ash::vk::BufferUsageFlags as Usage;
@@ -45,7 +45,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where the centres of some triangles lie, and how many of the triangles are finite.
+    /// The extent of some triangles' centres, and the number of finite triangles.
     pub(crate) struct Extent {
         low: Vec3,
         count: u32,
@@ -61,7 +61,7 @@ pub struct DeviceTree {
     pub original: Buffer,
     /// Of [`Corners`]: those of the triangle at each position.
     pub corners: Buffer,
-    /// How many triangles there are.
+    /// Number of triangles.
     pub count: u32,
     /// Of `u32`: where each node's range of positions ends, of which one end is the node's own index.
     pub(crate) ends: Buffer,
@@ -89,12 +89,12 @@ impl DeviceTree {
         })
     }
 
-    /// How many nodes it has.
+    /// Number of nodes.
     pub fn nodes_count(&self) -> u32 {
         nodes_count(self.count)
     }
 
-    /// How many nodes a path from the root has at most, and so how many entries a walk's stack needs that keeps one
+    /// Maximum number of nodes on a path from the root, and so the entries in the stack of a walk that keeps one
     /// child of each node for later: at most 59.
     ///
     /// All positions of a node share a prefix of their keys, which are 30 bits and then, where these are the same,
@@ -110,9 +110,9 @@ fn nodes_count(triangles: u32) -> u32 {
     triangles.saturating_sub(1).max(1)
 }
 
-/// What builds and refits need beside a tree, one at a time: 64 bytes a triangle, and 2 MiB.
+/// Memory of builds and refits beside a tree, one at a time: 64 bytes per triangle, and 2 MiB.
 pub struct Scratch {
-    /// How many triangles a tree may have.
+    /// Maximum number of triangles in a tree.
     pub most: u32,
     pub(crate) extents: Address<Extent>,
     pub(crate) keys: [Address; 2],

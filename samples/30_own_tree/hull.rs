@@ -43,7 +43,7 @@ impl Hull {
         self.0[axis] * 0.25 - self.0[axis + 4] * 0.25
     }
 
-    /// How long it is along an axis.
+    /// Length along an axis.
     pub fn side(&self, axis: usize) -> f32 {
         -self.0[axis + 4] - self.0[axis]
     }
@@ -75,8 +75,8 @@ impl From<Hull> for Bounds {
 /// The box of a primitive that has no place.
 pub(crate) const NOWHERE: Bounds = (Vec3::NAN, Vec3::NAN);
 
-/// Whether a primitive has a place in a tree: if its box is finite and not inside out. One that has none
-/// is met by no ray, as Vulkan has it of a primitive without numbers.
+/// Tests whether a primitive has a place in a tree: its box is finite and not inside out. One that has none is met
+/// by no ray, as Vulkan has it of a primitive without numbers.
 pub fn has_place(&(low, high): &Bounds) -> bool {
     low.is_finite() && high.is_finite() && low.cmple(high).all()
 }

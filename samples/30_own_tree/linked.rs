@@ -19,7 +19,7 @@ pub(crate) struct Part {
     pub area: f64,
     /// The part that it is half of.
     pub parent: u32,
-    /// How many parts of two are on the longest way down, this one among them.
+    /// Number of parts of two on the longest way down, this one among them.
     pub height: u32,
     /// Two parts, or a primitive and nobody.
     children: [u32; 2],
@@ -93,7 +93,7 @@ impl Linked {
         at
     }
 
-    /// How many parts there are.
+    /// Number of parts.
     pub fn len(&self) -> u32 {
         self.parts.len() as u32
     }

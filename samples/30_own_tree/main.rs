@@ -32,7 +32,7 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         Steps, Depth, Boxes, Walk,
@@ -40,35 +40,35 @@ common::shader_enum! {
 }
 
 common::shader_enum! {
-    /// How a ray is tested against a box.
+    /// The test of a ray against a box.
     enum Boxes: BOXES { Bare, Guess, Ize, Bound, TwoFloat = "two-float" }
 }
 
 common::shader_enum! {
-    /// How a ray is tested against a triangle.
+    /// The test of a ray against a triangle.
     enum Triangles: TRIANGLES { Moeller, Watertight, TwoFloat = "two-float" }
 }
 
 common::shader_enum! {
-    /// How many bytes of a node are read.
+    /// Size of a node in bytes.
     enum Nodes { Floats = "64 bytes", Quantised = "36 bytes" }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
     boxes: Boxes,
     triangles: Triangles,
     nodes: Nodes,
-    /// How many entries the stack has.
+    /// Capacity of the stack, in entries.
     stack: u32,
 }
 
 common::shader_struct! {
-    /// What a view shows.
+    /// Parameters of a view.
     struct View {
-        /// Whose ray is walked: parts of the picture's sides.
+        /// The pixel whose ray is walked: parts of the picture's sides.
         pixel: Vec2,
         /// After how many nodes.
         step: u32,
@@ -78,7 +78,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

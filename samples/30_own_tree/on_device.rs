@@ -17,13 +17,13 @@ const SORT_WIDTH: u32 = 32;
 /// Values of the ten bits that a step of the sort goes by: three steps for the 30 bits of a key.
 pub(crate) const DIGITS: u32 = 1024;
 const BITS: u32 = DIGITS.trailing_zeros();
-/// How many keys a workgroup sorts at least, and how many workgroups there are at most: each keeps a count of every
+/// Least number of keys that a workgroup sorts, and the maximum number of workgroups: each keeps a count of every
 /// digit.
 const LEAST_SHARE: u32 = 2048;
 pub(crate) const MOST_SHARES: u32 = 512;
-/// How many workgroups look for the extent of all triangles.
+/// Number of workgroups that find the extent of all triangles.
 pub(crate) const EXTENT_SHARES: u32 = 128;
-/// How many workgroups any device takes in a row.
+/// Number of workgroups that any device takes in a row.
 const ROW: u32 = 65_535;
 
 /// Triangles on the device.
@@ -33,7 +33,7 @@ pub struct Triangles {
     pub vertices: vk::DeviceAddress,
     /// Address of the first triangle's three `u32`, each a vertex's position.
     pub triangles: vk::DeviceAddress,
-    /// How many triangles there are.
+    /// Number of triangles.
     pub count: u32,
 }
 

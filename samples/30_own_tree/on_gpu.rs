@@ -17,11 +17,11 @@ common::shader_struct! {
         pub to_object: [Vec3; 4],
         /// The node at the root of the mesh's tree.
         pub root: u32,
-        /// Where the corners of the mesh begin.
+        /// Index of the mesh's first corner.
         pub first: u32,
-        /// How many triangles the mesh has.
+        /// Number of triangles in the mesh.
         pub count: u32,
-        /// Which instance of the scene.
+        /// Index of the instance in the scene.
         pub number: u32,
         /// The largest coordinate of the mesh, without its sign.
         pub reach: f32,
@@ -29,7 +29,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// What a walk begins with.
+    /// Start of a walk.
     pub struct Trees {
         /// The nodes of all trees; node 0 is the root of the top tree.
         pub nodes: Address<Node>,
@@ -58,7 +58,7 @@ pub struct TreesOnGpu {
     pub address: Address<Trees>,
     /// The order of each mesh's triangles, in the model's order of meshes.
     pub orders: Vec<Vec<u32>>,
-    /// How many entries a walk leaves behind at most.
+    /// Maximum number of entries that a walk leaves behind.
     pub stack: u32,
     /// Bytes of all nodes, of all corners and of all instances.
     pub bytes: [usize; 3],
@@ -202,7 +202,8 @@ fn spread(to_world: &DAffine3, to_object: &DAffine3) -> f64 {
     [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::element_sum).into_iter().fold(0.0, f64::max)
 }
 
-/// Whether the inverse is one in 32 bits, too: where the matrix is singular but for rounding, no digit of it is right.
+/// Tests whether the inverse is also one in 32 bits: where the matrix is singular except for rounding, no digit of
+/// it is right.
 fn can_be_inverted(to_world: &DAffine3) -> bool {
     let to_object = to_world.inverse();
     columns(&to_object).iter().all(|column| column.is_finite())

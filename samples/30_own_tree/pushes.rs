@@ -1,4 +1,4 @@
-//! What each pass of a build is told: the push constants of its shader.
+//! Push constants of each pass of a build.
 
 use common::gpu::Address;
 use common::scene::Vertex;

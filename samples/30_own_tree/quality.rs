@@ -1,4 +1,4 @@
-//! What a tree is worth: the surface area heuristic, depth, memory.
+//! Quality of a tree: the surface area heuristic, depth, memory.
 
 use std::mem;
 
@@ -7,15 +7,15 @@ use anyhow::{Result, ensure};
 use crate::hull::Hull;
 use crate::tree::{Child, Tree};
 
-/// What a visit to a node costs: two boxes. The unit in which costs are told.
+/// Cost of a visit to a node: two boxes. The unit of all costs.
 pub const TRAVERSAL: f64 = 1.0;
 
-/// What a test of a primitive costs.
+/// Cost of a test of a primitive.
 pub const INTERSECTION: f64 = 1.0;
 
-/// What a line costs that meets the root's box and else lies anywhere: [`TRAVERSAL`] for each node that it
-/// visits, [`INTERSECTION`] for each primitive of a leaf that it visits. It meets a box within another as
-/// often as their surface areas say (Goldsmith and Salmon 1987, MacDonald and Booth 1990).
+/// Expected cost of a random line that meets the root's box: [`TRAVERSAL`] for each node that it visits,
+/// [`INTERSECTION`] for each primitive of a leaf that it visits. It meets a box within another as often as their
+/// surface areas say (Goldsmith and Salmon 1987, MacDonald and Booth 1990).
 ///
 /// 0 where the root's box has no surface.
 pub fn cost(tree: &Tree) -> f64 {
@@ -33,8 +33,8 @@ pub fn cost(tree: &Tree) -> f64 {
     if is_some && root > 0.0 { TRAVERSAL + below / root } else { 0.0 }
 }
 
-/// How many nodes the longest way from the root passes, the root among them: as many entries as the stack
-/// of a walk needs, at most.
+/// Number of nodes on the longest way from the root, the root among them: the most entries that the stack of a walk
+/// needs.
 ///
 /// # Errors
 /// If a child names a missing node, or a node is reached twice: then this is not a tree, and a way down may not end.

@@ -101,10 +101,12 @@ struct Grid {
 impl Grid {
     fn around(low: f32, high: f32) -> Self {
         // A shader may read a subnormal number as 0.
-        let origin = match low.is_subnormal() {
-            true if low > 0.0 => 0.0,
-            true => -f32::MIN_POSITIVE,
-            false => low,
+        let origin = if !low.is_subnormal() {
+            low
+        } else if low > 0.0 {
+            0.0
+        } else {
+            -f32::MIN_POSITIVE
         };
         let ulp = f32::EPSILON * origin.abs().max(high.abs());
         let exponent = |x: f32| x.max(f32::MIN_POSITIVE).to_bits() >> 23;
@@ -115,14 +117,14 @@ impl Grid {
         grids.find(|grid| grid.is_at_least(255, high)).expect("the steps go beyond REACH")
     }
 
-    /// Whether a place on the grid is never above a number, however its sum is rounded.
+    /// Tests whether a place on the grid is never above a number, however its sum is rounded.
     fn is_at_most(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
         let lost = sum.abs() < f64::from(f32::MIN_POSITIVE) && x < 0.0;
         !lost && (sum < f64::from(x) || sum == f64::from(x) && rest <= 0.0)
     }
 
-    /// Whether it is never below.
+    /// Tests whether it is never below.
     fn is_at_least(self, q: u8, x: f32) -> bool {
         let (sum, rest) = self.exact(q);
         let lost = sum.abs() < f64::from(f32::MIN_POSITIVE) && x > 0.0;

@@ -10,11 +10,11 @@ use crate::{Builder, TreesOnGpu};
 
 /// A scene in device memory, with trees.
 pub struct OwnScene {
-    /// What the walk reads.
+    /// The trees that the walk reads.
     pub trees: TreesOnGpu,
     /// Every texture of the model.
     pub textures: Arc<TextureTable>,
-    /// Where shaders find the rest.
+    /// Addresses of the rest.
     pub addresses: SceneAddresses,
     _buffers: Vec<Buffer>,
 }

@@ -16,7 +16,7 @@ pub(crate) struct Subtree {
     pub node: Option<u32>,
     /// The position of its first primitive in the tree's order.
     pub first: u32,
-    /// How many primitives it holds.
+    /// Number of primitives.
     pub count: u32,
     /// The heuristic's cost, times half the surface area that it is the cost for.
     pub cost: f64,

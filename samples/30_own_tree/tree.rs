@@ -18,7 +18,7 @@ common::shader_struct! {
         pub first: u32,
         /// The high corner.
         pub high: Vec3,
-        /// How many primitives; 0 for a node.
+        /// Number of primitives; 0 for a node.
         pub count: u32,
     }
 }
@@ -42,7 +42,7 @@ impl Child {
         (self.count == 0 && self.first != Self::NONE.first).then_some(self.first)
     }
 
-    /// Whether nothing is there.
+    /// Tests whether nothing is there.
     pub fn is_none(&self) -> bool {
         self.count == 0 && self.first == Self::NONE.first
     }

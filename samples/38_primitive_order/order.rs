@@ -4,7 +4,7 @@ use common::gpu::order::{self, Bounds};
 use glam::Vec3;
 
 common::shader_enum! {
-    /// What decides which box comes first.
+    /// The rule that orders the boxes.
     pub enum Order { Given, Chance, AlongX = "along x", Morton = "Morton", Hilbert = "Hilbert", Halves }
 }
 
@@ -74,8 +74,8 @@ fn morton(cell: [u32; 3]) -> u32 {
         .fold(0, |code, digit| cell.into_iter().fold(code, |code, x| code << 1 | x >> digit & 1))
 }
 
-/// How far along Hilbert's curve a cell is. It visits eighths as Morton's does, but turns and mirrors each,
-/// so that it leaves one where the next begins (Skilling 2004).
+/// The distance of a cell along Hilbert's curve. It visits eighths as Morton's does, but turns and mirrors each, so
+/// that it leaves one where the next begins (Skilling 2004).
 fn hilbert(mut cell: [u32; 3]) -> u32 {
     for digit in (1..DIGITS).rev() {
         let below = (1 << digit) - 1;

@@ -1,40 +1,54 @@
 //! The shapes on the device: a bottom level of spheres and one of boxes, in order.
 
 use anyhow::Result;
-use ash::vk;
-use common::Frame;
-use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, order};
+use common::gpu::order::{self, around};
+use common::gpu::{AccelerationStructure, Address, Buffer, Gpu, reach};
 use common::scene::{Instance, Scene, SceneOnGpu, build_top, input_usage, instance_on_gpu};
 use glam::{Affine3A, Vec3};
 
-use crate::boxes::{self, reach};
+use crate::host_c::HostC;
+use crate::level::Level;
 use crate::order::Order;
-use crate::shapes::{self, SceneKind, ShapeAddresses, Shapes};
+use crate::shapes::{self, Box, SceneKind, Shapes, Sphere};
 use crate::tree::{self, Node};
 
-/// What the shapes are built from; where it changes, they are built again.
+/// Parameters of the shapes; a change rebuilds them.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Build {
     pub scene: SceneKind,
     pub count: u32,
     pub order: Order,
-    /// Whether the boxes around shapes are larger than the shapes.
+    /// True if the boxes around shapes are larger than the shapes.
     pub margin: bool,
+}
+
+common::shader_struct! {
+    /// Addresses of the shapes, the shape of each primitive of the build, and the trees.
+    pub struct ShapeAddresses {
+        pub spheres: Address<Sphere>,
+        pub boxes: Address<Box>,
+        pub sphere_ids: Address,
+        pub box_ids: Address,
+        pub built_spheres: Address<Sphere>,
+        pub built_boxes: Address<Box>,
+        pub tree: Address<Node>,
+        pub nodes: u32,
+        pub sphere_count: u32,
+        pub box_count: u32,
+    }
 }
 
 /// The shapes in device memory, and the top level that holds them beside the meshes.
 pub struct ShapesOnGpu {
     pub tlas: AccelerationStructure,
-    /// Where shaders find the shapes: a [`ShapeAddresses`].
+    /// The buffer with the addresses of the shapes: a [`ShapeAddresses`].
     pub addresses: Buffer,
-    /// How many boxes a line through all spheres, or all boxes, is expected to be tested against.
+    /// Expected number of boxes tested against a line through all spheres, or all boxes.
     pub expected_tests: [f64; 2],
-    /// |eye - center|² - radius² of each sphere, for this eye.
-    host_c: Option<(Vec3, Buffer)>,
-    shapes: Shapes,
+    pub host_c: HostC,
     /// Corners of the box around everything.
     bounds: order::Bounds,
-    /// How far rays may begin from a shape; the margin of the boxes grows with it.
+    /// Bound on the distance from a ray's origin to a shape; the margin of the boxes grows with it.
     reach: f32,
     build: Build,
     _levels: Vec<AccelerationStructure>,
@@ -50,7 +64,7 @@ impl ShapesOnGpu {
         eye: Vec3,
     ) -> Result<Self> {
         let shapes = Shapes::new(build.scene, build.count, &source.model, &source.instances);
-        let spheres: Vec<_> = shapes.spheres.iter().map(shapes::Sphere::bounds).collect();
+        let spheres: Vec<_> = shapes.spheres.iter().map(Sphere::bounds).collect();
         let boxes: Vec<_> = shapes.boxes.iter().map(|b| (b.low, b.high)).collect();
         // In the other scenes there are no triangles, and in this one fewer.
         let is_shown = |(_, piece): &(usize, &Instance)| {
@@ -62,6 +76,12 @@ impl ShapesOnGpu {
         let everything = around(bounds.iter().chain(&spheres).chain(&boxes));
         let reach = if build.margin { reach(everything, eye) } else { 0.0 };
 
+        // ANCHOR: order
+        let orders = [&spheres, &boxes].map(|bounds| gpu.emulation.order(build.order.of(bounds)));
+        // ANCHOR_END: order
+        let trees = [built(&orders[0], &spheres), built(&orders[1], &boxes)]
+            .map(|ordered| tree::nodes(&ordered));
+
         let ordering = scene.options.ordering;
         let mut instances = Vec::new();
         for (index, piece) in pieces {
@@ -70,8 +90,8 @@ impl ShapesOnGpu {
         }
         // One more instance for all spheres and one for all boxes. The record offset makes the device
         // run their intersection shaders: hit group 0 is that of triangles, 1 of spheres, 2 of boxes.
-        let spheres = Level::new(gpu, "spheres", &spheres, build.order, reach)?;
-        let boxes = Level::new(gpu, "boxes", &boxes, build.order, reach)?;
+        let spheres = Level::new(gpu, "spheres", &spheres, &orders[0], reach)?;
+        let boxes = Level::new(gpu, "boxes", &boxes, &orders[1], reach)?;
         for (record, level) in [(1, &spheres), (2, &boxes)] {
             if let Some(blas) = &level.blas {
                 let index = source.instances.len() + record as usize - 1;
@@ -87,16 +107,21 @@ impl ShapesOnGpu {
             Buffer::with_data(
                 gpu,
                 "spheres as built",
-                &spheres.built(&shapes.spheres),
+                &built(&orders[0], &shapes.spheres),
                 input_usage(),
             )?,
-            Buffer::with_data(gpu, "boxes as built", &boxes.built(&shapes.boxes), input_usage())?,
+            Buffer::with_data(
+                gpu,
+                "boxes as built",
+                &built(&orders[1], &shapes.boxes),
+                input_usage(),
+            )?,
         ];
-        let first = spheres.tree.len() as u32;
-        let behind = boxes.tree.iter().map(|node| Node { next: first + node.next, ..*node });
-        let tree: Vec<Node> = spheres.tree.iter().copied().chain(behind).collect();
+        let first = trees[0].len() as u32;
+        let behind = trees[1].iter().map(|node| Node { next: first + node.next, ..*node });
+        let tree: Vec<Node> = trees[0].iter().copied().chain(behind).collect();
         let tree_at = Buffer::with_data(gpu, "tree", &tree, input_usage())?;
-        let expected_tests = [&spheres, &boxes].map(|level| tree::expected_tests(&level.tree));
+        let expected_tests = trees.each_ref().map(|tree| tree::expected_tests(tree));
 
         let records = [
             Buffer::with_data(gpu, "spheres", &shapes.spheres, input_usage())?,
@@ -122,8 +147,7 @@ impl ShapesOnGpu {
             tlas,
             expected_tests,
             addresses: Buffer::with_data(gpu, "shapes", &[addresses], input_usage())?,
-            host_c: None,
-            shapes,
+            host_c: HostC::new(shapes.spheres),
             bounds: everything,
             reach,
             build,
@@ -132,79 +156,14 @@ impl ShapesOnGpu {
         })
     }
 
-    /// Whether they must be made again, for another build or because the eye has gone far.
+    /// Tests whether they must be rebuilt, for other parameters or because the eye has moved far.
     pub fn is_outdated(&self, build: Build, eye: Vec3) -> bool {
         let reach = if build.margin { reach(self.bounds, eye) } else { 0.0 };
         build != self.build || reach != self.reach
     }
-
-    /// c of the quadratic for rays from the eye: products and sums of f32 numbers, in f64.
-    pub fn compute_host_c(&mut self, frame: &Frame, eye: Vec3) -> Result<()> {
-        if self.host_c.as_ref().is_some_and(|(known, _)| *known == eye) {
-            return Ok(());
-        }
-        let c = self.shapes.spheres.iter().map(|sphere| {
-            let radius = f64::from(sphere.radius);
-            let distance = (eye.as_dvec3() - sphere.center.as_dvec3()).length();
-            ((distance - radius) * (distance + radius)) as f32
-        });
-        let c: Vec<f32> = c.collect();
-        let buffer = match self.host_c.take() {
-            Some((_, buffer)) => buffer,
-            None => {
-                let usage = input_usage() | vk::BufferUsageFlags::TRANSFER_DST;
-                Buffer::new(frame.gpu, "c of spheres", 4 * c.len() as u64, usage)?
-            }
-        };
-        buffer.update(frame.cmd, &c)?;
-        self.host_c = Some((eye, buffer));
-        Ok(())
-    }
-
-    /// Where c lies; nowhere before it was computed.
-    pub fn host_c_address(&self) -> Address {
-        self.host_c.as_ref().map_or(0, |(_, buffer)| buffer.address).into()
-    }
 }
 
-/// All shapes of one kind as a bottom level.
-struct Level {
-    /// `None` without shapes.
-    blas: Option<AccelerationStructure>,
-    /// Which shape a primitive of the build is.
-    ids: Buffer,
-    order: Vec<u32>,
-    tree: Vec<Node>,
-    bounds: order::Bounds,
-}
-
-impl Level {
-    fn new(
-        gpu: &Gpu,
-        name: &str,
-        bounds: &[order::Bounds],
-        order: Order,
-        reach: f32,
-    ) -> Result<Self> {
-        // ANCHOR: order
-        let order = gpu.driver_shim.order(order.of(bounds));
-        let ordered: Vec<_> = order.iter().map(|&i| bounds[i as usize]).collect();
-        let ids = Buffer::with_data(gpu, name, &order, input_usage())?;
-        // ANCHOR_END: order
-        let tree = tree::nodes(&ordered);
-        let blas =
-            (!bounds.is_empty()).then(|| boxes::bottom(gpu, name, ordered, reach)).transpose()?;
-        Ok(Self { blas, ids, order, tree, bounds: around(bounds) })
-    }
-
-    /// Things in the order of the build.
-    fn built<T: Copy>(&self, things: &[T]) -> Vec<T> {
-        self.order.iter().map(|&i| things[i as usize]).collect()
-    }
-}
-
-/// The box around boxes.
-fn around<'a>(bounds: impl IntoIterator<Item = &'a order::Bounds>) -> order::Bounds {
-    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
+/// Things in the order of the build.
+fn built<T: Copy>(order: &[u32], things: &[T]) -> Vec<T> {
+    order.iter().map(|&i| things[i as usize]).collect()
 }

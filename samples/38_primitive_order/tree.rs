@@ -40,9 +40,9 @@ fn grow(bounds: &[Bounds], nodes: &mut Vec<Node>) -> Bounds {
 }
 // ANCHOR_END: tree
 
-/// How many boxes a line has to be tested against, one that meets the root and else lies anywhere: the root,
-/// and the two halves of each box that it meets. It meets a box within another as often as their
-/// surface areas say: the surface area heuristic.
+/// Expected number of boxes tested against a random line that meets the root: the root, and the two halves of each
+/// box that it meets. It meets a box within another as often as their surface areas say: the surface area
+/// heuristic.
 pub fn expected_tests(nodes: &[Node]) -> f64 {
     let area = |node: &Node| {
         let side = (node.high - node.low).as_dvec3();

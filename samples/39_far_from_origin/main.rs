@@ -5,6 +5,8 @@
 
 #[path = "../09_instancing/formation.rs"]
 mod formation;
+#[path = "../09_instancing/instances.rs"]
+mod instances;
 mod pieces;
 mod top_level;
 
@@ -20,14 +22,15 @@ use common::scene::{Camera, CameraBasis, DirectionalLight, SceneAddresses, Scene
 use common::{Controls, Frame, Sample, Setup, Variant, Variants};
 use formation::{Build, Geometry, SceneKind};
 use glam::{DVec3, Vec3};
+use instances::{FLAGS, SEEN};
 use pieces::Pieces;
-use top_level::{FLAGS, PieceRecord, SEEN, TopLevelBuild};
+use top_level::{PieceRecord, TopLevelBuild};
 
 fn main() -> ExitCode {
     common::run::<Demo>(env!("CARGO_BIN_NAME"), instruments::all())
 }
 
-/// How far the camera goes before the set is placed anew.
+/// Distance the camera moves before the set is placed again.
 const STEP: f64 = 16.0;
 
 struct Demo {
@@ -46,22 +49,22 @@ struct Demo {
 }
 
 common::shader_enum! {
-    /// What a pixel shows.
+    /// The quantity shown per pixel.
     enum Show: SHOW {
         Picture, Normal, Triangle, Hit, Direction = "ray direction", Shadow, Origin = "shadow origin",
         InstanceId, ObjectNormal, ObjectOrigin,
     }
-    /// Which triangles a ray passes through.
+    /// The triangles a ray passes through.
     enum Culling: CULL { Off, Back = "back faces", Front = "front faces" }
-    /// What takes a normal to the world.
+    /// The matrix that takes a normal to the world.
     enum Normals: NORMALS { Matrix, DeviceInverse, HostInverse }
-    /// What takes a ray to the mesh's space.
+    /// The transform that takes a ray to the mesh's space.
     enum ObjectRay: OBJECT_RAY { Device, Matrix, Inverse }
     /// About which origin everything is placed.
     enum Coordinates { World, CameraRelative = "camera-relative", Both }
 }
 
-/// What a pipeline is made for: the specialization constants of its shaders.
+/// Specialization constants of a pipeline's shaders.
 #[derive(Clone, Copy, PartialEq)]
 struct Constants {
     show: Show,
@@ -71,7 +74,7 @@ struct Constants {
 }
 
 common::shader_struct! {
-    /// What every shader of this chapter can read.
+    /// Push constants of all shaders.
     struct Push {
         camera: CameraBasis,
         scene: SceneAddresses,

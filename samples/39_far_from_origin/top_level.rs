@@ -1,33 +1,16 @@
 //! The top level of a formation: an instance and a record for each piece.
 
 use anyhow::Result;
-use ash::vk;
 use ash::vk::GeometryInstanceFlagsKHR as Flags;
-use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
-use common::scene::{Scene, SceneOnGpu, build_top, input_usage, transform};
+use common::gpu::{AccelerationStructure, Buffer, Gpu};
+use common::scene::{Scene, SceneOnGpu, input_usage};
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
-use crate::formation::{BLACK, BOARD, Formation, Piece, WHITE};
-
-/// Which bits a ray asks for: it sees an instance if they share one.
-pub const SEEN: [(&str, u8); 4] = [
-    ("everything", 0xff),
-    ("all but white", BOARD | BLACK),
-    ("all but black", BOARD | WHITE),
-    ("the board", BOARD),
-];
-
-const NO_FLAGS: Flags = Flags::empty();
-/// What an instance may say of its triangles.
-pub const FLAGS: [(&str, Flags); 4] = [
-    ("none", NO_FLAGS),
-    ("facing cull disable", Flags::TRIANGLE_FACING_CULL_DISABLE),
-    ("flip facing", Flags::TRIANGLE_FLIP_FACING),
-    ("force no-opaque", Flags::FORCE_NO_OPAQUE),
-];
+use crate::formation::{Formation, Piece};
+use crate::instances;
 
 common::shader_struct! {
-    /// What a piece has of its own, at its custom index.
+    /// Data of one piece, found by its custom index.
     pub struct PieceRecord {
         inverse: Mat3,
         at: Vec3,
@@ -37,8 +20,7 @@ common::shader_struct! {
     }
 }
 
-/// What the instances are made for: where the set is, seen from an origin, and the flags of its white
-/// pieces.
+/// Parameters of the instances: the set's place seen from an origin, and the flags of its white pieces.
 #[derive(Clone, Copy, PartialEq)]
 pub struct TopLevelBuild {
     pub shift: DVec3,
@@ -66,26 +48,7 @@ impl TopLevel {
         let moved = |piece: &Piece| Piece { at: piece.at + build.shift, ..*piece };
         let pieces: Vec<_> = formation.pieces.iter().map(moved).collect();
         // ANCHOR_END: moved
-        let bounds = pieces.iter().map(|piece| meshes.instance_bounds(&piece.instance()));
-        let bounds: Vec<_> = bounds.collect();
-        let order = order::for_build(gpu, &bounds, scene.options.ordering);
-        let instances = order.iter().map(|&index| {
-            let piece = &pieces[index as usize];
-            let flags = if piece.mask == WHITE { build.white } else { NO_FLAGS };
-            vk::AccelerationStructureInstanceKHR {
-                transform: transform(&piece.instance().transform),
-                // Eight bits of mask; the index has 24, so 16,777,216 pieces at most.
-                instance_custom_index_and_mask: vk::Packed24_8::new(index, piece.mask),
-                instance_shader_binding_table_record_offset_and_flags: vk::Packed24_8::new(
-                    0,
-                    flags.as_raw() as u8,
-                ),
-                acceleration_structure_reference: vk::AccelerationStructureReferenceKHR {
-                    device_handle: scene.blas[piece.mesh].address,
-                },
-            }
-        });
-        let tlas = build_top(gpu, &instances.collect::<Vec<_>>())?;
+        let tlas = instances::top_level(gpu, meshes, scene, &pieces, build.white)?;
         let records: Vec<_> = pieces.iter().map(record).collect();
         let records = Buffer::with_data(gpu, "piece records", &records, input_usage())?;
         Ok(Self { tlas, records, build })

@@ -1,4 +1,4 @@
-//! What bends a cone: a ball that is a mirror, a hollow mirror, and a ball of glass, on the floor of tiles.
+//! Surfaces that bend a cone: a ball that is a mirror, a hollow mirror, and a ball of glass, on the floor of tiles.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 

@@ -58,7 +58,7 @@ fn exponent(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(-20.0, 20.0))
 }
 
-/// Where neither sine nor cosine is near 0.
+/// An angle at which neither sine nor cosine is near 0.
 fn acute(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(0.1, 1.4))
 }
@@ -87,7 +87,7 @@ fn near_one(random: &mut Random) -> Vec3 {
     Vec3::splat(random.within(0.5, 2.0))
 }
 
-/// How far the values of `of` are from `of(x)` at most, for numbers within `off` of `x`.
+/// Greatest distance of `of` from `of(x)`, for numbers within `off` of `x`.
 fn spread(of: impl Fn(f64) -> f64, x: f64, off: f64) -> f64 {
     (of(x + off) - of(x)).abs().max((of(x - off) - of(x)).abs())
 }
@@ -104,13 +104,13 @@ fn power_bound(x: f64, y: f64) -> f64 {
     spread(f64::exp2, product, off) + (3.0 + 2.0 * (product.abs() + off)) * ulp(largest)
 }
 
-/// How far a quotient may be off if `x` and `y` are off by so much: 2.5 ULP for the division.
+/// Error bound of a quotient if `x` and `y` are off by so much: 2.5 ULP for the division.
 fn quotient_bound(x: f64, x_off: f64, y: f64, y_off: f64) -> f64 {
     let (exact, largest) = ((x / y).abs(), (x.abs() + x_off) / (y.abs() - y_off));
     largest - exact + 2.5 * ulp(largest)
 }
 
-/// How far √(1 - x²) may be off.
+/// Error bound of √(1 - x²).
 fn leg_bound(x: f64) -> f64 {
     let rest = 1.0 - x * x;
     let off = ulp(x * x) + ulp(rest + ulp(x * x));

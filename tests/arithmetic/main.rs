@@ -30,7 +30,7 @@ fn results(gpu: &Gpu, shader: &str, operation: u32, operands: &[Vec3]) -> Vec<f3
     computed(gpu, shader, operation, operands)
 }
 
-/// What the device makes of the operands.
+/// Results of the device for these operands.
 fn computed<T: bytemuck::Pod>(
     gpu: &Gpu,
     shader: &str,

@@ -1,4 +1,4 @@
-//! What a device may do with boxes: offer them to rays that pass by, and in any order.
+//! Freedoms of a device with boxes: to offer them to rays that pass by, and in any order.
 
 use common::gpu::{
     AccelerationStructure, Address, Binding, Buffer, BuildOptions, Descriptor, Geometry, Gpu,
@@ -13,7 +13,7 @@ common::shader_struct! {
     }
 }
 
-/// How many calls of the shader are noted, as in boxes.glsl.
+/// Maximum number of recorded calls of the shader, as in boxes.glsl.
 const MOST: usize = 7;
 const RAYS: u32 = 8;
 

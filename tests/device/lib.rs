@@ -1,4 +1,4 @@
-//! Which device tests run on: the software driver alone, unless `GPU` in the environment says otherwise.
+//! The device that tests run on: the software driver alone, unless `GPU` in the environment names another.
 //!
 //! `GPU=1` is the best device there is, `GPU=NAME` one by a part of its name. Without it the Vulkan loader is
 //! shown Mesa's software driver and no other, from before `main`, so that all that a test program starts, and
@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// What names the drivers to the loader. `VK_DRIVER_FILES`, which names them too, goes before it: so a test
+/// The variable that names the drivers to the loader. `VK_DRIVER_FILES` does the same and has precedence: so a test
 /// that brings a driver, and `--compile-for`, need not know of this one.
 pub const VARIABLE: &str = "VK_ICD_FILENAMES";
 
@@ -35,8 +35,8 @@ extern "C" fn choose() {
     unsafe { std::env::set_var(VARIABLE, manifest) };
 }
 
-/// Whether tests run on the software driver and in its own arithmetic: there equality to the bit is asked for
-/// where Vulkan promises less. Pipelines that `ARITHMETIC_SEED` makes differ are as another device's.
+/// Tests whether tests run on the software driver and in its own arithmetic: they demand equality to the bit there
+/// even where Vulkan promises less. Pipelines that `ARITHMETIC_SEED` changes count as another device's.
 pub fn is_software() -> bool {
     asked().is_none() && std::env::var_os("ARITHMETIC_SEED").is_none()
 }

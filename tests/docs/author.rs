@@ -1,4 +1,4 @@
-//! What only an author can mend: named with file, line and what to do.
+//! Faults that only an author can fix: named with file, line and what to do.
 
 use crate::fixture::Fixture;
 use crate::{Case, expect};

@@ -16,7 +16,7 @@ pub struct Fixture {
     folder: TempDir,
 }
 
-/// What a run of the tool ended with.
+/// The outcome of a run of the tool.
 pub struct Outcome {
     /// The exit code.
     pub code: i32,
@@ -24,7 +24,7 @@ pub struct Outcome {
     pub out: String,
     /// Standard error, but for what it waits for: that depends on the machine.
     pub err: String,
-    /// What it waited for.
+    /// The waits in its output.
     pub waits: Vec<String>,
 }
 
@@ -38,7 +38,7 @@ static PROGRAMS: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// What every test copies: filled in and with its pictures, once.
+/// The project that every test copies: filled in and with its pictures, once.
 static WHOLE: LazyLock<Fixture> = LazyLock::new(|| {
     let fixture = Fixture { folder: tempfile::tempdir().expect("a temporary folder") };
     for (path, text) in FILES {
@@ -77,7 +77,7 @@ impl Fixture {
         fixture
     }
 
-    /// Where a file of the project lies.
+    /// The path of a file of the project.
     pub fn path(&self, path: &str) -> PathBuf {
         self.folder.path().join(path)
     }
@@ -123,7 +123,7 @@ impl Fixture {
         command
     }
 
-    /// What `check` says of it: nothing if all is well.
+    /// Output of `check`: nothing if all is well.
     pub fn check(&self) -> String {
         let outcome = self.run(&["check"]);
         assert_eq!(outcome.code, i32::from(!outcome.out.is_empty()), "{}", outcome.err);

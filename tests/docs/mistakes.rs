@@ -184,7 +184,7 @@ fn a_copy_that_a_signal_stops_is_not_left_half_made() {
     assert!(stopped > 0, "no signal came in time");
 }
 
-/// How many files lie below a folder.
+/// Number of files below a folder.
 #[cfg(unix)]
 fn files(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.unwrap().path());

@@ -1,4 +1,4 @@
-//! What a page names must be there: chapters, files, lines, anchors, tests, exercises and their checks.
+//! Names on a page must exist: chapters, files, lines, anchors, tests, exercises and their checks.
 
 use crate::fixture::Fixture;
 use crate::{Case, expect};

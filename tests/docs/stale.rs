@@ -1,4 +1,4 @@
-//! What is generated, and no longer what the code says: found, and mended by `sync`.
+//! Generated text that no longer matches the code: found, and fixed by `sync`.
 
 use std::fs;
 

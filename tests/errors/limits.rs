@@ -146,7 +146,7 @@ fn a_large_mesh_that_shines_in_many_places_is_refused_before_they_are_listed() {
     assert!(peak < 200 << 20, "{peak}");
 }
 
-/// What a model is refused for once all of it is read.
+/// A model that is refused only after all of it is read.
 const FAR: &str = "v 0 0 1e30\nf 1 2 -1\n";
 const QUEEN: &str = "[[piece]]\nmesh = \"queen\"\nat = [0, 0, 0]\n";
 const BALL: &str = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n";

@@ -23,7 +23,7 @@ fn model(folder: &Path, count: usize) {
     fs::write(folder.join("model.mtl"), mtl).unwrap();
 }
 
-/// How often each function was called to show a model of so many meshes and textures.
+/// Number of calls of each function for a model of so many meshes and textures.
 fn calls(count: usize) -> BTreeMap<String, usize> {
     let folder = tempfile::tempdir().unwrap();
     model(folder.path(), count);

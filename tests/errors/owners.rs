@@ -7,8 +7,7 @@ use std::path::Path;
 
 use crate::scarce::as_nobody;
 
-/// What a picture over this file is refused with by another user than its owner; `None` where that cannot be
-/// tried.
+/// The refusal of a picture over this file by another user than its owner; `None` where that cannot be tried.
 fn refusal_over(file: &Path) -> Option<String> {
     let mut command = crate::sample();
     command.arg("--out").arg(file).env("VULKAN_LOADER", "/nonexistent");

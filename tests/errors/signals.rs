@@ -14,12 +14,12 @@ use reference::random::Random;
 
 const SIGNALS: [(&str, i32); 3] = [("INT", 2), ("TERM", 15), ("HUP", 1)];
 
-/// How many signals each kind of run gets: as many as the variable asks for.
+/// Number of signals for each kind of run: as many as the variable says.
 fn rounds(usual: u32) -> u32 {
     std::env::var("ROUNDS").map_or(usual, |text| text.parse().expect("ROUNDS is a number"))
 }
 
-/// Whether a file is one that a run writes, and whole.
+/// Tests whether a file is one that a run writes, and whole.
 fn is_whole(file: &Path) -> bool {
     match file.extension().and_then(|extension| extension.to_str()) {
         Some("png") => image::open(file).is_ok(),
@@ -31,7 +31,7 @@ fn is_whole(file: &Path) -> bool {
     }
 }
 
-/// Whether a file in a folder is being written.
+/// Tests whether a file in a folder is being written.
 fn writes(folder: &Path) -> bool {
     let mut files = fs::read_dir(folder).expect("a folder").map(|file| file.unwrap().file_name());
     files.any(|name| name.to_string_lossy().starts_with(".tmp"))

@@ -1,4 +1,4 @@
-//! How different two pictures look: FLIP (Andersson et al., HPG 2020), as tests and `cargo chapters` use it.
+//! Difference of two pictures to the eye: FLIP (Andersson et al., HPG 2020), as tests and `cargo chapters` use it.
 
 pub mod near;
 

@@ -1,9 +1,9 @@
-//! How far two pictures may be apart whose pipelines differ, on a device that rounds as it likes.
+//! Bounds on the difference of two pictures whose pipelines differ, on a device that rounds as it likes.
 
 use common::app::Picture;
 
-/// How far a picture may be from that of exact arithmetic: how many decisions lie behind a pixel, each of which
-/// may *flip*, and the mean FLIP.
+/// Bounds on the difference of a picture from that of exact arithmetic: the number of decisions behind a pixel,
+/// each of which may *flip*, and the mean FLIP.
 ///
 /// A ray's direction is off by some 4 ULP of 1, which is 7e-5 of a pixel of a picture that is 96 wide. An edge
 /// that passes as near by a pixel's centre, on either side, flips it: of 5,760 pixels less than one does, if all
@@ -18,7 +18,7 @@ pub struct Near {
     decisions: u32,
     /// The mean FLIP.
     pub mean: f32,
-    /// How many of the two pictures are not exact.
+    /// Number of the two pictures that are not exact.
     off: u32,
 }
 
@@ -66,7 +66,7 @@ impl Near {
         Self { off: 2, ..self }
     }
 
-    /// How many pixels of such a picture may flip.
+    /// Number of pixels of such a picture that may flip.
     pub fn flips(&self, picture: &Picture) -> u32 {
         self.flips_of(picture.width, picture.pixels.len())
     }
@@ -76,7 +76,7 @@ impl Near {
         self.decisions * (beside * pixels as f64).ceil() as u32
     }
 
-    /// Whether two pictures of colours are as near as that. FLIP sees a picture as an eye does, blurred: one
+    /// Tests whether two pictures of colours are as near as that. FLIP sees a picture as an eye does, blurred: one
     /// pixel that is another makes up to five that seem so.
     pub fn holds(&self, one: &Picture, other: &Picture) -> bool {
         let (mean, outliers) = pictures(one, other);
@@ -84,7 +84,7 @@ impl Near {
         mean <= self.off as f32 * self.mean && flipped <= self.flips(one) as f32
     }
 
-    /// Whether two pictures of answers are: instances, triangles, distances, directions.
+    /// Tests whether two pictures of answers are: instances, triangles, distances, directions.
     ///
     /// A distance changes with the direction by the tangent of the angle between ray and normal. Beyond a
     /// thousandth it does so only under a grazing angle of a thousandth, which counts as flipped.
@@ -93,8 +93,8 @@ impl Near {
     }
 }
 
-/// How far a chapter's picture, by a device that rounds as it likes, may be from the golden one, by the mean FLIP:
-/// `own` is what the software driver, which made it, keeps. `None` if a picture shows the device's own errors.
+/// Bound on the mean FLIP between a chapter's picture, by a device that rounds as it likes, and the golden one:
+/// `own` is the bound for the software driver, which made it. `None` if a picture shows the device's own errors.
 pub fn golden(chapter: &str, (width, height): (u32, u32), own: f32) -> Option<f32> {
     // What a picture of another seed has, and a hundredth of it for each surface that a path meets: see
     // `tests/samples/worst.rs`.
@@ -122,7 +122,7 @@ pub fn flipped(one: &Picture, other: &Picture) -> usize {
     pairs.filter(|(one, other)| !one.iter().zip(other.iter()).all(near)).count()
 }
 
-/// How far one picture is from another, by FLIP: the mean, and the share of pixels above 0.1.
+/// Difference of one picture from another, by FLIP: the mean, and the share of pixels above 0.1.
 pub fn pictures(reference: &Picture, picture: &Picture) -> (f32, f32) {
     let size = (picture.width, picture.height);
     assert_eq!((reference.width, reference.height), size);

@@ -1,4 +1,4 @@
-//! What no input may bring about, and the file that brings it back.
+//! Faults that no input may cause, and the file that reproduces one.
 
 use std::fmt::{Display, Formatter};
 use std::fs;
@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use time_limit::Limit;
 
-/// What no input may bring about.
+/// A fault that no input may cause.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
     /// A panic, with its message.
@@ -58,15 +58,15 @@ impl Display for Fault {
 /// A fault, and the input that brought it about.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Who reads it.
+    /// The reader of the inputs.
     pub reader: &'static str,
-    /// Where random numbers began.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// How many inputs were tried before.
+    /// Number of inputs tried before.
     pub number: usize,
     /// The bytes.
     pub input: Vec<u8>,
-    /// What they brought about.
+    /// The fault that they caused.
     pub fault: Fault,
 }
 

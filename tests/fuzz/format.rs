@@ -1,4 +1,4 @@
-//! What is read: where its inputs come from, and who reads it.
+//! Formats to read: the source of their inputs, and their reader.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use reference::random::Random;
 use crate::fault::Fault;
 use crate::grammar::Grammar;
 
-/// What a reader says of an input that it refuses, or what it made of one that it takes, in a few words.
+/// A reader's message about an input that it refuses, or its summary of one that it accepts, in a few words.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// Taken.
@@ -39,7 +39,7 @@ impl Answer {
     }
 }
 
-/// Who reads inputs: a function of this process, or a program.
+/// A reader of inputs: a function of this process, or a program.
 pub trait Reader {
     /// Shows it an input.
     ///
@@ -59,7 +59,7 @@ pub struct Format {
     pub most: usize,
     /// A new input.
     pub make: fn(&mut Random) -> Vec<u8>,
-    /// What stands in inputs of this kind, for mutations: the words of its grammar.
+    /// The words in inputs of this kind, for mutations: those of its grammar.
     pub grammar: Option<fn() -> &'static Grammar>,
     /// Inputs that are right, or were wrong once.
     pub seeds: fn() -> Vec<Vec<u8>>,

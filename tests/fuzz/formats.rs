@@ -1,4 +1,4 @@
-//! What is read, one file a format.
+//! Formats to read, one file each.
 
 pub mod cases;
 pub mod game;
@@ -15,7 +15,7 @@ use std::path::Path;
 
 use crate::format::{Format, Function};
 
-/// What reads in this process, each with how many inputs `cargo test` tries: a few seconds' worth.
+/// Readers in this process, each with the number of inputs that `cargo test` tries: a few seconds' worth.
 pub const FUNCTIONS: [(Format, Function, usize); 8] = [
     (object::FORMAT, object::FUNCTION, 8000),
     (object::MATERIAL_FORMAT, object::MATERIAL_FUNCTION, 8000),

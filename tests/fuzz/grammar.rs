@@ -26,7 +26,7 @@ enum Term {
     Many(String),
 }
 
-/// How deep rules may nest; below, each takes its first way, and `*` is none.
+/// Maximum nesting of rules; below, each takes its first way, and `*` is none.
 const DEEP: usize = 24;
 
 /// Numbers that are hard to read, or to bear.

@@ -95,7 +95,7 @@ fn one_input() {
     }
 }
 
-/// What the reader of a name makes of an input.
+/// Result of the named reader for an input.
 fn answer(reader: &str, input: &[u8]) -> Result<Answer, Fault> {
     if let Some((format, function, _)) = FUNCTIONS.into_iter().find(|one| one.0.name == reader) {
         return Watch::new(format, function).ask(input);

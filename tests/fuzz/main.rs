@@ -13,7 +13,7 @@ mod programs;
 use fuzz::format::Reader;
 use fuzz::session::Session;
 
-/// Where random numbers begin, unless `FUZZ_SEED` says otherwise.
+/// Default seed of the random numbers; `FUZZ_SEED` sets another.
 const SEED: u64 = 18;
 
 /// Tries so many inputs; the first fault fails the test, and says how to bring it back.

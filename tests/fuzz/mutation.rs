@@ -68,7 +68,7 @@ fn is_of_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_.+-".contains(&byte) || byte >= 0x80
 }
 
-/// Where the parts are that only have bytes of a kind.
+/// Parts that consist only of bytes of a kind.
 fn parts(bytes: &[u8], is_of: impl Fn(u8) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut parts = Vec::new();
     let mut start = None;

@@ -1,4 +1,4 @@
-//! What is looked for is found: a fault of each kind, planted where few inputs lead.
+//! Faults planted where few inputs lead: one of each kind, and each is found.
 
 use std::path::Path;
 use std::process::Command;
@@ -22,12 +22,12 @@ use crate::SEED;
 /// Inputs within which a fault is to be found: fewer than `cargo test` tries of models.
 const BUDGET: usize = 4000;
 
-/// Where nothing sleeps, work decides.
+/// Limit where nothing sleeps: work decides.
 const AWAKE: Limit = Limit::worked(3);
-/// Where what is planted sleeps, the clock does: whoever is late beside it has the same fault.
+/// Limit where the planted fault sleeps: the clock decides, and a reader delayed by others has the same fault.
 const SLEEPY: Limit = Limit::waited(Duration::from_secs(3));
 
-/// What is found by a reader of inputs of a format.
+/// The fault found in a reader of inputs of a format.
 #[track_caller]
 fn found(format: Format, reader: impl Reader) -> Found {
     let mut session = Session::new("planted", format, reader, SEED);
@@ -36,7 +36,7 @@ fn found(format: Format, reader: impl Reader) -> Found {
     found
 }
 
-/// What is found with a function in place of that which reads models.
+/// The fault found with a function in place of the one that reads models.
 #[track_caller]
 fn found_in(read: fn(&Path) -> Result<String>) -> Fault {
     found_within(AWAKE, read)
@@ -48,21 +48,23 @@ fn found_within(patience: Limit, read: fn(&Path) -> Result<String>) -> Fault {
     found(FORMAT, watch.within(patience)).fault
 }
 
-/// Whether a model is refused for this.
+/// Tests whether a model is refused for this.
 fn refused_for(path: &Path, what: &str) -> bool {
     load(path).is_err_and(|error| error.to_string().contains(what))
 }
 
-/// Whether a model is taken with such a warning.
+/// Tests whether a model is accepted with such a warning.
 fn warned_of(path: &Path, what: &str) -> bool {
     load(path).is_ok_and(|model| model.warnings.join(" ").contains(what))
 }
 
 #[test]
 fn a_panic_is_found() {
-    let fault = found_in(|path| match refused_for(path, "too many parts") {
-        true => panic!("planted"),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "too many parts") {
+            panic!("planted")
+        }
+        read(path)
     });
     assert!(matches!(&fault, Fault::Panic(message) if message.contains("planted")), "{fault}");
 }
@@ -90,25 +92,29 @@ fn work_for(time: Duration) {
 
 #[test]
 fn a_wait_without_an_end_is_found() {
-    let fault = found_within(SLEEPY, |path| match warned_of(path, "normal index") {
-        true => loop {
-            sleep(Duration::from_secs(3600));
-        },
-        false => read(path),
+    let fault = found_within(SLEEPY, |path| {
+        if warned_of(path, "normal index") {
+            loop {
+                sleep(Duration::from_secs(3600));
+            }
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Endless(_)), "{fault}");
 }
 
 #[test]
 fn work_without_an_end_is_found() {
-    let fault = found_in(|path| match warned_of(path, "normal index") {
-        true => {
+    let fault = found_in(|path| {
+        if warned_of(path, "normal index") {
             work_for(AWAKE.processor * 2);
             // The test is over by then: nobody else need wait for this thread.
             sleep(Duration::MAX);
             bail!("an end")
+        } else {
+            read(path)
         }
-        false => read(path),
     });
     assert_eq!(fault, Fault::Endless(AWAKE));
 }
@@ -155,28 +161,32 @@ fn memory_for_what_a_header_promises_is_found() {
 
 #[test]
 fn a_message_of_two_lines_is_found() {
-    let fault = found_in(|path| match refused_for(path, "not a finite 32-bit number") {
-        true => bail!("{}: first\nsecond", path.display()),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "not a finite 32-bit number") {
+            bail!("{}: first\nsecond", path.display())
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Line(_)), "{fault}");
 }
 
 #[test]
 fn a_message_that_names_no_file_is_found() {
-    let fault = found_in(|path| match refused_for(path, "outside the OBJ file's folder") {
-        true => bail!("a file lies outside"),
-        false => read(path),
+    let fault = found_in(|path| {
+        if refused_for(path, "outside the OBJ file's folder") {
+            bail!("a file lies outside")
+        } else {
+            read(path)
+        }
     });
     assert!(matches!(fault, Fault::Line(_)), "{fault}");
 }
 
 #[test]
 fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
-    let planted: fn(&Path) -> Result<String> = |path| match refused_for(path, "too many parts") {
-        true => panic!("planted"),
-        false => read(path),
-    };
+    let planted: fn(&Path) -> Result<String> =
+        |path| if refused_for(path, "too many parts") { panic!("planted") } else { read(path) };
     let function = Function { read: planted, ..FUNCTION };
     let [first, second] = [(); 2].map(|()| found(FORMAT, Watch::new(FORMAT, function)));
     assert_eq!((first.number, &first.input), (second.number, &second.input));
@@ -189,7 +199,7 @@ fn what_is_found_is_kept_and_is_the_same_in_the_next_run() {
     assert_eq!(again.unwrap_err(), first.fault);
 }
 
-/// What is found in a program that does this to a model with an index that counts backwards, and refuses all
+/// The fault found in a program that does this to a model with an index that counts backwards, and refuses all
 /// others as it should.
 #[cfg(unix)]
 #[track_caller]

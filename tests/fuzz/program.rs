@@ -23,7 +23,7 @@ const LETTERS: usize = 30_000;
 /// A program that is shown an input.
 pub struct Program {
     folder: TempDir,
-    /// Where it puts what it needs for a while.
+    /// Directory of its temporary files.
     passing: TempDir,
     format: Format,
     command: fn(folder: &Path, input: &[u8]) -> Command,

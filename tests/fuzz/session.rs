@@ -98,7 +98,7 @@ impl<R: Reader> Session<R> {
         (0..count).try_for_each(|_| self.step())
     }
 
-    /// How many inputs were tried, and how many different answers they brought.
+    /// Number of inputs tried, and of different answers.
     pub fn told(&self) -> (usize, usize) {
         (self.number, self.heard.len())
     }

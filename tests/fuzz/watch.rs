@@ -25,7 +25,7 @@ const PATIENCE: Limit = Limit::worked(20);
 const READER: &str = "reader";
 
 thread_local! {
-    /// What the last panic of this thread said.
+    /// Message of this thread's last panic.
     static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 

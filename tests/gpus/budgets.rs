@@ -11,7 +11,7 @@ use std::fs;
 
 use serde_json::{Map, Value, json};
 
-/// What is recorded of a chapter for a family. In all but the waves, more is worse.
+/// Figures recorded of a chapter for a family. In all except the waves, more is worse.
 const FIGURES: [&str; 6] =
     ["programs", "instructions", "registers", "spilled_registers", "scratch_bytes", "waves"];
 /// Instructions may grow by so much before it counts: a constant more is no decision.
@@ -46,7 +46,7 @@ fn compiled(chapter: &str) -> Option<(Value, String)> {
     Some((json!(families), format!("Mesa {mesa}")))
 }
 
-/// What is worse than recorded, a line a figure.
+/// Figures that are worse than recorded, one line each.
 fn worse(chapter: &str, now: &Value, recorded: &Value) -> Vec<String> {
     let Some(families) = now.as_object() else { return Vec::new() };
     let mut lines = Vec::new();
@@ -70,7 +70,7 @@ fn worse(chapter: &str, now: &Value, recorded: &Value) -> Vec<String> {
     lines
 }
 
-/// What is worse than recorded of this Mesa, and what is recorded of no Mesa at all.
+/// Figures that are worse than recorded of this Mesa, and those recorded of no Mesa at all.
 fn faults(recorded: &Value, mesa: &str, now: &BTreeMap<String, Value>) -> Vec<String> {
     let known = |chapter: &str| {
         let mut all = recorded.as_object().into_iter().flat_map(Map::values);

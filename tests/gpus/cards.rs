@@ -194,7 +194,7 @@ fn a_card_s_limits_and_memory_bound_a_picture() {
     }
 }
 
-/// What is asked of one card's compiler goes by way of another process, whatever card this one has.
+/// A request to one card's compiler goes by way of another process, whatever card this one has.
 #[test]
 fn one_card_s_program_asks_another_card_s_compiler() {
     let Some(mut command) = Card("navi21").command("02_basic") else { return };

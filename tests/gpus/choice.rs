@@ -1,5 +1,5 @@
-//! Which device tests run on, on a machine that has a Radeon and the software driver: the card is not there,
-//! but its whole driver is (Mesa's drm-shim), which computes nothing.
+//! The device that tests run on, on a machine that has a Radeon and the software driver: the card is not there, but
+//! its whole driver is (Mesa's drm-shim), which computes nothing.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use run::cards::Card;
 /// The two that make an instance of their own.
 const CHAPTERS: [&str; 2] = ["01_foundation", "02_basic"];
 
-/// What a test program that is started with `GPU` finds: by itself, by 01 and by another chapter; `None` where
+/// Devices that a test program started with `GPU` finds: by itself, by 01 and by another chapter; `None` where
 /// there is no such card.
 fn found(gpu: Option<&str>) -> Option<Vec<String>> {
     let this = std::env::current_exe().expect("a running program has a file");

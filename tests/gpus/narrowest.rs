@@ -21,8 +21,8 @@ const UNSUITABLE: [(&str, &str); 5] = [
 // ANCHOR_END: unsuitable
 
 // ANCHOR: refused
-/// What a suitable sample can be asked for that the narrowest device refuses: the arguments, the limit, and
-/// words of the line that says so.
+/// Requests to suitable samples that the narrowest device refuses: the arguments, the limit, and words of the line
+/// that says so.
 const REFUSED: [(&str, [&str; 2], &str, &str); 3] = [
     (
         "06_reflection",
@@ -54,7 +54,7 @@ const FEATURES: [(&str, &[&str]); 8] = [
 ];
 // ANCHOR_END: features
 
-/// What else a sample makes of a device than with its own settings: other stages, larger tables, more memory.
+/// Further settings of samples that use more of a device than their own: other stages, larger tables, more memory.
 const ALSO: [(&str, &[&str]); 10] = [
     ("03_any_hit", &["--set", "mode=all hits"]),
     ("03_any_hit", &["--set", "mode=random", "--set", "no duplicates=on"]),
@@ -189,7 +189,8 @@ fn a_card_without_graphics_traces_without_a_window() {
     }
 }
 
-/// What draws, or makes mip levels by blits, needs a queue that draws, and says so beside what else is missing.
+/// A sample that draws, or makes mip levels by blits, needs a queue that draws, and says so beside what else is
+/// missing.
 #[test]
 fn a_card_without_graphics_is_refused_by_what_draws() {
     let lacks = |sample: &str, faults: &str, what: &str| {
@@ -205,8 +206,8 @@ fn a_card_without_graphics_is_refused_by_what_draws() {
     assert!(!lacks("17_ray_query_raster", "", "feature dynamicRendering"));
 }
 
-/// What the layer counts on a run of a sample: submissions, and allocations in the device, in the host, and
-/// in the device where the host can map it.
+/// Counts of the layer on a run of a sample: submissions, and allocations in the device, in the host, and in the
+/// device where the host can map it.
 #[track_caller]
 fn counted(faults: &str, sample: &str, arguments: &[&str]) -> [u32; 4] {
     counted_and_told(faults, sample, arguments).0
@@ -391,7 +392,7 @@ fn ask_for_more_than_is_promised() {
     assert!(more.ends_with(lacks), "{more}");
 }
 
-/// What a program that leaves out the copy by way of the host's memory does: it maps the device's.
+/// Maps the device's memory, as a program does that leaves out the copy by way of the host's memory.
 fn map_memory_of_the_device() -> (Result<(), vk::Result>, Vec<String>) {
     let requirements = Requirements::ray_tracing();
     let options = GpuOptions { requirements, validate: true, ..GpuOptions::default() };

@@ -12,7 +12,7 @@ use ash::{khr, vk};
 
 use super::narrowest::{in_child, quiet, runs};
 
-/// What the layer is told: all of ray tracing is hidden, and the device is one of those that Macs have.
+/// Faults for the layer: all of ray tracing is hidden, and the device is one of those that Macs have.
 const FAULTS: &str = "no-ray-tracing,portability";
 
 /// The chapters that need no ray tracing.

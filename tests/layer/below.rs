@@ -1,4 +1,4 @@
-//! What lies below the layer: the next layer's or the driver's functions, for each instance and device.
+//! Functions below the layer, the next layer's or the driver's, for each instance and device.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_void};
@@ -13,7 +13,7 @@ pub struct Instance {
     pub core: ash::Instance,
     /// `VK_KHR_surface`; each function panics where the extension is not enabled.
     pub surface: khr::surface::InstanceFn,
-    /// Where functions come from that the layer leaves alone.
+    /// The function that finds those that the layer leaves alone.
     pub get_proc_addr: vk::PFN_vkGetInstanceProcAddr,
 }
 
@@ -23,7 +23,7 @@ pub struct Device {
     pub core: ash::Device,
     /// `VK_KHR_swapchain`; each function panics where the extension is not enabled.
     pub swapchain: khr::swapchain::DeviceFn,
-    /// Where functions come from that the layer leaves alone.
+    /// The function that finds those that the layer leaves alone.
     pub get_proc_addr: vk::PFN_vkGetDeviceProcAddr,
     /// The device it was made from.
     pub physical: vk::PhysicalDevice,
@@ -32,8 +32,8 @@ pub struct Device {
 static INSTANCES: Mutex<BTreeMap<usize, Arc<Instance>>> = Mutex::new(BTreeMap::new());
 static DEVICES: Mutex<BTreeMap<usize, Arc<Device>>> = Mutex::new(BTreeMap::new());
 
-/// What the loader gives to an instance and its physical devices in common, and likewise to a device, its
-/// queues and its command buffers: the address of its own table, which their handles begin with.
+/// The key that an instance has in common with its physical devices, and a device with its queues and command
+/// buffers: the address of the loader's own table, which their handles begin with.
 fn key(handle: impl Handle) -> usize {
     // SAFETY: each of these handles points to an object that begins with that address.
     unsafe { *(handle.as_raw() as *const usize) }

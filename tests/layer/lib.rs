@@ -1,4 +1,4 @@
-//! What the loader and a Vulkan layer tell each other:
+//! The protocol of the loader and a Vulkan layer:
 //! <https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderLayerInterface.md>.
 
 pub mod below;
@@ -87,7 +87,7 @@ pub unsafe fn create_instance(
     }
 }
 
-/// Where the functions below an instance are found that is being made; the next layer finds its own.
+/// The lookup of functions below an instance that is being made; the next layer finds its own.
 ///
 /// # Safety
 /// `info` comes from the loader, once for each instance.

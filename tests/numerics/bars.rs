@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::{compiled, laboratory, tables};
 
-/// What was measured of one rung on one family, one way.
+/// A measurement of one rung on one family, one way.
 pub struct Row(pub Value);
 
 impl Row {
@@ -126,7 +126,7 @@ fn every_rung_keeps_its_promise_on_ten_thousand_rays_a_family() {
     simple_rungs_fail_as_the_page_says(rungs);
 }
 
-/// Where a rung is known to fail, it does: or the families are not what they are called.
+/// Checks that rungs fail where they are known to: or the families are not what they are called.
 fn simple_rungs_fail_as_the_page_says(rungs: &[Value]) {
     let share = |rung, family| {
         let row = row(rungs, rung, family, "direct").expect("a plain rung is everywhere");

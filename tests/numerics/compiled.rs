@@ -1,4 +1,4 @@
-//! What a GPU's compiler estimates of every rung.
+//! Estimates of a GPU's compiler for every rung.
 
 use serde_json::Value;
 

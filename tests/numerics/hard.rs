@@ -62,12 +62,12 @@ fn hold(report: &Value) {
     expected::hold("24_accuracy/traced", traced(report).into());
 }
 
-/// Whether a row tells of its rung, which is asked directly; the device's own triangles can only be traced.
+/// Tests whether a row tells of its rung, which is called directly; the device's own triangles can only be traced.
 pub fn is_own(row: &Value) -> bool {
     row["way"] == if row["rung"] == "T0" { "traced" } else { "direct" }
 }
 
-/// How many answers there are both ways, how many are not the same, and how many cases are never offered.
+/// Number of answers both ways, of those that differ, and of cases that are never offered.
 fn traced(report: &Value) -> Table {
     let answers = report["answers"].as_array().expect("answers");
     let of = |way: &'static str| answers.iter().filter(move |answer| answer["way"] == way);

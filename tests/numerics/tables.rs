@@ -86,13 +86,13 @@ fn home_and_hardest(rung: &Value, is_of_page: bool) -> Table {
     table
 }
 
-/// Whether a row tells of its rung, which is asked directly; the device's own triangles can only be traced.
+/// Tests whether a row tells of its rung, which is called directly; the device's own triangles can only be traced.
 fn is_own(rung: &Value, row: &Row) -> bool {
     let way = if text(rung, "rung") == "T0" { "traced" } else { "direct" };
     row.0["way"] == way
 }
 
-/// How many times smaller the p99 of the textbook's sphere is on a planet, if c comes from the host.
+/// Factor by which the p99 of the textbook's sphere is smaller on a planet, if c comes from the host.
 fn gain(report: &Value) -> f64 {
     let [textbook, host] = ["S0", "S0h"].map(|label| {
         let mut rungs = report["rungs"].as_array().expect("rungs").iter();
@@ -104,7 +104,7 @@ fn gain(report: &Value) -> f64 {
     textbook / host
 }
 
-/// Whether the page's figures are of this device.
+/// Tests whether the page's figures are of this device.
 fn is_of_page(report: &Value) -> bool {
     expected::stored("24_accuracy/rungs")["device"] == report["device"]
 }
@@ -151,7 +151,7 @@ fn errors(ladder: &[Value]) -> Table {
     table
 }
 
-/// How many rays met their sphere again, or passed the plane in the gap.
+/// Number of rays that met their sphere again, or passed the plane in the gap.
 fn departures(ladder: &[Value]) -> Table {
     let mut table = Table::new();
     for (number, family) in rows(&ladder[0]).enumerate() {

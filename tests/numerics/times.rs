@@ -1,4 +1,4 @@
-//! What every rung costs: the times of the pages, and their plots.
+//! Costs of every rung: the times of the pages, and their plots.
 
 use run::expected;
 use serde_json::{Value, json};

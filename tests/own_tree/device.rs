@@ -97,7 +97,7 @@ impl Built {
     }
 }
 
-/// What the tests of one device share.
+/// The scenes and programs that the tests of one device share.
 struct Bench {
     gpu: Gpu,
     builder: DeviceBuilder,
@@ -200,8 +200,7 @@ fn check(shape: &Shape, built: &Built) {
 /// Environment for SPIR-V"). The software driver takes none.
 fn seen((low, high): (Vec3, Vec3)) -> [Vec3; 2] {
     let flushed = |x: f32| if x.is_subnormal() { 0.0 } else { x };
-    [low, high].map(|corner| match run::device::is_software() {
-        true => corner,
-        false => corner.to_array().map(flushed).into(),
+    [low, high].map(|corner| {
+        if run::device::is_software() { corner } else { corner.to_array().map(flushed).into() }
     })
 }

@@ -1,4 +1,4 @@
-//! How steps and builds grow with the number of triangles, and what a refit makes of a tree.
+//! Growth of steps and builds with the number of triangles, and the effect of a refit on a tree.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -120,7 +120,7 @@ pub fn rays(scene: &Scene, count: usize, seed: u64) -> Vec<Given> {
     (0..count).map(ray).collect()
 }
 
-/// What became of rays that each meet a closed mesh once.
+/// Counts by result of rays that each meet a closed mesh once.
 #[derive(Default, Debug)]
 pub struct Count {
     pub rays: usize,

@@ -7,7 +7,7 @@ use reference::random::Random;
 use crate::hunts::{ball, scene};
 use crate::rig::{BEST, By, Given, NOTHING, Rig};
 
-/// How many of a thousand rays from the middle of a ball meet it, whose instance has these columns.
+/// Number of rays, of a thousand from the middle of a ball, that meet it, whose instance has these columns.
 fn met(columns: [Vec3; 3]) -> usize {
     let mut scene = scene(ball(2), 1.0, DVec3::ZERO);
     let [x, y, z] = columns.map(Vec3A::from);

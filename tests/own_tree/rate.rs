@@ -1,4 +1,4 @@
-//! How many rays a second: walks beside the device's own queries, in one run.
+//! Rays per second: walks beside the device's own queries, in one run.
 
 use std::cell::LazyCell;
 
@@ -77,7 +77,7 @@ fn misses(answer: &Answer) -> bool {
     answer.instance == NOTHING
 }
 
-/// How many times as fast walks are as what the device has, for each kind of ray.
+/// Speed of walks relative to the device's own, for each kind of ray.
 fn compare(name: &str, scene: &Scene, figures: &mut Map<String, Value>) {
     const ROUNDS: usize = 9;
     let rig = Rig::beside_the_device(scene, Builder::Reinserted);
@@ -192,7 +192,7 @@ fn walks_beside_queries() {
     expected::give_timed("30_own_tree/rate", figures.into());
 }
 
-/// What each way to test boxes and triangles costs in time: primary rays and bounces on the chess set.
+/// Time of each way to test boxes and triangles: primary rays and bounces on the chess set.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_time_of_each_rung() {

@@ -13,7 +13,7 @@ use own_tree::{Builder, OwnScene, RAYS, TRACED, Trees};
 
 pub const NAME: &str = "30_own_tree";
 pub const NOTHING: u32 = u32::MAX;
-/// How many invocations a row of a dispatch has.
+/// Invocations in a row of a dispatch.
 const ACROSS: u32 = 1 << 12;
 
 common::shader_struct! {
@@ -46,12 +46,12 @@ common::shader_struct! {
     }
 }
 
-/// Who answers.
+/// The tracer of the rays.
 #[derive(Clone, Copy)]
 pub enum By {
     Walk,
     All,
-    /// What the device itself has: its ray queries, or its pipelines where it offers no queries.
+    /// The device's own: its ray queries, or its pipelines where it has no queries.
     Device,
 }
 
@@ -62,7 +62,7 @@ pub enum Way {
     Traced(Box<(RayTracingPipeline, ShaderBindingTable)>),
 }
 
-/// How boxes and triangles are tested: the chapter's choices, by their numbers.
+/// The tests of boxes and triangles: the chapter's choices, by their numbers.
 #[derive(Clone, Copy)]
 pub struct Rungs {
     pub boxes: u32,
@@ -93,9 +93,9 @@ fn worked() -> f64 {
 pub struct Rig {
     pub gpu: Gpu,
     pub own: OwnScene,
-    /// Whether the device offers queries, and is to be asked.
+    /// True if the device supports queries, and they are to be used.
     pub queries: bool,
-    /// What the device has built, where it is asked.
+    /// The device's own structures, where they are used.
     pub levels: Option<SceneOnGpu>,
     instances: u32,
 }
@@ -223,9 +223,10 @@ impl Rig {
                 Ok(())
             })
             .expect("the device does it");
-        let milliseconds = match self.gpu.chosen.software {
-            true => (worked() - begun) * 1e3,
-            false => timer.milliseconds().expect("the device has a clock"),
+        let milliseconds = if self.gpu.chosen.software {
+            (worked() - begun) * 1e3
+        } else {
+            timer.milliseconds().expect("the device has a clock")
         };
         (answers.read().expect("they come back"), milliseconds)
     }

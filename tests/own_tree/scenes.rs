@@ -1,4 +1,4 @@
-//! What trees are built over.
+//! Scenes that trees are built over.
 
 use common::glam::Vec3;
 use common::scene::{Mesh, Scene};

@@ -14,11 +14,11 @@ const LETTERS: f32 = 17.0;
 const PAPER: Rgb<u8> = Rgb([255; 3]);
 const INK: Rgb<u8> = Rgb([40; 3]);
 
-/// What stands under a label.
+/// The widget under a label.
 pub enum Panel {
     /// A picture.
     Picture(RgbImage),
-    /// Why there is none.
+    /// The reason why there is none.
     Words(String),
 }
 

@@ -11,11 +11,11 @@ use serde_json::Value;
 
 use crate::{command, device};
 
-/// What RADV and the shim say on standard error of their own accord.
+/// Lines that RADV and the shim write to standard error of their own accord.
 const NOISE: [&str; 3] =
     ["DRM_IOCTL_GET_CAP: unhandled", "radv/amdgpu:", "WARNING: radv is not a conformant"];
 
-/// What names drivers to the loader before all else that does.
+/// The variable that names drivers to the loader with the highest precedence.
 const DRIVERS: &str = "VK_DRIVER_FILES";
 
 /// A card, by the shim's name for it.
@@ -23,8 +23,7 @@ const DRIVERS: &str = "VK_DRIVER_FILES";
 pub struct Card(pub &'static str);
 
 impl Card {
-    /// What a program's environment has to hold to find this card alone; `None`, and a line, where there is
-    /// no shim.
+    /// Environment in which a program finds this card alone; `None`, and a line, where there is no shim.
     pub fn environment(self) -> Option<Vec<(&'static str, OsString)>> {
         let [mut variables, _] = ways(self.0);
         // The linker itself says whether it finds the library.
@@ -66,7 +65,7 @@ impl Card {
         true
     }
 
-    /// Whether the shim that is here knows the card; if not, a line.
+    /// Tests whether the installed shim knows the card; if not, prints a line.
     pub fn is_known(self) -> bool {
         let Some(mut command) = self.command("02_basic") else { return false };
         let output = command.arg("--list-devices").output().expect("it starts");
@@ -85,7 +84,7 @@ impl Card {
     }
 }
 
-/// What a program has said on standard error, without what the driver and the shim say.
+/// A program's standard error, without the lines of the driver and the shim.
 pub fn said(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stderr);
     let own = text.lines().filter(|line| NOISE.iter().all(|noise| !line.starts_with(noise)));

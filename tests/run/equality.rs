@@ -1,4 +1,4 @@
-//! How far two pictures may be apart that come from the same formulas.
+//! Bounds on the difference of two pictures that come from the same formulas.
 //!
 //! Vulkan promises equal results of *identical* pipelines, made of the same SPIR-V and the same state
 //! (specification, appendix Invariance, rules 4 and 7). Of two others it says no more than how far each may be
@@ -28,12 +28,11 @@ pub fn ties(one: &Picture, other: &Picture) -> (usize, usize) {
 #[track_caller]
 pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
     let (ties, others) = ties(one, other);
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: {ties} ties, {others} others"),
-        false => {
-            let flips = Near::of(chapter).both().flips(one) as usize;
-            assert!(others <= flips, "{what}: {ties} ties, {others} others of {flips}");
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: {ties} ties, {others} others");
+    } else {
+        let flips = Near::of(chapter).both().flips(one) as usize;
+        assert!(others <= flips, "{what}: {ties} ties, {others} others of {flips}");
     }
 }
 
@@ -41,29 +40,27 @@ pub fn same_hits(what: &str, chapter: &str, one: &Picture, other: &Picture) {
 /// software driver, elsewhere as near as two pictures are that are both inexact.
 #[track_caller]
 pub fn same_colors(what: &str, chapter: &str, one: &Picture, other: &Picture) {
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: other bits, {:?}", flip(one, other)),
-        false => {
-            let near = Near::of(chapter).both();
-            assert!(near.holds(one, other), "{what}: {:?}, {near:?}", flip(one, other));
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: other bits, {:?}", flip(one, other));
+    } else {
+        let near = Near::of(chapter).both();
+        assert!(near.holds(one, other), "{what}: {:?}, {near:?}", flip(one, other));
     }
 }
 
 /// The same of pictures of answers, such as those of `show=hit`.
 #[track_caller]
 pub fn same_answers(what: &str, chapter: &str, one: &Picture, other: &Picture) {
-    match device::is_software() {
-        true => assert!(bits(one) == bits(other), "{what}: other bits, {}", flipped(one, other)),
-        false => {
-            let near = Near::of(chapter).both();
-            assert!(near.answers(one, other), "{what}: {}, {near:?}", flipped(one, other));
-        }
+    if device::is_software() {
+        assert!(bits(one) == bits(other), "{what}: other bits, {}", flipped(one, other));
+    } else {
+        let near = Near::of(chapter).both();
+        assert!(near.answers(one, other), "{what}: {}, {near:?}", flipped(one, other));
     }
 }
 
-/// How far a chapter's picture by this device may be from the golden one, by the mean FLIP: `own` is what
-/// the software driver, which made it, keeps. `None` if a picture shows the device's own errors.
+/// Bound on the mean FLIP between a chapter's picture by this device and the golden one: `own` is the bound for the
+/// software driver, which made it. `None` if a picture shows the device's own errors.
 pub(crate) fn golden_tolerance(name: &str, picture: &Picture, own: f32) -> Option<f32> {
     if device::is_software() {
         return Some(own);

@@ -36,7 +36,7 @@ pub fn hold_compiled(name: &str, compiler: &str, generation: &str, values: Value
     settle(name, false, ("RADV".into(), format!("{compiler}, {generation}").into()), values);
 }
 
-/// Whether this device and its driver are those of stored figures.
+/// Tests whether this device and its driver are those of stored figures.
 ///
 /// For claims that hold of one driver, where Vulkan leaves the matter open: a test says why beside it, and
 /// holds of all others only what Vulkan promises.

@@ -16,7 +16,7 @@ const OUT_OF_POOL_MEMORY: i32 = -1_000_069_000;
 const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 
-/// What a function may return, by the specification, that is treated differently here.
+/// Results that a function may return, by the specification, and that are treated differently here.
 fn results(function: &str) -> &'static [i32] {
     match function {
         "vkQueueSubmit"
@@ -38,7 +38,7 @@ fn results(function: &str) -> &'static [i32] {
     }
 }
 
-/// Whether a run can do without it: its failure may go unsaid.
+/// Tests whether a run can do without it: its failure may go unsaid.
 fn needless(function: &str, result: i32) -> bool {
     match function {
         "vkCreatePipelineCache" | "vkGetPipelineCacheData" | "vkSetDebugUtilsObjectNameEXT" => true,

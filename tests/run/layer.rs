@@ -13,7 +13,7 @@ use crate::command;
 pub struct Layer {
     folder: TempDir,
     layers: String,
-    /// Whether the loader finds it before all others.
+    /// True if the loader finds it before all others.
     first: bool,
     variables: Vec<(&'static str, OsString)>,
 }
@@ -66,8 +66,8 @@ impl Layer {
         )
     }
 
-    /// How often a program under a failing layer called each function, from the file that it was told to leave,
-    /// `CALLS` in its environment; nothing if it came to no end.
+    /// Number of calls of each function by a program under a failing layer, from the file that `CALLS` in its
+    /// environment names; nothing if it came to no end.
     pub fn calls(file: &Path) -> BTreeMap<String, usize> {
         let told = std::fs::read_to_string(file).unwrap_or_default();
         let pair = |line: &str| {
@@ -111,7 +111,7 @@ impl Layer {
         command
     }
 
-    /// What a program's environment has to hold.
+    /// Variables of a program's environment.
     ///
     /// The order in which the layers are named is that in which they are called, before those that the
     /// program asks for: validation sees what a failing layer lets through, and comes before a narrow device.
@@ -122,9 +122,10 @@ impl Layer {
         let known = known.unwrap_or_else(|| "/usr/local/share:/usr/share".into());
         let own = std::iter::once(PathBuf::from(self.folder.path()));
         let known = std::env::split_paths(&known);
-        let folders = match self.first {
-            true => std::env::join_paths(own.chain(known)),
-            false => std::env::join_paths(known.chain(own)),
+        let folders = if self.first {
+            std::env::join_paths(own.chain(known))
+        } else {
+            std::env::join_paths(known.chain(own))
         };
         let mut all = self.variables.clone();
         all.push(("XDG_DATA_DIRS", folders.expect("plain names")));

@@ -9,7 +9,7 @@ use reference::scene::Scene;
 use reference::verdict::Answer;
 use serde_json::{Value, json};
 
-/// What became of a ray that left a surface.
+/// The outcome of a ray that left a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// As exact arithmetic has it.
@@ -132,7 +132,7 @@ impl<'a> Leaving<'a> {
         (length, (b - a).cross(c - a).length() / length)
     }
 
-    /// How far the start was moved, in gaps.
+    /// Distance by which the start was moved, in gaps.
     pub fn moved(&self) -> f64 {
         (self.traced.origin - self.ray.origin).length() / self.gap
     }
@@ -160,7 +160,7 @@ impl<'a> Leaving<'a> {
         })
     }
 
-    /// Why this triangle cannot be hit; `None` if it can, or nearly can.
+    /// The reason why this triangle cannot be hit; `None` if it can, or nearly can.
     fn explain(&self, instance: u32, primitive: u32) -> Option<Outcome> {
         let triangle = self.scene.triangle(instance, primitive)?;
         // The reference's f64 is good for this much.

@@ -28,7 +28,7 @@ use serde_json::Value;
 #[cfg(target_os = "linux")]
 pub use spent::{Spent, spend};
 
-/// What a run of a sample gave.
+/// Results of a run of a sample.
 pub struct Run {
     /// The last frame, the very floats that the shader wrote.
     pub picture: Picture,
@@ -36,7 +36,7 @@ pub struct Run {
     pub report: Value,
 }
 
-/// What a program says when it has panicked or crashed, or has no memory left: one line, but no refusal.
+/// Messages of a program that has panicked or crashed, or has no memory left: one line, but no refusal.
 pub const MISTAKES: [&str; 4] =
     ["this is a mistake of the program", "panicked at", "crashed (SIG", "gave up (SIG"];
 
@@ -55,7 +55,7 @@ pub fn heeding(name: &str) -> Command {
     command
 }
 
-/// Where the binary `name` lies, built from today's sources.
+/// Path of the binary `name`, built from today's sources.
 pub fn program(name: &str) -> PathBuf {
     #[cfg(unix)]
     tally::keep();
@@ -86,7 +86,7 @@ pub fn program(name: &str) -> PathBuf {
     file
 }
 
-/// Whether a program is there, and no older than what it may be made of.
+/// Tests whether a program exists, and is no older than its possible sources.
 ///
 /// Cargo's own list of that is written beside a program by `cargo build` alone.
 fn is_current(program: &Path, name: &str) -> bool {
@@ -134,8 +134,8 @@ pub fn render_by(sample: &mut Command, size: &str, arguments: &[&str]) -> Run {
     Run { picture: Picture::open_exr(&out).expect("the picture is an EXR"), report }
 }
 
-/// What a shader of the book computes, a pixel an answer: the text `declarations` stands before the
-/// files of 02_basic, and `body` is the `main` of a raygen shader. That sees the pixel as `ivec2 at` and sets `vec4 answer`.
+/// Results of a shader of the book, one per pixel: the text `declarations` stands before the files of 02_basic, and
+/// `body` is the `main` of a raygen shader. That sees the pixel as `ivec2 at` and sets `vec4 answer`.
 pub fn evaluate(declarations: &str, body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let text = format!(
@@ -195,18 +195,19 @@ pub fn copy(from: &Path, to: &Path) {
     for entry in from.read_dir().expect("a folder can be read") {
         let path = entry.expect("an entry").path();
         let to = to.join(path.file_name().expect("a name"));
-        match path.is_dir() {
-            true => copy(&path, &to),
-            false => drop(std::fs::copy(&path, &to).expect("a file can be copied")),
+        if path.is_dir() {
+            copy(&path, &to);
+        } else {
+            std::fs::copy(&path, &to).expect("a file can be copied");
         }
     }
 }
 
-/// What samples say where no compiler for a GPU that is not there can be had.
+/// Messages of samples where no compiler can be had for a GPU that is not there.
 pub const NO_COMPILER: [&str; 2] = ["(RADV), which is not installed", "stands in for no such card"];
 
-/// What the compiler of a family of GPUs makes of a sample's pipelines, a row a program; `None`, and a
-/// line, where that compiler is not installed.
+/// Estimates of a GPU family's compiler for a sample's pipelines, one row per program; `None`, and a line, where
+/// that compiler is not installed.
 pub fn compiled_for(name: &str, family: &str, arguments: &[&str]) -> Option<Vec<Value>> {
     let output = command(name)
         .args(["--compile-for", family, "--report", "-"])
@@ -269,7 +270,7 @@ pub fn golden(name: &str, picture: &Picture, tolerance: f32) {
     }
 }
 
-/// Whether the device that tests run on can be given the worst arithmetic; if not, a line says so.
+/// Tests whether the device that tests run on can be given the worst arithmetic; if not, prints a line.
 pub fn has_worst_arithmetic() -> bool {
     static HAS: LazyLock<bool> = LazyLock::new(|| {
         let name = |requirements| {
@@ -288,7 +289,7 @@ pub fn has_worst_arithmetic() -> bool {
     *HAS
 }
 
-/// Whether the device that tests run on offers what a chapter needs; if not, a line says what it lacks.
+/// Tests whether the device that tests run on supports a chapter; if not, prints what it lacks.
 pub fn is_offered(chapter: &str) -> bool {
     if device::is_software() {
         return true;

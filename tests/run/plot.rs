@@ -54,7 +54,7 @@ pub struct Axis<'a> {
 pub struct Series<'a> {
     pub name: &'a str,
     pub points: Vec<[f64; 2]>,
-    /// What stands beside the points, where each has a name of its own.
+    /// Labels of the points, where each has a name of its own.
     pub names: Vec<&'a str>,
     pub line: bool,
     pub dots: bool,
@@ -177,7 +177,7 @@ fn draw_one<'a>(
     Ok(())
 }
 
-/// Where the legend hides no point, if it must not stand in the upper right corner.
+/// The corner where the legend hides no point, if it must not stand in the upper right one.
 fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
     let part = |axis: &Axis, value: f64| {
         let Range { start, end } = axis.range();
@@ -189,9 +189,10 @@ fn free_corner(Chart { x, y, series, .. }: &Chart) -> SeriesLabelPosition {
         !points.into_iter().any(|&[a, b]| corner([part(x, a), part(y, b)]))
     };
     let upper_right = is_free(|[right, up]| right > 0.35 && up > 0.68);
-    match !upper_right && is_free(|[right, up]| right < 0.65 && up < 0.32) {
-        true => SeriesLabelPosition::LowerLeft,
-        false => SeriesLabelPosition::UpperRight,
+    if !upper_right && is_free(|[right, up]| right < 0.65 && up < 0.32) {
+        SeriesLabelPosition::LowerLeft
+    } else {
+        SeriesLabelPosition::UpperRight
     }
 }
 

@@ -35,14 +35,14 @@ pub fn rays<'a>(camera: &Camera, directions: &'a Picture) -> impl Iterator<Item 
     directions.pixels.iter().map(move |&[x, y, z, _]| Ray::from_f32(origin, [x, y, z], 0.0, 1e30))
 }
 
-/// What the GPU wrote of a hit (`show=hit`): instance, triangle, t; `None` for a miss.
+/// The GPU's record of a hit (`show=hit`): instance, triangle, t; `None` for a miss.
 pub fn answer(pixel: &[f32; 4]) -> Option<Answer> {
     let [instance, primitive, t, _] = *pixel;
     let hit = Answer { instance: instance as u32, primitive: primitive as u32, t };
     (instance >= 0.0).then_some(hit)
 }
 
-/// How many rays ended how.
+/// Number of rays by outcome.
 #[derive(Default)]
 pub struct Tally {
     /// The exact answer.

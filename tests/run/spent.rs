@@ -5,9 +5,9 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, ExitStatus, Output, Stdio};
 use std::time::Duration;
 
-/// What a run gave, and what it took.
+/// The result of a run, and its costs.
 pub struct Spent {
-    /// What it said to standard error, and how it ended.
+    /// Its standard error, and its exit status.
     pub output: Output,
     /// Its largest resident set, in bytes. A process begins with that of the one that started it, so that must
     /// be small.

@@ -1,4 +1,4 @@
-//! Where the time of a run of the tests goes: each test program adds a line at its end.
+//! Times of the tests: each test program adds a line at its end.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -41,7 +41,7 @@ fn name() -> Option<String> {
     Some(stem.rsplit_once('-').map_or(stem, |(name, _)| name).to_owned())
 }
 
-/// What processors have worked for this process and the children that it has waited for, in seconds.
+/// Processor time of this process and the children that it has waited for, in seconds.
 fn seconds() -> Option<f64> {
     let of = |who| {
         // SAFETY: all zeros is a value of this structure of numbers.

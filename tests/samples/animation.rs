@@ -10,22 +10,26 @@ mod structures;
 #[allow(dead_code)]
 #[path = "../../samples/assets/chess_game/game.rs"]
 mod game;
+#[path = "../../samples/14_animation/leg.rs"]
+mod leg;
 #[path = "../../samples/14_animation/legs.rs"]
 mod legs;
 #[path = "../../samples/14_animation/motion.rs"]
 mod motion;
+#[path = "../../samples/14_animation/pole.rs"]
+mod pole;
 #[allow(dead_code)]
 #[path = "../../samples/assets/chess_game/position.rs"]
 mod position;
-#[allow(dead_code)]
 #[path = "../../samples/14_animation/turned.rs"]
-mod turned;
+pub mod turned;
 
 use common::app::Picture;
 use common::model::{Model, obj};
 use common::scene::{self, Camera, Scene, assets};
 use glam::{Affine3A, DVec3, Vec3};
-use motion::{KINDS, Motion};
+use leg::Motion;
+use motion::KINDS;
 use reference::Ray;
 use reference::hit::Hit;
 use reference::ulp::ulp_error;
@@ -94,7 +98,7 @@ fn the_first_frames_are_played_as_they_are_jumped_to() {
 /// All that a frame shows, with each instance's record, in the order of the sample's.
 fn exact(frame: u32) -> (reference::scene::Scene, Vec<usize>) {
     let mut model: Model = obj::load(&assets().join("chess.obj")).unwrap();
-    model.meshes.extend([turned::table(9.6, 0), turned::pole(6.4, 0), cloth::mesh(frame, 48)]);
+    model.meshes.extend([turned::table(9.6, 0), pole::pole(6.4, 0), cloth::mesh(frame, 48)]);
     let mesh = |name: &str| model.meshes.iter().position(|mesh| mesh.name == name).unwrap();
     let screen = Vec3::new(0.0, 0.02, -4.28);
     let mut instances = Vec::new();
@@ -176,8 +180,8 @@ fn everything_is_where_its_formula_says() {
     expected::hold("14_animation/cloth", json!({ "largest": hundred_millionths / 1e8 }));
 }
 
-/// Whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a candidate
-/// within the bounds, or it is on the flag, whose corners are rounded otherwise here.
+/// Tests whether a ray with another hit than the exact one passes so near an edge that it may: its hit is a
+/// candidate within the bounds, or it is on the flag, whose corners are rounded otherwise here.
 fn is_at_an_edge(
     exact: &reference::scene::Scene,
     ray: &Ray,

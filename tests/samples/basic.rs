@@ -43,7 +43,7 @@ fn pieces_are_instances_of_few_meshes() {
     assert_eq!(scene.model.meshes.len(), 11);
 }
 
-/// How long a frame takes with its triangles in order, over how long it takes as they come.
+/// Time of a frame with its triangles in order, over that with its triangles as they come.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_order_of_the_triangles_in_time() {

@@ -1,4 +1,4 @@
-//! What is equal on the software driver though Vulkan does not promise it.
+//! Pictures that are equal on the software driver though Vulkan does not promise it.
 //!
 //! Equal results are promised of *identical* pipelines alone (specification, appendix Invariance, rules 4 and 7).
 //! So each equality of two others fails to the bit where every pipeline computes as inexactly as it may, each in
@@ -18,9 +18,9 @@ struct Equality {
     what: &'static str,
     one: (&'static str, &'static [&'static str]),
     other: (&'static str, &'static [&'static str]),
-    /// Whether the pictures show answers, not colours.
+    /// True if the pictures show answers, not colours.
     shows_answers: bool,
-    /// Whether plain tests try it: its pipelines compile quickly.
+    /// True if plain tests try it: its pipelines compile quickly.
     is_quick: bool,
 }
 
@@ -116,9 +116,10 @@ const EQUALITIES: [Equality; 11] = [
 fn picture((chapter, sets): (&str, &[&str]), seed: u32) -> Picture {
     let mut arguments = Vec::new();
     for set in sets {
-        match set.starts_with("--") {
-            true => arguments.push(*set),
-            false => arguments.extend(["--set", set]),
+        if set.starts_with("--") {
+            arguments.push(*set);
+        } else {
+            arguments.extend(["--set", set]);
         }
     }
     let mut command = command(chapter);
@@ -128,15 +129,16 @@ fn picture((chapter, sets): (&str, &[&str]), seed: u32) -> Picture {
     run.picture
 }
 
-/// Whether the bits of both pictures differ with this seed, held to the bound.
+/// Tests whether the bits of both pictures differ with this seed, within the bound.
 fn differs(equality: &Equality, seed: u32) -> bool {
     let Equality { what, one, other, shows_answers, .. } = equality;
     let near = Near::of(one.0).both();
     let [a, b] = [one, other].map(|way| picture(*way, seed));
     let pixels = bits(&a).iter().zip(bits(&b)).filter(|(a, b)| **a != *b).count();
-    let (holds, apart) = match shows_answers {
-        true => (near.answers(&a, &b), format!("{} flipped", flipped(&a, &b))),
-        false => (near.holds(&a, &b), format!("mean FLIP and outliers {:?}", flip(&a, &b))),
+    let (holds, apart) = if *shows_answers {
+        (near.answers(&a, &b), format!("{} flipped", flipped(&a, &b)))
+    } else {
+        (near.holds(&a, &b), format!("mean FLIP and outliers {:?}", flip(&a, &b)))
     };
     println!("{what} | seed {seed} | {pixels} of other bits | {apart} | {near:?}");
     assert!(holds, "{what}, seed {seed}: {apart}, {near:?} of {}", near.flips(&a));

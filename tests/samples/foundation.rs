@@ -9,7 +9,7 @@ use run::{bits, command, expected, golden, refused, render};
 const NAME: &str = "01_foundation";
 const SIZE: &str = "240x150";
 
-/// How far a weight may be off: 32-bit rounding of the ray and of the intersection, some 1e-6 here.
+/// Error bound of a barycentric: 32-bit rounding of the ray and of the intersection, some 1e-6 here.
 const WEIGHT_ERROR: f64 = 1e-5;
 
 #[test]

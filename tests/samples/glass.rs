@@ -26,7 +26,7 @@ fn mean(picture: &Picture) -> f64 {
     picture.pixels.iter().map(sum).sum::<f64>() / (3 * picture.pixels.len()) as f64
 }
 
-/// How far a picture of so many frames may be from the golden one.
+/// Bound on the distance of a picture of so many frames from the golden one.
 fn tolerance(own: &Picture, frames: u32, sets: &[&str]) -> f32 {
     if expected::are_of_this_driver("27_glass/left_out") {
         return 0.002; // set by llvmpipe (Mesa 25.0.7), which made the golden and repeats it to the bit
@@ -84,7 +84,7 @@ fn a_depth_only_takes_light_away() {
     }
 }
 
-/// What is missing of the light that the deepest path brings, by the same random numbers.
+/// Light that the deepest path brings and others miss, by the same random numbers.
 #[test]
 #[ignore = "nightly: gives a table of the page; quick: glass::a_depth_only_takes_light_away"]
 fn what_depth_leaves_out() {

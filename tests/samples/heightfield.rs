@@ -5,8 +5,7 @@ mod marched;
 mod standing;
 mod world;
 
-#[allow(dead_code)]
-#[path = "../../samples/21_heightfield/boxes.rs"]
+#[path = "../../samples/08_intersection/boxes.rs"]
 mod boxes;
 #[allow(dead_code)]
 #[path = "../../samples/21_heightfield/ground.rs"]

@@ -19,9 +19,9 @@ use run::{bits, command, expected, golden, render, render_by, same_colors, shade
 
 const NAME: &str = "12_infinite_plane";
 const SIZE: &str = "120x75";
-/// What `show=hit` says of the plane, instead of an instance.
+/// The value of `show=hit` for the plane, instead of an instance.
 const PLANE: f32 = -2.0;
-/// What one rounding costs at most, relative.
+/// Bound of one rounding error, relative.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
 fn shown(size: &str, sets: &[&str], more: &[&str]) -> Picture {
@@ -66,7 +66,7 @@ impl Octahedron {
         shown(SIZE, sets, &["--scene", &self.path()])
     }
 
-    /// What a sample shows of it by other shaders.
+    /// The picture that a sample makes of it by other shaders.
     fn picture_by(&self, shaders: &Path, sample: &str, sets: &[&str]) -> Picture {
         let sets = sets.iter().flat_map(|&set| ["--set", set]);
         let path = self.path();
@@ -90,7 +90,7 @@ struct ByRung<T> {
     compensated: T,
 }
 
-/// What each rung answers to a ray that meets no plane.
+/// The result of each rung for a ray that meets no plane.
 const MISSED: ByRung<f32> = ByRung { pov: -1.0, point: -1.0, cut_off: -1.0, compensated: -1.0 };
 
 /// A plane, an eye, and a look along its horizon.

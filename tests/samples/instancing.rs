@@ -46,7 +46,7 @@ pub struct ViewedScene {
     pub pieces: Vec<Piece>,
     exact: Exact,
     pub camera: Camera,
-    /// What `show=ray direction` wrote: no control but the camera's changes it.
+    /// Picture of `show=ray direction`: no control but the camera's changes it.
     directions: OnceCell<Picture>,
 }
 
@@ -83,7 +83,7 @@ impl ViewedScene {
         Self::new(NAME, SceneKind::Ripples, 60, camera, DVec3::ZERO)
     }
 
-    /// What the sample shows of it.
+    /// The sample's picture of it.
     pub fn picture(&self, sets: &[&str]) -> Picture {
         render(self.sample, SIZE, &arguments(sets)).picture
     }
@@ -103,7 +103,7 @@ impl ViewedScene {
     }
 }
 
-/// Which piece each pixel shows; `None` for the sky.
+/// The piece at each pixel; `None` for the sky.
 fn indices(hits: &Picture) -> impl Iterator<Item = Option<usize>> {
     hits.pixels.iter().map(|pixel| (pixel[0] >= 0.0).then_some(pixel[0] as usize))
 }

@@ -14,9 +14,11 @@ use reference::Ray;
 use run::primary_hits::{answer, rays};
 use run::{golden, render};
 
+#[path = "../../samples/08_intersection/random.rs"]
+pub mod random;
 #[allow(dead_code)]
 #[path = "../../samples/08_intersection/shapes.rs"]
-mod shapes;
+pub mod shapes;
 
 use errors::Errors;
 use reference_shapes::ReferenceShapes;

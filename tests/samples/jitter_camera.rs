@@ -15,7 +15,7 @@ const NAME: &str = "04_jitter_camera";
 const SIZE: &str = "240x150";
 /// Enough pixels for many points, few enough for many frames.
 const SMALL: &str = "64x40";
-/// What a random number is for: the place within the pixel. As in `shaders/common/random.glsl`.
+/// Purpose of a random number: the place within the pixel. As in `shaders/common/random.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 
 fn run(size: &str, frames: u32, settings: &[&str]) -> Picture {
@@ -32,7 +32,7 @@ pub fn error(a: &Picture, b: &Picture) -> f64 {
     (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
 }
 
-/// How far from its pixel's middle each ray passes, in pixels, from the directions that the GPU wrote.
+/// Distance of each ray from its pixel's middle, in pixels, from the directions that the GPU wrote.
 pub fn offsets(directions: &Picture) -> Vec<[f64; 2]> {
     let (width, height) = (f64::from(directions.width), f64::from(directions.height));
     let camera = Scene::chess().unwrap().camera.basis(width / height);
@@ -133,7 +133,7 @@ fn a_jittered_ray_sees_what_the_reference_sees() {
     assert!(hits.pixels.iter().filter(|pixel| pixel[2] > 0.0).count() > hits.pixels.len() / 2);
 }
 
-/// How much of a filter lies below an offset in pixels, one axis.
+/// The part of a filter below an offset in pixels, one axis.
 fn part_below(filter: &str, x: f64) -> f64 {
     let tau = std::f64::consts::TAU;
     match filter {

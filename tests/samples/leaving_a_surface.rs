@@ -54,7 +54,7 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
 const HIGH: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
-/// Where a ray may start, from the least to the best. `height` is chapter 05's.
+/// Rules for the start of a ray, from the least to the best. `height` is chapter 05's.
 const RULES: [&str; 6] = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
 
 /// The chess set in four sizes and places: the controls, and the same for the reference.
@@ -65,7 +65,7 @@ const SETTINGS: [([&str; 2], Placement); 4] = [
     (["size=1", "moved=10000"], Placement { size: 1.0, moved: DVec3::new(6e3, 4.8e3, 6.4e3) }),
 ];
 
-/// What the camera saw of the chess set in one setting.
+/// The camera's view of the chess set in one setting.
 struct Setting<'a> {
     arithmetic: &'a str,
     sets: Vec<&'a str>,
@@ -243,7 +243,7 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
     assert!(all > 1_000_000 && slivers * 100_000 < all, "{slivers} of {all}");
 }
 
-/// Where `origin.glsl` goes up by the step of a rule.
+/// The lines in which `origin.glsl` goes up by the step of a rule.
 const STEPS: [(&str, &str); 3] = [
     ("bound", "return Start(from.position + step * from.normal, 0.0);"),
     ("height", "return Start(from.position + from.height * from.normal, 0.0);"),

@@ -53,7 +53,7 @@ fn a_light_below_the_board_lights_nothing() {
     assert!(lit.is_none(), "{lit:?}");
 }
 
-/// What is farther away than the lamp casts no shadow: a piece that stands behind a lamp between pieces.
+/// An object beyond the lamp casts no shadow: a piece that stands behind a lamp between pieces.
 #[test]
 fn a_shadow_ray_ends_at_the_lamp() {
     let low = ["lamp position=2.5,1.1,1.5", "show=shadow origin"];

@@ -68,7 +68,7 @@ impl Parts {
     }
 }
 
-/// How many samples a file has.
+/// Number of samples in a file.
 fn count(file: &Path) -> u64 {
     Header::open(file).map_or(0, |header| header.samples.count())
 }

@@ -6,6 +6,13 @@ mod hard;
 mod smear;
 
 #[allow(dead_code)]
+#[path = "../../samples/23_motion_blur/ball.rs"]
+mod ball;
+#[allow(dead_code)]
+#[expect(clippy::duplicate_mod, reason = "to 14 it is a part of its own")]
+#[path = "../../samples/14_animation/leg.rs"]
+mod leg;
+#[allow(dead_code)]
 #[expect(clippy::duplicate_mod, reason = "to 14 it is a part of its own")]
 #[path = "../../samples/14_animation/legs.rs"]
 mod legs;
@@ -15,10 +22,8 @@ mod motion;
 #[allow(dead_code)]
 #[path = "../../samples/23_motion_blur/shutter.rs"]
 mod shutter;
-#[allow(dead_code)]
-#[path = "../../samples/23_motion_blur/turned.rs"]
-mod turned;
 
+use crate::animation::turned;
 use common::app::Picture;
 use run::{golden, render};
 

@@ -156,8 +156,8 @@ fn states_by_level() {
     expected::hold_exact("15_opacity_micromaps/states", Value::Object(held));
 }
 
-/// What the specification's function answers for the middles of the 64 micro-triangles of level 3: row by row
-/// of growing v, and in a row by growing u.
+/// Results of the specification's function for the middles of the 64 micro-triangles of level 3: row by row of
+/// growing v, and in a row by growing u.
 const LEVEL_3: [u32; 64] = [
     0, 1, 2, 7, 8, 9, 10, 31, 32, 33, 34, 39, 40, 41, 42, //
     3, 4, 5, 6, 11, 30, 29, 28, 35, 36, 37, 38, 43, //
@@ -344,7 +344,7 @@ fn weights(level: u32) -> impl Iterator<Item = (f32, f32)> {
     (0..curve::count(level)).flat_map(of).filter(is_inside)
 }
 
-/// How many answers of a rule are certain, and how many of those the any-hit shader contradicts somewhere. Each
+/// Number of a rule's answers that are certain, and of those that the any-hit shader contradicts somewhere. Each
 /// place is looked up where it is, and as far beside it as a device's filter may look.
 fn judged(case: &Case, level: u32, rule: Rule) -> (u64, u64) {
     let states = classify::triangle(&case.alpha, case.corners, level, rule);
@@ -392,8 +392,8 @@ fn no_state_by_the_bound_is_wrong_at_any_level() {
     expected::hold_exact("15_opacity_micromaps/rules", held);
 }
 
-/// What the bound allows for roundings, in exact arithmetic: the search ends in a micro-triangle that the hit is
-/// no farther from, and the shader's texture coordinates are no farther from the exact ones.
+/// Roundings allowed by the bound, in exact arithmetic: the search ends in a micro-triangle that the hit is no
+/// farther from, and the shader's texture coordinates are no farther from the exact ones.
 #[test]
 fn the_margins_hold_all_roundings() {
     let mut random = Random(15);

@@ -15,7 +15,7 @@ fn picture(sets: &[&str]) -> Picture {
     render(NAME, SIZE, &arguments).picture
 }
 
-/// How many pixels of two pictures differ at all.
+/// Number of pixels in which two pictures differ at all.
 fn differing(a: &Picture, b: &Picture) -> usize {
     a.pixels.iter().zip(&b.pixels).filter(|(a, b)| a != b).count()
 }

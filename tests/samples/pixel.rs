@@ -9,7 +9,7 @@ const SIZE: &str = "48x30";
 /// A pixel that sees a piece, in 05 and 06.
 const PIXEL: [usize; 2] = [24, 20];
 
-/// What `--pixel` prints.
+/// Output of `--pixel`.
 fn printed(shaders: &Path, name: &str) -> String {
     let [x, y] = PIXEL;
     let mut sample = command(name);

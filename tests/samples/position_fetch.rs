@@ -60,7 +60,7 @@ fn positions_cost_no_memory_of_ours() {
     assert!(saved <= most && saved > most - 4096, "{saved} of {most}");
 }
 
-/// How far a point is from where its ray meets the triangle's plane exactly, in ULP of 1.
+/// Distance of a point from the exact intersection of its ray with the triangle's plane, in ULP of 1.
 #[derive(Clone, Copy)]
 struct Error {
     /// The distance of both.

@@ -14,19 +14,17 @@ use run::{bits, expected, golden, render, same_colors, same_hits};
 #[path = "../../samples/38_primitive_order/order.rs"]
 mod order;
 #[allow(dead_code)]
-#[path = "../../samples/38_primitive_order/shapes.rs"]
-mod shapes;
-#[allow(dead_code)]
 #[path = "../../samples/38_primitive_order/tree.rs"]
 mod tree;
 
+use crate::intersection::shapes;
 use order::Order;
 use shapes::{SceneKind, Shapes};
 use tree::Node;
 
 const NAME: &str = "38_primitive_order";
 const SIZE: &str = "120x75";
-/// How many spheres the chapter shows.
+/// Number of spheres that the chapter shows.
 const COUNT: u32 = 10_000;
 
 fn picture(size: &str, sets: &[&str]) -> Picture {
@@ -211,7 +209,7 @@ fn the_expected_tests_are_what_lines_find() {
     assert!((found / expected - 1.0).abs() < 0.015, "{found} {expected}");
 }
 
-/// Whether a ray meets a node's box before `end`.
+/// Tests whether a ray meets a node's box before `end`.
 fn meets(node: &Node, origin: DVec3, direction: DVec3, end: f64) -> bool {
     let (low, high) = (node.low.as_dvec3() - origin, node.high.as_dvec3() - origin);
     let (a, b) = (low / direction, high / direction);
@@ -219,7 +217,7 @@ fn meets(node: &Node, origin: DVec3, direction: DVec3, end: f64) -> bool {
     enter <= leave && leave >= 0.0 && enter <= end
 }
 
-/// How many boxes a ray is tested against.
+/// Number of boxes that a ray is tested against.
 fn tested(nodes: &[Node], origin: DVec3, direction: DVec3, end: f64) -> usize {
     let (mut i, mut tests) = (0, 0);
     while let Some(node) = nodes.get(i) {

@@ -39,7 +39,7 @@ const FIELD_OF_VIEW: f64 = 10.0;
 /// The size of the pictures from there.
 const SMALL: &str = "48x30";
 
-/// How wide a pixel is at distance 1.
+/// Width of a pixel at distance 1.
 fn pixel() -> f64 {
     2.0 * (FIELD_OF_VIEW / 2.0).to_radians().tan() / 30.0
 }

@@ -7,7 +7,7 @@ use run::{expected, golden, has_worst_arithmetic, render, same_answers, same_col
 use serde_json::json;
 
 const NAME: &str = "16_ray_query";
-/// What every test below compares with.
+/// The chapter that every test below compares with.
 const PIPELINE: &str = "05_shadow_miss";
 /// No multiple of any workgroup's sides.
 const SIZE: &str = "121x77";
@@ -106,7 +106,7 @@ fn a_query_needs_no_groups_and_no_table() {
     assert_eq!(report["stages"], serde_json::json!(["16_ray_query/trace.comp"]));
 }
 
-/// How long a frame of queries takes, over how long the pipeline's takes.
+/// Time of a frame of queries, relative to the pipeline's.
 #[test]
 #[ignore = "by hand: takes times"]
 fn the_time_of_a_frame() {

@@ -38,7 +38,7 @@ fn raster_and_rays_give_the_picture_of_16() {
     }
 }
 
-/// What a compute shader reads was drawn in the same frame: not in the last one, of another view.
+/// A compute shader reads the image drawn in the same frame, not that of the last one, of another view.
 #[test]
 fn a_frame_from_elsewhere_is_drawn_anew() {
     run::needs!(NAME);

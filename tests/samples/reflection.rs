@@ -44,7 +44,7 @@ fn gpu() -> Gpu {
     Gpu::new(&GpuOptions { requirements, ..GpuOptions::default() }).unwrap()
 }
 
-/// Whether shaders may trace rays from a hit, as recursion does; if not, a line says so.
+/// Tests whether shaders may trace rays from a hit, as recursion does; if not, prints a line.
 fn nests() -> bool {
     let limit = gpu().limits.max_ray_recursion_depth;
     if limit < 10 {

@@ -30,9 +30,9 @@ pub struct Seen {
     pub point: DVec3,
     /// Unit normal of the triangle, towards the eye.
     pub normal: DVec3,
-    /// Where the GPU's shadow ray started.
+    /// Origin of the GPU's shadow ray.
     pub origin: Vec3,
-    /// Whether it found its way.
+    /// True if it reached the light.
     pub lit: bool,
 }
 
@@ -58,7 +58,7 @@ pub fn seen(exact: &Exact, shaders: &Path, name: &str) -> Vec<Seen> {
     surfaces.collect()
 }
 
-/// What became of the shadow rays of a picture.
+/// Results of a picture's shadow rays.
 pub struct Answers {
     pub surfaces: usize,
     pub lit: usize,
@@ -103,7 +103,7 @@ pub fn hold_answers(name: &str, shadow: Shadow, is_flat: bool) -> Answers {
     Answers { surfaces: all, lit, edges, turned_away: sides }
 }
 
-/// How far origins are from the exact hits, and what that changes.
+/// Distances of origins from the exact hits, and their effect.
 pub struct Origins {
     /// Surfaces whose shadow is not that of the exact hit.
     pub differ: usize,
@@ -179,7 +179,7 @@ pub fn hold_origins(name: &str, shadow: Shadow) -> Origins {
     }
 }
 
-/// Whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
+/// Tests whether a shadow ray started on the board's squares: flat, level, of two materials without textures.
 pub fn is_on_a_square(&[x, y, z, lit]: &[f32; 4]) -> bool {
     lit >= 0.0 && y.abs() < 1e-4 && x.abs() < 3.99 && z.abs() < 3.99
 }

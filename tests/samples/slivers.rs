@@ -5,7 +5,7 @@ use std::fs;
 
 use run::render;
 
-/// What is looked at: pictures, and the views that say where rays leave a surface.
+/// Views of the test: pictures, and the views that say where rays leave a surface.
 const VIEWS: [(&str, &[&str]); 10] = [
     ("05_shadow_miss", &[]),
     ("05_shadow_miss", &["show=shadow origin"]),

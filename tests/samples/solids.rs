@@ -39,7 +39,7 @@ fn shape(name: &str) -> Solid {
     shapes::shape(number(name), 20)
 }
 
-/// Whether a solid has no end, so that the largest box clips it.
+/// Tests whether a solid has no end, so that the largest box clips it.
 fn is_endless(name: &str) -> bool {
     ["wedge", "half-space", "sunk room"].contains(&name)
 }

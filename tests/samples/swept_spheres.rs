@@ -23,6 +23,7 @@ mod scenes;
 #[path = "../../samples/18_swept_spheres/strands.rs"]
 mod strands;
 
+use crate::intersection::random;
 use cases::{FAMILIES, cases};
 use direct::{Case, Found, ask, device};
 use judged::{Exact, Tally};
@@ -176,7 +177,7 @@ fn shared_ends() -> [Vec<Case>; 2] {
     [before, after]
 }
 
-/// Where both segments say that the ball is hit, they say the same t, to the bit.
+/// Checks that both segments give the same t, to the bit, where both say that the ball is hit.
 fn ends_are_one_sphere(rung: &str, found: &[Option<Found>]) {
     let (before, after) = found.split_at(found.len() / 2);
     let mut shared = 0;
@@ -363,7 +364,7 @@ fn boxes_hold_their_segments() {
     }
 }
 
-/// Where one of both shapes is missed: that is the error of the outline.
+/// Distance between the outlines: one of both shapes is missed, which is the error of the outline.
 #[test]
 fn triangles_leave_out_a_rim() {
     let hit = |sets: &[&str]| {

@@ -22,15 +22,15 @@ fn the_picture_is_the_golden_one_and_repeats() {
 struct Diamond {
     /// Half its diagonals.
     size: f64,
-    /// How far the eye is.
+    /// Distance of the eye.
     distance: f64,
-    /// How far the eye has gone round it, in degrees: at 90 it would be seen from its edge.
+    /// Angle by which the eye has gone round it, in degrees: at 90 it would be seen from its edge.
     turned: f64,
     /// Half of what the picture's height shows at this distance.
     shown: f64,
 }
 
-/// What fills the picture, seen from the front.
+/// A diamond that fills the picture, seen from the front.
 const FRONT: Diamond = Diamond { size: 1.0, distance: 2.0, turned: 0.0, shown: 0.5 };
 
 impl Diamond {

@@ -9,7 +9,7 @@ fn number(chapter: &str) -> u32 {
     chapter[..2].parse().expect("a chapter begins with its number")
 }
 
-/// Whether a picture of random paths is the driver's own, except for one path of a hundred at each surface
+/// Tests whether a picture of random paths is the driver's own, except for one path of a hundred at each surface
 /// that a path meets.
 ///
 /// A path that meets an edge, or makes one choice otherwise, goes elsewhere from there on. It is then as far

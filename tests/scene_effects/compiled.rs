@@ -1,4 +1,4 @@
-//! What a GPU's own compiler makes of each scene's pipeline, against that which has everything.
+//! Estimates of a GPU's own compiler for each scene's pipeline, against that which has everything.
 
 use common::gpu::ShaderEnum;
 use effects::Effect;
@@ -47,7 +47,7 @@ fn thousands(number: u64) -> String {
     parts.collect::<Vec<_>>().join(",")
 }
 
-/// What was made of a scene's own pipeline, or of the one with everything; `None` without the compiler.
+/// Estimates for a scene's own pipeline, or for the one with everything; `None` without the compiler.
 fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
     let sets = [format!("scene={scene}"), format!("pipeline={pipeline}")];
     let sets = sets.iter().flat_map(|set| ["--set", set.as_str()]);
@@ -57,7 +57,7 @@ fn compiled(scene: &str, pipeline: &str, family: &str) -> Option<Vec<Value>> {
 
 const FAMILIES: [&str; 3] = ["navi21", "navi31", "gfx1201"];
 
-/// How many registers the program with everything spills at most: 38 to 51 by Mesa 25.0.7, in three families.
+/// Maximum number of registers that the program with everything spills: 38 to 51 by Mesa 25.0.7, in three families.
 const SPILLED: u64 = 56;
 
 #[test]

@@ -1,4 +1,4 @@
-//! What it would cost to light the point that shadow rays leave: two pipelines, two pictures.
+//! Cost of lighting the point that shadow rays leave: two pipelines, two pictures.
 
 use reference::random::Random;
 use serde_json::json;
@@ -6,7 +6,7 @@ use serde_json::json;
 use super::{NAME, differing, generated};
 use run::{command, expected, render_by, shaders_with};
 
-/// Where `lit_by` begins, and the point that a pipeline without shadows does not compute.
+/// The start of `lit_by`, and the point that a pipeline without shadows does not compute.
 const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.position));\n";
 const LIFTED: &str = "#ifdef DEPARTURES\n    hit.position += hit.height * hit.face;\n#endif\n";
 

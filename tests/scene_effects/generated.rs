@@ -36,7 +36,7 @@ pub fn possible(mut set: Effects) -> Effects {
     set
 }
 
-/// What a scene with an effect has of necessity: holes, textures and lines are on triangles.
+/// Effects that a scene with an effect also needs: holes, textures and lines are on triangles.
 fn needed_by(effect: Effect) -> &'static [Effect] {
     match effect {
         Textures | CutOut | Wireframe => &[Triangles],
@@ -81,7 +81,8 @@ pub fn all_pairs() -> Vec<Effects> {
     drawn.find(|sets| sets.iter().any(leaves_nothing)).expect("sixteen sets are enough")
 }
 
-/// Whether there is something to see, and no ray leaves it: only a pipeline without such rays computes no start.
+/// Tests whether there is something to see, and no ray leaves it: only a pipeline without such rays computes no
+/// start.
 fn leaves_nothing(set: &Effects) -> bool {
     let leaving = [PointShadows, DirectionalShadows, Mirror, Bounces, Glass, Emitters];
     set.has_any(&[Triangles, Spheres, Boxes, SweptSpheres, Solids]) && !set.has_any(&leaving)

@@ -149,7 +149,7 @@ fn same_by_both(size: &str, scene: &[&str]) -> Run {
     own
 }
 
-/// Whether a run's pipeline is made of these stages, by the modules that the driver got.
+/// Checks that a run's pipeline is made of these stages, by the modules that the driver got.
 fn check_stages(report: &Value, effects: Effects, expected: &[&str], name: &str) {
     let pipeline = &report["chapter"]["pipeline"];
     assert_eq!(pipeline["effects"], json!(effects.names()), "{name}");
@@ -318,7 +318,7 @@ fn an_edit_that_changes_the_set_changes_the_pipeline() {
     }
 }
 
-/// What `Cargo.toml` says of a chapter: its name and its effects.
+/// Entries of `Cargo.toml` for each chapter: its name and its effects.
 fn declared() -> Vec<(String, Vec<String>)> {
     let manifest: toml::Value =
         toml::from_str(&std::fs::read_to_string(root().join("Cargo.toml")).unwrap()).unwrap();
@@ -407,14 +407,11 @@ fn the_page_of_the_format_lists_every_key() {
             page.split_once(&format!("| `{table}` |")).map_or(page.as_str(), |split| split.1);
         let rows = &rows[..rows.find("\n| `[").or(rows.find("\n\n")).unwrap()];
         for key in known.split(", ") {
-            let there = match table.is_empty() {
-                true => {
-                    page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
-                }
-                false => {
-                    let valued = format!("{} =", key.trim_end_matches('`'));
-                    rows.contains(key) || rows.contains(&valued)
-                }
+            let there = if table.is_empty() {
+                page.contains(key) || page.contains(&format!("[{}]", key.trim_matches('`')))
+            } else {
+                let valued = format!("{} =", key.trim_end_matches('`'));
+                rows.contains(key) || rows.contains(&valued)
             };
             assert!(there, "{table} {key} is not on the page");
         }

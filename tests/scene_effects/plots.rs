@@ -39,7 +39,7 @@ fn spirv_kilobytes(report: &Value) -> f64 {
     stages.iter().map(|stage| stage["words"].as_f64().unwrap()).sum::<f64>() * 4.0 / 1024.0
 }
 
-/// What a scene's own pipeline takes, no times.
+/// Sizes of a scene's own pipeline, no times.
 fn sizes(scene: &str) -> [(&'static str, Value); 5] {
     let own = report(scene, "320x200", &[]);
     let pipeline = &own["chapter"]["pipeline"];

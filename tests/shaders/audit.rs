@@ -1,5 +1,5 @@
-//! What every module asks of a device and promises it, read from its SPIR-V: a device may take a promise at
-//! its word where the software driver does not.
+//! Requirements and promises of every module, read from its SPIR-V: a device may take a promise at its word where
+//! the software driver does not.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
@@ -14,7 +14,7 @@ use rspirv::spirv::{Capability, Decoration, ExecutionModel, Op, StorageClass};
 
 use crate::files;
 
-/// What Vulkan promises (table "Required Limits", `maxPushConstantsSize`).
+/// Minimum that Vulkan guarantees (table "Required Limits", `maxPushConstantsSize`).
 const PUSH_CONSTANTS: u32 = 128;
 
 /// The capabilities that modules may declare, and what has to be asked for with them: `None` where ray
@@ -38,7 +38,7 @@ const CAPABILITIES: [(Capability, Option<&str>); 13] = [
     (Capability::RoundingModeRTE, Some("shaderRoundingModeRTEFloat32")),
 ];
 
-/// What a chapter asks for, with the capabilities that come of it: the baseline of all, and its own.
+/// Requirements of a chapter, with the capabilities that come of it: the baseline of all, and its own.
 fn asked_for(chapter: &str) -> Vec<&'static str> {
     let textures = ["runtimeDescriptorArray", "shaderSampledImageArrayNonUniformIndexing"];
     // What the laboratory wishes for, and does without where it is not offered.

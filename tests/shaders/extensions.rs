@@ -19,7 +19,7 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = (u32, &[u32])> {
     })
 }
 
-/// What a module reads of what the device has built in, by SPIR-V's numbers, in their order.
+/// Built-in variables that a module reads, by SPIR-V's numbers, in their order.
 fn built_in(words: &[u32]) -> Vec<u32> {
     let decorations = instructions(words)
         .filter(|(code, operands)| *code == OP_DECORATE && operands.get(1) == Some(&BUILT_IN));

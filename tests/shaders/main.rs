@@ -12,11 +12,11 @@ use common::gpu::{Known, Reflection, StructLayout};
 use common::scene::{CameraBasis, DirectionalLight, SceneAddresses};
 
 common::shader_struct! {
-    /// What every chapter from 02 on shares with its shaders.
+    /// The structures that every chapter from 02 on shares with its shaders.
     struct Shared { scene: SceneAddresses, camera: CameraBasis, sun: DirectionalLight }
 }
 
-/// What files that are only included are called; everything else is a stage.
+/// Extension of files that are only included; everything else is a stage.
 const INCLUDED: &str = "glsl";
 
 /// Every file below `shaders/`, with `/` between the parts of its path.

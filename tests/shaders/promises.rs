@@ -1,5 +1,5 @@
-//! What shaders compute, where Vulkan promises less than a reader may think: "Precision and Operation of
-//! SPIR-V Instructions" in the specification's appendix "Vulkan Environment for SPIR-V".
+//! Results of shaders where Vulkan promises less than a reader may think: "Precision and Operation of SPIR-V
+//! Instructions" in the specification's appendix "Vulkan Environment for SPIR-V".
 //!
 //! The functions run on the device, as they stand in the book.
 
@@ -24,7 +24,7 @@ fn lines() -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// Where a function is called: files, each once.
+/// Callers of a function: files, each once.
 fn callers(function: &str) -> Vec<String> {
     let calls = |line: &str| {
         line.match_indices(&format!("{function}("))
@@ -97,7 +97,7 @@ fn eye_and_light_on_opposite_sides_have_a_finite_middle() {
     assert!(red.is_finite() && least > 0.0, "{red} of a vector whose square is {least}");
 }
 
-/// What makes `sin` and `cos` tell `widest` of their angles.
+/// Macros that make `sin` and `cos` tell `widest` of their angles.
 const NOTING_ANGLES: &str = "float widest = 0.0;\n\
                              float noted(float angle) { widest = max(widest, abs(angle)); return angle; }\n\
                              #define cos(angle) cos(noted(angle))\n\

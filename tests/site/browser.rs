@@ -7,7 +7,7 @@ use crate::chromium::Chromium;
 use crate::firefox::{Firefox, Tab};
 use crate::talk::Talk;
 
-/// What each browser has its own words for.
+/// Differences between the browsers' protocols.
 pub trait Engine {
     fn talk(&mut self) -> &mut Talk;
     /// Calls a method of the browser's protocol for the page, and gives its result.
@@ -24,7 +24,7 @@ pub trait Engine {
     fn shot(&mut self, part: Option<Value>) -> String;
 }
 
-/// What one drags with.
+/// The pointer that drags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pointer {
     Mouse,
@@ -92,7 +92,7 @@ impl Browser {
         self.told()
     }
 
-    /// What was told since.
+    /// Messages since the last call.
     pub fn told(&mut self) -> Vec<Value> {
         self.0.talk().told()
     }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::browser::{Engine, Pointer};
 use crate::talk::{Talk, Wire};
 
-/// What the program may be called.
+/// Possible names of the program.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 /// The first of these programs that runs.

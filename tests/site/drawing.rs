@@ -23,7 +23,7 @@ fn told(color: &str) -> String {
     format!("rgb({}, {}, {})", part(1), part(3), part(5))
 }
 
-/// What does not stand out, and how many texts and lines were looked at.
+/// Texts and lines that do not stand out, and the number that were looked at.
 fn looked_at(browser: &mut Browser, file: &Path, scheme: &str) -> (Vec<String>, u64) {
     prefers(browser, scheme);
     browser.open(&format!("file://{}", file.display()));
@@ -83,7 +83,7 @@ fn dark_ink_that_stays_on_dark_paper_is_found() {
     assert!(wrong[1].starts_with("a.svg, dark: a line in rgb(91, 107, 120)"), "{wrong:?}");
 }
 
-/// How light the first drawing of the page is, from 0 to 1.
+/// Lightness of the page's first drawing, from 0 to 1.
 fn lightness(browser: &mut Browser) -> f64 {
     browser.run(
         "(async () => {

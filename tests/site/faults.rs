@@ -1,4 +1,4 @@
-//! What is wrong on a page is said in a line with its place, and then there is no site.
+//! Faults of a page: each is reported in a line with its place, and then there is no site.
 
 use std::fs;
 use std::path::Path;
@@ -161,9 +161,10 @@ fn a_signal_leaves_a_site_or_none() {
         std::thread::sleep(Duration::from_millis(30 * round));
         Command::new("kill").arg(child.id().to_string()).status().unwrap();
         let status = child.wait().unwrap();
-        match status.success() {
-            true => made += 1,
-            false => stopped += 1,
+        if status.success() {
+            made += 1;
+        } else {
+            stopped += 1;
         }
         // Its mark is the last file of a site.
         let is_whole = out.join(".made-by-cargo-chapters-book").exists();

@@ -23,7 +23,7 @@ use crate::chromium::found;
 use crate::talk::{PATIENCE, Talk, Wire};
 use crate::{FIREFOX, xvfb};
 
-/// What the program may be called.
+/// Possible names of the program.
 const NAMES: [&str; 2] = ["firefox-esr", "firefox"];
 /// Frames come as fast as they are drawn, not sixty in a second.
 const PREFERENCES: &str = "user_pref(\"layout.frame_rate\", 0);\n";
@@ -32,7 +32,7 @@ const PREFERENCES: &str = "user_pref(\"layout.frame_rate\", 0);\n";
 pub struct Firefox {
     child: Child,
     server: Option<Child>,
-    /// Where it listens: an address and a port.
+    /// Address and port on which it listens.
     host: String,
     _profile: TempDir,
 }

@@ -1,4 +1,4 @@
-//! Where there is no page, on a server: the way back is found from any depth, wherever the site lies.
+//! The page of a server for missing pages: the way back is found from any depth, wherever the site lies.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};

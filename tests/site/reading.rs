@@ -11,7 +11,7 @@ use crate::{addresses, built};
 const CHECKS: &str = include_str!("checks.js");
 pub const DESK: (u32, u32, bool) = (1280, 900, false);
 pub const PHONE: (u32, u32, bool) = (390, 844, true);
-/// How a page of code is called.
+/// Suffix of pages of code.
 const CODE: &str = "-code.html";
 
 pub fn address(page: &str) -> String {
@@ -23,7 +23,7 @@ pub fn sized(browser: &mut Browser, (width, height, phone): (u32, u32, bool)) {
     browser.size(width, height, phone);
 }
 
-/// What went wrong while a page was open, and what it asked of another machine.
+/// Faults while a page was open, and its requests to another machine.
 pub fn complaints(told: &[Value]) -> Vec<String> {
     let mut found = Vec::new();
     for event in told {
@@ -66,13 +66,13 @@ pub fn theme(browser: &mut Browser, name: &str) {
     ));
 }
 
-/// What the checks of a page found.
+/// Results of the checks of a page.
 #[derive(Default)]
 pub struct Checked {
     pub wrong: Vec<String>,
-    /// How many kinds of text were seen.
+    /// Number of kinds of text that were seen.
     kinds: u64,
-    /// How many boxes scroll sideways.
+    /// Number of boxes that scroll sideways.
     scrolling: u64,
 }
 

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// How long an answer may take on a machine with much else to do.
+/// Time limit of an answer on a machine with much else to do.
 pub const PATIENCE: Duration = time_limit::ASLEEP;
 
-/// What carries the messages.
+/// The carrier of messages.
 pub trait Wire {
     fn send(&mut self, message: &Value) -> Result<(), String>;
     /// The next message, or why there is none.
@@ -57,7 +57,7 @@ impl Talk {
         }
     }
 
-    /// What was told since the last time.
+    /// Messages since the last time.
     pub fn told(&mut self) -> Vec<Value> {
         self.told.drain(..).collect()
     }

@@ -32,10 +32,10 @@ const RUNGS: [(&str, usize); 6] = [
 const KINDS: usize = 4;
 const MANY: usize = 64;
 
-/// Whether an operation's results are right, given its operands.
+/// Check of an operation's results, given its operands.
 type Right<'a> = &'a dyn Fn(&[f32; 3], &[f32]) -> bool;
 
-/// What the figure has found at an address, its lists as lists.
+/// The figure's findings at an address, its lists as lists.
 fn told(browser: &mut Browser, address: &str) -> Value {
     shown(browser, address, "device");
     let lists =
@@ -44,7 +44,7 @@ fn told(browser: &mut Browser, address: &str) -> Value {
     found(browser, &[], lists)
 }
 
-/// What it finds with SwiftShader.
+/// The figure's findings with SwiftShader.
 fn swiftshader() -> &'static Value {
     static TOLD: OnceLock<Value> = OnceLock::new();
     TOLD.get_or_init(|| told(&mut Browser::with_webgl(), &address(PAGE)))
@@ -128,7 +128,7 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// Whether a device computes what the page says of all devices: the counts are those of the raw bits, and with
+/// Checks that a device computes what the page says of all devices: the counts are those of the raw bits, and with
 /// `keep` the two-float rungs are right.
 fn hold(told: &Value) {
     let exact = exact(told);
@@ -263,7 +263,7 @@ fn without_keep_nothing_is_left_of_it_but_its_name() {
     assert_eq!(disturbed, json!([false, true]));
 }
 
-/// What the figure finds where a shader has other words in a place.
+/// The figure's findings where a shader has other words in a place.
 fn planted(file: &str, from: &str, to: &str) -> Value {
     let mark = "<!-- touch device: rung = sphere two-float; keep = with -->";
     let folder = faults::book(&format!("# One\n\n{mark}\n![A](images/a.svg)\n"));

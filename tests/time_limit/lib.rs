@@ -1,4 +1,4 @@
-//! How long somebody has worked, and how long they may.
+//! Work of a process or thread, and its limit.
 //!
 //! A clock tells nothing of a program on a busy machine: others may have had the processors. So limits are
 //! processor time. A clock only ends what sleeps.
@@ -8,19 +8,19 @@ use std::process::Child;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How often somebody is looked after.
+/// Interval at which the work is checked.
 pub const GLANCE: Duration = Duration::from_millis(10);
 
 /// After this time on the clock nobody waits for what sleeps: far longer than anything takes, whatever else the
 /// machine does.
 pub const ASLEEP: Duration = Duration::from_secs(1800);
 
-/// How long somebody may take.
+/// Limit of a process or thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limit {
-    /// What they may have of processors.
+    /// Limit of processor time.
     pub processor: Duration,
-    /// What they may have on the clock.
+    /// Limit on the clock.
     pub clock: Duration,
 }
 
@@ -38,8 +38,8 @@ impl Limit {
         Self { processor: Duration::MAX, clock }
     }
 
-    /// Whether somebody who began then has had enough. Where the system does not tell their work, the clock
-    /// decides.
+    /// Tests whether the limit is exceeded by work that began then. Where the system does not report the work, the
+    /// clock decides.
     pub fn is_over(self, work: Work, start: Instant) -> bool {
         let waited = start.elapsed();
         waited > self.clock || work.done().unwrap_or(waited) > self.processor
@@ -77,7 +77,7 @@ impl Work {
         Self(told.then_some(clock))
     }
 
-    /// How much it is; `None` where nobody tells, as of what has ended.
+    /// The processor time; `None` where nobody reports it, as for a process that has ended.
     pub fn done(self) -> Option<Duration> {
         let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
         // SAFETY: the call writes to the place that it is given, and refuses a clock that is not there.
@@ -129,7 +129,7 @@ mod tests {
 
     use super::*;
 
-    /// When a script was found to have had enough, and what it had worked.
+    /// Time until a script was found to exceed the limit, and its work.
     fn over(limit: Limit, script: &str) -> (Duration, Duration) {
         let mut child = Command::new("sh").args(["-c", script]).spawn().expect("a shell");
         let (start, work) = (Instant::now(), Work::from(&child));

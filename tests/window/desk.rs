@@ -122,7 +122,7 @@ impl Desk {
         cookie.reply().map_or_else(|_| String::new(), |p| String::from_utf8_lossy(&p.value).into())
     }
 
-    /// What a sample that ends by itself says of it.
+    /// Output of a sample that ends by itself.
     fn last_words(&self) -> String {
         let stderr = self.sample.as_ref().and_then(|sample| sample.stderr.as_ref());
         let stderr = stderr.expect("piped").as_fd().try_clone_to_owned().expect("a descriptor");
@@ -144,7 +144,7 @@ impl Desk {
         self.x.sync();
     }
 
-    /// What the window shows.
+    /// Content of the window.
     pub fn shown(&self) -> RgbImage {
         let Ok(size) = self.x.get_geometry(self.window).unwrap().reply() else {
             panic!("the window is gone: {}", self.last_words())
@@ -253,9 +253,10 @@ impl Desk {
 
     /// Takes the window off the screen, as a window manager does that minimises it, or brings it back.
     pub fn map(&self, mapped: bool) {
-        match mapped {
-            true => drop(self.x.map_window(self.window).unwrap()),
-            false => drop(self.x.unmap_window(self.window).unwrap()),
+        if mapped {
+            self.x.map_window(self.window).unwrap();
+        } else {
+            self.x.unmap_window(self.window).unwrap();
         }
         self.x.sync();
         if mapped {
@@ -319,7 +320,7 @@ pub fn refusal(name: &str, arguments: &[&str], environment: &[(&str, OsString)])
     run::refusal(outcome(name, arguments, environment)).1
 }
 
-/// What came of a sample that closes its window by itself.
+/// The outcome of a sample that closes its window by itself.
 pub fn outcome(name: &str, arguments: &[&str], environment: &[(&str, OsString)]) -> Output {
     outcome_with(name, arguments, environment, |_| {})
 }

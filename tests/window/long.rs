@@ -16,7 +16,7 @@ use crate::{LIGHT_SHADOWS, alone, copy_shaders, ended_well};
 
 const NAME: &str = "25_scene_effects";
 
-/// What a process holds: megabytes of memory, open files, threads.
+/// Resources of a process: megabytes of memory, open files, threads.
 #[derive(Clone, Copy, Debug, Default)]
 struct Held {
     megabytes: usize,

@@ -46,7 +46,7 @@ fn ended_well(output: Output) {
     assert!(output.status.success() && errors.is_empty(), "{}: {errors}", output.status);
 }
 
-/// Whether every pixel right of the panel is the same but for rounding.
+/// Tests whether every pixel right of the panel is the same except for rounding.
 fn same(a: &RgbImage, b: &RgbImage) -> bool {
     let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1);
     let mut pixels = a.enumerate_pixels().zip(b.pixels());
@@ -345,7 +345,7 @@ fn a_window_that_another_client_destroys_ends_in_one_line() {
     failed(desk.end());
 }
 
-/// What Vulkan may answer where a window is concerned.
+/// Results of Vulkan where a window is concerned.
 const OUT_OF_HOST_MEMORY: i32 = -1;
 const DEVICE_LOST: i32 = -4;
 const SURFACE_LOST: i32 = -1_000_000_000;

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::desk::{Desk, KEY_ESCAPE, wait};
 use super::{alone, desk, ended_well, same, xvfb};
 
-/// What a display has counted.
+/// Counts of a display.
 #[derive(Debug, PartialEq)]
 struct Counted {
     swapchains: u32,
@@ -43,7 +43,7 @@ fn under(
     (Counted { swapchains, acquired, presented }, output)
 }
 
-/// How many frames and how many pictures the log tells of, once the sample has ended well.
+/// Number of frames and of pictures in the log, once the sample has ended well.
 fn frames_and_pictures(output: &Output) -> [u32; 2] {
     let log = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && log.lines().count() == 1, "{}: {log}", output.status);

@@ -19,7 +19,7 @@ mod swapchain;
 mod timing;
 
 pub use accel::geometry::Geometry;
-pub use accel::margin::{margin, padded};
+pub use accel::margin::{margin, padded, reach, sphere_bounds};
 pub use accel::order;
 pub use accel::{AccelerationStructure, BuildOptions, OpacityMicromap};
 pub use check::driver_shim::{DriverShim, Plain};

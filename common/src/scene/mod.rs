@@ -25,4 +25,4 @@ pub use upload::{
     SceneOnGpu, SceneOptions, boxes_on_gpu, build_top, input_usage, instance_bytes,
     instance_on_gpu, transform,
 };
-pub use world::{Instance, Scene};
+pub use world::{Instance, Scene, moved_bounds};

@@ -66,13 +66,13 @@ impl Scene {
     /// at once, however often it stands somewhere.
     pub fn bounds_of_instances(&self) -> Vec<(Vec3, Vec3)> {
         let meshes: Vec<_> = self.model.meshes.iter().map(Mesh::bounds).collect();
-        let around = |instance: &Instance| moved(meshes[instance.mesh], &instance.transform);
+        let around = |instance: &Instance| moved_bounds(meshes[instance.mesh], &instance.transform);
         self.instances.iter().map(around).collect()
     }
 
     /// Corners of the box around one instance, in world space.
     pub fn instance_bounds(&self, instance: &Instance) -> (Vec3, Vec3) {
-        moved(self.model.meshes[instance.mesh].bounds(), &instance.transform)
+        moved_bounds(self.model.meshes[instance.mesh].bounds(), &instance.transform)
     }
 
     fn camera_on_all(&self) -> Camera {
@@ -87,7 +87,7 @@ impl Scene {
 }
 
 /// Corners of the box around a box that a transform has moved.
-fn moved((low, high): (Vec3, Vec3), transform: &Affine3A) -> (Vec3, Vec3) {
+pub fn moved_bounds((low, high): (Vec3, Vec3), transform: &Affine3A) -> (Vec3, Vec3) {
     let middle = transform.transform_point3a(((low + high) * 0.5).into());
     let half = (high - low) * 0.5;
     let matrix = transform.matrix3;

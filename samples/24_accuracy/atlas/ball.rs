@@ -9,11 +9,11 @@ use reference::triangle::Triangle;
 use super::world::{Corners, Rows};
 use crate::geometry::mesh;
 
-/// How often each triangle of an octahedron is cut into four: 512 triangles.
+/// Number of times each triangle of an octahedron is cut into four: 512 triangles.
 const CUTS: u32 = 3;
 /// Coordinates in whole steps of this, so that differences and matrices' products are exact.
 const GRID: f64 = 1.0 / 1024.0;
-/// What is aimed at.
+/// The target of the rays.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Seam {
     Edges,
@@ -56,7 +56,7 @@ impl Mesh {
         Ok(self.triangles.iter().map(|triangle| triangle.map(corner)).collect())
     }
 
-    /// Where a seam is in the mesh's space, and the triangles that meet there.
+    /// The place of a seam in the mesh's space, and the triangles that meet there.
     pub fn seam(&self, random: &mut Random, seam: Seam) -> (DVec3, Vec<usize>) {
         match seam {
             Seam::Corners => {

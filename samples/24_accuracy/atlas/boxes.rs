@@ -29,10 +29,10 @@ const CASES: [(f64, f64); 9] = [
     (10.0, 1e6),
 ];
 
-/// What 08 lets a box be tested wrongly by: so many times 2^-24 of the way to it.
+/// The error that 08 allows the device's test of a box: so many times 2^-24 of the distance to it.
 const RELIED: f64 = 10.0;
 
-/// How deep within the box a ray passes that was lost, by 2^-24 of the way to the box's far side.
+/// Depth within the box of the deepest lost ray, by 2^-24 of the distance to the box's far side.
 const DEEPEST: &str = "deepest lost, 2^-24 of way";
 
 /// Measures `rays` rays a case.
@@ -75,14 +75,15 @@ impl Growth {
     fn add(&mut self, growth: f64, is_offered: bool) {
         let least = |known: Option<f64>| known.map_or(growth, |known| known.min(growth));
         let most = |known: Option<f64>| known.map_or(growth, |known| known.max(growth));
-        match is_offered {
-            true => self.offered = Some(most(self.offered)),
-            false => self.refused = Some(least(self.refused)),
+        if is_offered {
+            self.offered = Some(most(self.offered));
+        } else {
+            self.refused = Some(least(self.refused));
         }
     }
 }
 
-/// What became of a case's rays.
+/// Counts of a case's rays by result.
 #[derive(Default)]
 struct Tally {
     meet: u64,
@@ -91,7 +92,7 @@ struct Tally {
     /// In ULP of the way from the ray's origin to the box, and of the box's largest coordinate.
     way: Growth,
     coordinate: Growth,
-    /// How deep within the box a ray passes that was lost, by 2^-24 of the way.
+    /// Depth within the box of the deepest lost ray, by 2^-24 of the distance.
     deepest: f64,
 }
 
@@ -175,9 +176,10 @@ fn case(
     count: usize,
     truth: &mut Truth,
 ) -> Result<Case> {
-    let name = match place == 0.0 {
-        true => format!("box from {distance}"),
-        false => format!("box at {place} from {distance}"),
+    let name = if place == 0.0 {
+        format!("box from {distance}")
+    } else {
+        format!("box at {place} from {distance}")
     };
     let mut random = Random(seed("boxes", &name));
     let middle = random.unit() * place;

@@ -15,7 +15,7 @@ use crate::query::Ray;
 /// Triangles beside each other, none behind another.
 const TRIANGLES: usize = 512;
 
-/// What a device must offer: the extension, and with it the feature.
+/// Requirements of the device: the extension, and with it the feature.
 const NEEDED: [&str; 2] = ["VK_KHR_ray_tracing_position_fetch", "rayTracingPositionFetch"];
 
 /// Asks the same device once more, opened with what this takes; the row, and the messages of validation.
@@ -87,13 +87,14 @@ fn case(gpu: &Gpu, count: usize) -> Result<Case> {
     for (number, found) in corners.iter().enumerate() {
         let uploaded = &triangles[number % TRIANGLES];
         let (found, wanted) = (bits(found), bits(uploaded));
-        match found == wanted {
-            true => {}
-            false if found == [[0; 3]; 3] => missed += 1,
-            false => {
-                other += 1;
-                turned += u64::from(wanted.iter().all(|corner| found.contains(corner)));
-            }
+        if found == wanted {
+            continue;
+        }
+        if found == [[0; 3]; 3] {
+            missed += 1;
+        } else {
+            other += 1;
+            turned += u64::from(wanted.iter().all(|corner| found.contains(corner)));
         }
     }
     let mut case = Case::new("centres", count);

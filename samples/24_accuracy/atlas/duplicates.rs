@@ -120,7 +120,7 @@ fn ray(random: &mut Random, corners: &Corners) -> Ray {
     Ray { origin, direction, tmin: 0.0, tmax: 1e30 }
 }
 
-/// What became of a case's rays.
+/// Counts of a case's rays by result.
 #[derive(Default)]
 struct Tally {
     first: u64,

@@ -2,21 +2,21 @@
 
 /// The exponent of the least bucket's upper end: errors below 2^-4 are not told apart.
 const LEAST: i32 = -4;
-/// How many buckets there are; the last has no upper end.
+/// Number of buckets; the last has no upper end.
 const BUCKETS: usize = 26;
 
 /// Errors, none of them negative or NaN.
 #[derive(Default)]
 pub struct Errors(Vec<f64>);
 
-/// What is told of them.
+/// Summary of the errors.
 pub struct Spread {
     /// Half of them are no larger.
     pub p50: f64,
     /// 99 of 100 are no larger.
     pub p99: f64,
     pub max: f64,
-    /// How many are below 2^-4, then from there to 2^-3, and so on by powers of two; the last from 2^20.
+    /// Number of errors below 2^-4, then from there to 2^-3, and so on by powers of two; the last from 2^20.
     pub buckets: Vec<u64>,
 }
 

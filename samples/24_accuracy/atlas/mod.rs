@@ -36,9 +36,9 @@ pub struct Atlas {
     pub schema: &'static str,
     pub device: String,
     pub driver: String,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of the shaders: the value of `--arithmetic`.
     pub arithmetic: String,
-    /// Whose triangles they are.
+    /// The traversal whose triangles were tested.
     pub traversal: &'static str,
     /// The day, as 2026-11-21.
     pub date: String,
@@ -49,7 +49,7 @@ pub struct Atlas {
     pub validation_messages: Vec<String>,
 }
 
-/// How much is asked.
+/// The size of the measurement.
 #[derive(Clone, Copy)]
 pub struct Extent {
     /// Rays of each case.

@@ -13,18 +13,18 @@ use super::truth::Truth;
 pub struct Row {
     /// A word, by which pages and tests know it.
     pub row: &'static str,
-    /// What is asked.
+    /// The question in words.
     pub title: &'static str,
     /// The section of the Vulkan specification, and its words.
     pub section: &'static str,
     pub claim: &'static str,
-    /// Whether this device does what is claimed; `None` where the words hold it to nothing, or nothing was asked.
+    /// True if this device does what is claimed; `None` where the words promise nothing, or nothing was tested.
     pub met: Option<bool>,
-    /// What chapters rely on.
+    /// The property that chapters rely on.
     pub relied: &'static str,
-    /// Whether this device keeps that; `None` where nothing was asked of it.
+    /// True if this device has that property; `None` where nothing was tested.
     pub kept: Option<bool>,
-    /// Why nothing was asked.
+    /// The reason why nothing was tested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unavailable: Option<String>,
     /// Truths that 64-bit floats decided, and rationals; how many rays both decided, and disagreed beyond the
@@ -36,15 +36,14 @@ pub struct Row {
     pub cases: Vec<Case>,
 }
 
-/// What is asked in one way, of one family of rays.
+/// A test of one kind, of one family of rays.
 #[derive(Serialize)]
 pub struct Case {
     pub case: String,
     pub rays: usize,
     /// Numbers by name, in the order of a table.
     pub found: Map<String, Value>,
-    /// How many errors there are of each size, by what they are of: below 2^-4, then by powers of two, and
-    /// from 2^20.
+    /// Number of errors of each size, by quantity: below 2^-4, then by powers of two, and from 2^20.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pub buckets: Map<String, Value>,
 }

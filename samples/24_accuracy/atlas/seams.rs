@@ -25,7 +25,7 @@ struct Aimed {
     fan: Vec<usize>,
 }
 
-/// How rays are aimed.
+/// The aim of the rays.
 #[derive(Clone, Copy, PartialEq)]
 enum Aim {
     /// Through the seam to the last bit: origin plus direction is the point.
@@ -65,7 +65,7 @@ fn aimed(
     }
 }
 
-/// What became of the rays of a case.
+/// Counts of a case's rays by result.
 #[derive(Default)]
 struct Tally {
     through: u64,
@@ -99,7 +99,7 @@ impl Tally {
     }
 }
 
-/// Where the mesh stands.
+/// Placements of the mesh.
 fn places() -> [(&'static str, Rows); 6] {
     let fine = |x: f64| ((x * 65_536.0).round() / 65_536.0) as f32;
     let rows = |linear: glam::DMat3, shift: f32| -> Rows {
@@ -124,7 +124,7 @@ fn places() -> [(&'static str, Rows); 6] {
     ]
 }
 
-/// Whether no ray was lost, and none met two triangles.
+/// Tests whether no ray was lost, and none met two triangles.
 fn is_watertight(cases: &[Case]) -> bool {
     cases.iter().all(|case| case.number("lost") == 0.0 && case.number("doubled") == 0.0)
 }

@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use super::world::{Traversal, World};
 use crate::query::Ray;
 
-/// How many calls of the any-hit shader are noted of a ray, as in atlas.glsl.
+/// Maximum number of recorded any-hit calls per ray, as in atlas.glsl.
 const MOST: usize = 16;
 /// The primitive of a ray that met nothing, as in atlas.glsl.
 pub const NOTHING: u32 = u32::MAX;
@@ -59,17 +59,17 @@ common::shader_struct! {
     }
 }
 
-/// What a ray has found.
+/// The result of a ray.
 pub struct Answer<'a> {
-    /// Where all was opaque: the nearest hit.
+    /// The nearest hit where all was opaque.
     pub nearest: Option<Met>,
-    /// Where nothing was: what any-hit shaders were called for, in the order of the calls.
+    /// The calls of any-hit shaders where nothing was opaque, in order.
     pub calls: &'a [Met],
-    /// How many of them there were; more than [`Answer::calls`] has if they are beyond 16.
+    /// Number of calls; more than [`Answer::calls`] has if they are beyond 16.
     pub called: u32,
 }
 
-/// What rays are traced at.
+/// The scene to trace rays against.
 #[derive(Clone, Copy, PartialEq)]
 pub enum What {
     Triangles(Traversal),
@@ -86,7 +86,7 @@ pub struct Tracer {
     sbt: ShaderBindingTable,
 }
 
-/// What a launch leaves.
+/// The results of a launch.
 struct Launched {
     founds: Vec<Found>,
     /// A row of [`MOST`] a ray.

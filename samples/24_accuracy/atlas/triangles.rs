@@ -1,4 +1,4 @@
-//! How far off a hit's distance and weights are, by the triangle's distance, size, tilt, shape and place.
+//! Errors of a hit's distance and barycentrics, by the triangle's distance, size, tilt, shape and place.
 
 use anyhow::Result;
 use common::gpu::Gpu;
@@ -28,10 +28,10 @@ const WEIGHTS_PART: &str = "weights, part of what is excused";
 const BEYOND: &str = "not excused";
 const NOT_FINITE: &str = "not finite";
 
-/// How triangles lie before their rays.
+/// The pose of triangles before their rays.
 #[derive(Clone, Copy)]
 struct Family {
-    /// What is varied, and to what.
+    /// The varied quantity, and its value.
     varied: &'static str,
     value: f64,
     /// From the ray's origin to the triangle.
@@ -119,7 +119,7 @@ pub fn row(
     .decided(&truth))
 }
 
-/// What is counted of a family.
+/// Counts for a family.
 #[derive(Default)]
 struct Tally {
     t: Errors,

@@ -16,7 +16,7 @@ const FINER: f64 = 1.0 / (1u64 << 29) as f64;
 /// Of the unit that an error is told in, how much of it may be the truth's own.
 const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
-/// Where a ray hits a triangle.
+/// The hit of a ray with a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     /// In lengths of the ray's direction.
@@ -25,13 +25,13 @@ pub struct Hit {
     pub weights: [f64; 2],
 }
 
-/// How far off a test in floats may be, if each rounding is off by `finer` times 2^-24.
+/// Error bounds of a test in floats, if each rounding is off by `finer` times 2^-24.
 pub struct Off {
     /// In lengths of the ray's direction.
     pub t: f64,
     /// Of the second and the third corner.
     pub weights: [f64; 2],
-    /// Whether it may take the ray for a hit, and for a miss.
+    /// Results that the test may report: a hit, a miss.
     pub may_hit: bool,
     pub may_miss: bool,
 }
@@ -68,7 +68,7 @@ pub struct Truth {
     pub by_rationals: u64,
     /// Rays for which both are known.
     pub checked: u64,
-    /// How many of them the floats had beyond their bound: none, or the proof is wrong.
+    /// Number of them for which the floats exceeded their bound: none, or the proof is wrong.
     pub beyond: u64,
 }
 
@@ -78,7 +78,7 @@ impl Truth {
         Self { to_check, by_floats: 0, by_rationals: 0, checked: 0, beyond: 0 }
     }
 
-    /// Whether something is so: as floats say, if they are sure, or as rationals do.
+    /// Decides a question: by floats, if they are sure, or by rationals.
     pub fn decide(
         &mut self,
         is_sure: bool,
@@ -103,7 +103,7 @@ impl Truth {
         self.beyond += u64::from(!agree);
     }
 
-    /// Where a ray hits a closed triangle, if it does; and how far off a test in 32-bit floats may be.
+    /// The hit of a ray with a closed triangle, if there is one, and the error bound of a test in 32-bit floats.
     pub fn hit(&mut self, ray: &Ray, triangle: &Triangle) -> (Option<Hit>, Off) {
         let crossing = Shear::new(ray).cross(triangle);
         let off = |finer| Off::new(ray, triangle, &crossing, finer);
@@ -128,8 +128,8 @@ impl Truth {
         (exact, coarse)
     }
 
-    /// Whether a ray passes between the outer edges of triangles that have a corner or an edge in common, and so
-    /// hits one of them at least. `outer` says of each which edges those are, by the corner across.
+    /// Tests whether a ray passes between the outer edges of triangles that have a corner or an edge in common, and
+    /// so hits at least one of them. `outer` names those edges of each, by the corner across.
     pub fn hits_one(&mut self, ray: &Ray, fan: &[(Triangle, &[usize])]) -> bool {
         // Seen along the ray, what lies on the inner side of all outer edges lies within the fan.
         let shear = Shear::new(ray);

@@ -1,4 +1,4 @@
-//! What the atlas traces: a mesh or boxes in one bottom level, in one place of a top level.
+//! The scene of the atlas: a mesh or boxes in one bottom level, in one place of a top level.
 
 use anyhow::Result;
 use common::gpu::{AccelerationStructure, Buffer, BuildOptions, Geometry, Gpu};
@@ -14,7 +14,7 @@ pub type Corners = [Vec3; 3];
 /// Three rows of four: a shape's space to the world's.
 pub type Rows = [[f32; 4]; 3];
 
-/// Who decides where a ray meets a triangle.
+/// The test that decides where a ray meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Traversal {
     /// The device.
@@ -33,7 +33,7 @@ impl Traversal {
     }
 }
 
-/// How a mesh is built.
+/// The build of a mesh.
 #[derive(Clone, Copy, Default)]
 pub struct Build {
     /// `VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR`.
@@ -104,7 +104,7 @@ impl World {
         Ok(Self { tlas, corners, original, _blas: blas, _input: input })
     }
 
-    /// Which shape a primitive of the build is; [`NOTHING`] for one that there is not.
+    /// The shape of a primitive of the build; [`NOTHING`] for one that does not exist.
     pub fn shape(&self, primitive: u32) -> u32 {
         self.original.get(primitive as usize).copied().unwrap_or(NOTHING)
     }

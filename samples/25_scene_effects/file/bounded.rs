@@ -45,9 +45,10 @@ fn within<'de, D: Deserializer<'de>>(from: D, low: f64, high: f64) -> Result<f32
 
 /// A NaN is in no range.
 fn check<E: Error>(number: f64, low: f64, high: f64) -> Result<f64, E> {
-    match (low..=high).contains(&number) {
-        true => Ok(number),
-        false => Err(E::custom(format!("{number:?} is not a number from {low} to {high}"))),
+    if (low..=high).contains(&number) {
+        Ok(number)
+    } else {
+        Err(E::custom(format!("{number:?} is not a number from {low} to {high}")))
     }
 }
 
@@ -206,9 +207,10 @@ pub fn nodes<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<[f32; 4]>, D::Err
 /// A direction of any length but 0.
 pub fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<Vec3, D::Error> {
     let direction = point(from)?;
-    match direction.length() > 1e-6 {
-        true => Ok(direction),
-        false => Err(D::Error::custom("a direction has a length: [0, 1, 0] is up")),
+    if direction.length() > 1e-6 {
+        Ok(direction)
+    } else {
+        Err(D::Error::custom("a direction has a length: [0, 1, 0] is up"))
     }
 }
 
@@ -263,7 +265,7 @@ pub fn depth<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 32)
 }
 
-/// How often it is scattered.
+/// Maximum number of times a path is scattered.
 pub fn bounces<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 8)
 }
@@ -273,7 +275,7 @@ pub fn blades<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     whole(from, 0, 12)
 }
 
-/// How far away a lens is in focus.
+/// The distance at which a lens is in focus.
 pub fn maybe_focus<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f32>, D::Error> {
     within(from, f64::from(*FOCUS.start()), f64::from(*FOCUS.end())).map(Some)
 }
@@ -289,13 +291,13 @@ pub fn maybe_pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Patter
     word(from, "pattern", &patterns).map(Some)
 }
 
-/// How light enters a material.
+/// The kind of glass, thick or thin.
 pub fn maybe_glass<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GlassKind>, D::Error> {
     let kinds = [("thick", GlassKind::Thick), ("thin", GlassKind::Thin)];
     word(from, "kind of glass", &kinds).map(Some)
 }
 
-/// Where a light is.
+/// The kind of a light, directional or point.
 pub fn light_kind<'de, D: Deserializer<'de>>(from: D) -> Result<LightKind, D::Error> {
     let kinds = [("directional", LightKind::Directional), ("point", LightKind::Point)];
     word(from, "kind of light", &kinds)

@@ -23,7 +23,7 @@ use crate::{Box, Composition, Finish, MAX_LIGHTS, Node, Sphere, Strands, ThinLen
 const MOST: usize = 100_000;
 
 impl Description {
-    /// What the file describes.
+    /// Builds the composition that the file describes.
     ///
     /// # Errors
     /// If it contradicts itself, or names what there is not.
@@ -85,9 +85,10 @@ impl Description {
     /// The model that pieces are taken from.
     fn model(&self, path: &Path, source: &Source) -> Result<Model> {
         let Some(named) = &self.model else {
-            return match self.piece.is_empty() && self.position.is_none() {
-                true => Ok(Model::default()),
-                false => obj::load_own(&assets().join("chess.obj")),
+            return if self.piece.is_empty() && self.position.is_none() {
+                Ok(Model::default())
+            } else {
+                obj::load_own(&assets().join("chess.obj"))
             };
         };
         let found = Folder::of(path)?.find("model", named.get_ref(), None).map_err(|error| {

@@ -20,7 +20,7 @@ use source::Source;
 
 use crate::Composition;
 
-/// What this program reads.
+/// Version of the format that this program reads.
 const VERSION: i64 = 1;
 
 /// Opens a scene file, or an OBJ file as it stands under a sun.

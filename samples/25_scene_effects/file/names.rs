@@ -1,4 +1,4 @@
-//! What the tables of a scene file call by name.
+//! Names in the tables of a scene file.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::source::Source;
 use crate::Finish;
 
-/// What is called by a name, by position: the first of several.
+/// Positions by name: the first of several.
 pub(super) type Numbers = HashMap<String, usize>;
 
 /// The numbers of names.
@@ -60,14 +60,13 @@ pub(super) fn opaque(
     let number = find(model, materials, name, source)?;
     let material = &model.materials[number];
     let textured = material.has_cutout() || material.base_texture.is_some();
-    match textured || finishes[number].lines > 0.0 {
-        true => {
-            let what = format!(
-                "{} has holes, a texture or lines, which only meshes can have",
-                quoted(&material.name)
-            );
-            Err(source.error(name.span().start, &what))
-        }
-        false => Ok(number as u32),
+    if textured || finishes[number].lines > 0.0 {
+        let what = format!(
+            "{} has holes, a texture or lines, which only meshes can have",
+            quoted(&material.name)
+        );
+        Err(source.error(name.span().start, &what))
+    } else {
+        Ok(number as u32)
     }
 }

@@ -1,8 +1,8 @@
-//! How deep tables and lists stand in each other, of which `toml` has a bound but names no line.
+//! Nesting of tables and lists, for which `toml` has a bound but names no line.
 
 use toml_parser::parser::{Event, EventKind};
 
-/// How deep they may stand: no key of a scene file stands deeper than 3.
+/// Maximum nesting: no key of a scene file stands deeper than 3.
 pub(super) const MOST: usize = 16;
 
 /// Follows a parser into tables and lists, and out again.
@@ -55,7 +55,7 @@ mod tests {
 
     use super::*;
 
-    /// Where a text is too deep.
+    /// The offset at which a text is nested too deeply.
     fn too_deep(text: &str) -> Option<usize> {
         let mut depth = Nesting::default();
         let tokens = Source::new(text).lex().into_vec();

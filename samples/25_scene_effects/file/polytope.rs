@@ -51,7 +51,7 @@ pub(super) fn solid(
     Ok((solid, (at(low - room), at(high + room))))
 }
 
-/// Where three walls meet that no other wall cuts off.
+/// The points where three walls meet that no other wall cuts off.
 fn corners(walls: &[(DVec3, f64)]) -> Vec<DVec3> {
     let mut corners = Vec::new();
     for (i, a) in walls.iter().enumerate() {

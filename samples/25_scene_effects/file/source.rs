@@ -41,7 +41,7 @@ impl Source {
         Ok(Self { shown, text })
     }
 
-    /// Where a line begins with a key.
+    /// The line that begins with a key.
     pub fn line_of(&self, key: &str) -> Option<usize> {
         let mut at = 0;
         self.text.split_inclusive('\n').find_map(|line| {
@@ -70,7 +70,7 @@ impl Source {
         DeTable::parse(&self.text).map_err(|error| self.wrong(&error))
     }
 
-    /// What the table says.
+    /// Reads a table.
     pub fn read<'a, T: Deserialize<'a>>(&self, table: Spanned<DeTable<'a>>) -> Result<T> {
         T::deserialize(Deserializer::from(table)).map_err(|error| self.wrong(&error))
     }

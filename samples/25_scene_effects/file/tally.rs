@@ -1,4 +1,4 @@
-//! What a scene file has, counted before it is read, and the memory that reading takes.
+//! Counts of a scene file's contents before it is read, and the memory that reading takes.
 
 use anyhow::{Result, ensure};
 use toml::Spanned;
@@ -12,16 +12,16 @@ use super::nesting::Nesting;
 /// Bytes that reading may take. A hundred thousand spheres take half of it.
 const MOST: u64 = 800_000_000;
 
-/// How deep the parser goes down, which calls itself: as deep as `toml` reads.
+/// Depth of the parser's recursion: as deep as `toml` reads.
 const DEPTH: u32 = 80;
 
-/// How many there are of whatever takes memory.
+/// Counts of everything that takes memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
     text: usize,
     /// Words, signs and spaces.
     tokens: usize,
-    /// What the parser makes of them.
+    /// Events of the parser.
     events: usize,
     /// Under a headline, in braces, or by a dot in a key.
     tables: usize,

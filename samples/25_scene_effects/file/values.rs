@@ -48,13 +48,10 @@ impl PlaneTable {
 impl HeightfieldTable {
     pub(super) fn heightfield(&self) -> Result<Heightfield, &'static str> {
         let &Self { low, high, hills, hill, ridges, ridge, light, dark, rock, square } = self;
-        match low.cmplt(high).all() && hills + ridges > 0.0 {
-            true => {
-                Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
-            }
-            false => {
-                Err("a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0")
-            }
+        if low.cmplt(high).all() && hills + ridges > 0.0 {
+            Ok(Heightfield { low, high, hills, hill, ridges, ridge, light, dark, rock, square })
+        } else {
+            Err("a heightfield has its `high` above its `low`, and `hills` or `ridges` above 0")
         }
     }
 }
@@ -77,7 +74,7 @@ impl MaterialTable {
         material.transmission = self.through.unwrap_or(material.transmission);
     }
 
-    /// Whether nothing is said of glass that it cannot be.
+    /// Checks that nothing is said of glass that it cannot be.
     pub(super) fn check_glass(&self) -> Result<(), &'static str> {
         let &Self { mirror, opacity, pattern, lines, .. } = self;
         match (mirror, opacity, pattern.is_some() || lines.is_some_and(|width| width > 0.0)) {

@@ -29,18 +29,17 @@ fn node(boxes: [Option<Bounds>; 2]) -> Node {
     Node { children: boxes.map(|bounds| bounds.map_or(Child::NONE, child)) }
 }
 
-/// Whether each box holds the one that it stands for, whoever finds it; and one around nothing holds nothing.
+/// Tests whether each box holds the one that it stands for, whoever finds it; and one around nothing holds nothing.
 fn holds(exact: &Node) -> bool {
     let packed = quantised(&[*exact]).unwrap()[0];
     let held = exact.children.iter().enumerate().all(|(side, child)| {
         (0..3).all(|axis| {
             let (low, high) = (found(&packed, axis, side), found(&packed, axis, side + 2));
-            match child.low.x > child.high.x {
-                true => low.iter().all(|low| high.iter().all(|high| low > high)),
-                false => {
-                    low.iter().all(|&low| low <= child.low[axis])
-                        && high.iter().all(|&high| high >= child.high[axis])
-                }
+            if child.low.x > child.high.x {
+                low.iter().all(|low| high.iter().all(|high| low > high))
+            } else {
+                low.iter().all(|&low| low <= child.low[axis])
+                    && high.iter().all(|&high| high >= child.high[axis])
             }
         })
     });

@@ -1,4 +1,4 @@
-//! When and where pieces go in a game: text that 14 reads.
+//! Moves of the pieces in a game, in time and space: text that 14 reads.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ const HALF_MOVE: usize = 48;
 const WAIT: usize = 10;
 /// Frames after the last move.
 const END: usize = 192;
-/// How high a piece is lifted over others, and the height of the table, where the taken ones stand.
+/// Height to which a piece is lifted over others, and the height of the table, where the taken ones stand.
 const LIFT: f32 = 2.3;
 const TABLE: f32 = -0.34;
 

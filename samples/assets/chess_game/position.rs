@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter};
 
-/// What a piece is.
+/// The kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Pawn,
@@ -13,7 +13,7 @@ pub enum Kind {
     King,
 }
 
-/// Whose it is.
+/// The owner of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     White,
@@ -43,7 +43,7 @@ pub struct Move {
     pub becomes: Option<Kind>,
 }
 
-/// What a move did: who went where, and who was taken.
+/// The effect of a move: the pieces that went, and the piece that was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Played {
     pub man: Man,
@@ -53,12 +53,12 @@ pub struct Played {
     pub rook: Option<(Man, Square, Square)>,
 }
 
-/// Which piece stands where, whose move it is, and which earlier moves forbid or allow the next ones.
+/// The pieces on their squares, the side to move, and the earlier moves that forbid or allow the next ones.
 #[derive(Clone)]
 pub struct Position {
     men: [Option<Man>; 64],
     pub turn: Side,
-    /// Which pieces have moved: a king or a rook that has moved cannot castle.
+    /// Flags of the pieces that have moved: a king or a rook that has moved cannot castle.
     moved: [bool; 32],
     /// The square that a pawn has just passed over.
     passed: Option<Square>,
@@ -86,7 +86,7 @@ const LEAPS: [(i8, i8); 8] =
     [(1, 2), (2, 1), (2, -1), (1, -2), (-1, -2), (-2, -1), (-2, 1), (-1, 2)];
 
 impl Position {
-    /// How every game begins.
+    /// The start of every game.
     pub fn start() -> Self {
         use Kind::{Bishop, King, Knight, Pawn, Queen, Rook};
         let back = [Rook, Knight, Bishop, Queen, King, Bishop, Knight, Rook];
@@ -103,7 +103,7 @@ impl Position {
         Self { men, turn: Side::White, moved: [false; 32], passed: None }
     }
 
-    /// Who stands on a square.
+    /// The piece on a square.
     pub fn at(&self, square: Square) -> Option<Man> {
         self.men[square.index()]
     }
@@ -149,13 +149,14 @@ impl Position {
         };
         let list: Vec<_> =
             squares().filter(|&to| self.allows(from, to)).map(|to| to.to_string()).collect();
-        match list.is_empty() {
-            true => format!("{why}: it has no move here"),
-            false => format!("{why}: it may go to {}", list.join(", ")),
+        if list.is_empty() {
+            format!("{why}: it has no move here")
+        } else {
+            format!("{why}: it may go to {}", list.join(", "))
         }
     }
 
-    /// Whether the side to move may go so.
+    /// Tests whether the side to move may go so.
     fn allows(&self, from: Square, to: Square) -> bool {
         let Some(man) = self.at(from).filter(|man| man.side == self.turn) else { return false };
         if !self.reaches(from, to) && self.castling(from, to).is_none() {
@@ -166,7 +167,7 @@ impl Position {
         !after.is_attacked(man.side)
     }
 
-    /// Whether the king of a side stands where another piece reaches.
+    /// Tests whether the king of a side stands where another piece reaches.
     fn is_attacked(&self, side: Side) -> bool {
         let is_king = |man: Man| man.kind == Kind::King && man.side == side;
         let Some(king) = squares().find(|&at| self.at(at).is_some_and(is_king)) else {
@@ -175,7 +176,7 @@ impl Position {
         self.is_reached(king, side)
     }
 
-    /// Whether a piece that is not of `side` reaches a square on which one of `side` stands, or would.
+    /// Tests whether a piece that is not of `side` reaches a square on which one of `side` stands, or would.
     fn is_reached(&self, square: Square, side: Side) -> bool {
         let mut with = self.clone();
         let stand_in = Man { kind: Kind::Pawn, side, number: 0 };
@@ -185,7 +186,7 @@ impl Position {
         })
     }
 
-    /// Whether the piece on `from` goes so, kings' safety and castling aside.
+    /// Tests whether the piece on `from` goes so, kings' safety and castling aside.
     fn reaches(&self, from: Square, to: Square) -> bool {
         let Some(man) = self.at(from) else { return false };
         let there = self.at(to);

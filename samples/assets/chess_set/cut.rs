@@ -29,7 +29,7 @@ impl Plane {
     }
 }
 
-/// What of the mesh is above y = `height`, and the points around the opening.
+/// The part of the mesh above y = `height`, and the points around the opening.
 pub fn above(mesh: Mesh, height: f64) -> (Mesh, Vec<DVec3>) {
     let plane = Plane { normal: DVec3::Y, offset: height };
     let (mut below, mut above) = (Vec::new(), Vec::new());

@@ -87,7 +87,7 @@ fn polygon_straps(centre: DVec2, sides: u32, inradius: f64, turn: f64) -> Vec<St
         .collect()
 }
 
-/// How bright the brass is at a point, and how much of the sample around it the brass covers.
+/// Brightness of the brass at a point, and its coverage of the sample around it.
 fn shade(straps: &[Strap], point: DVec2) -> (f64, f64) {
     // A strap goes over at its start and under at its end: turned by half a turn around a
     // contact, the pattern stays the same, so that the two halves of a crossing strap agree.

@@ -43,7 +43,7 @@ const MANE: [DVec4; 7] = [
     dvec4(-0.218, 0.750, 0.080, 0.070),
     dvec4(-0.180, 0.580, 0.055, 0.055),
 ];
-/// How many locks the mane has between two points of its spine.
+/// Number of the mane's locks between two points of its spine.
 const LOCKS: f64 = 1.5;
 
 /// The knight.

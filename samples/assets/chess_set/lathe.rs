@@ -11,11 +11,11 @@ use glam::{DVec2, DVec3, dvec2};
 
 use crate::mesh::{Mesh, Vertex};
 
-/// How far a facet may stay away from the curve that it stands for, in squares.
+/// Greatest distance of a facet from its curve, in squares.
 const TOLERANCE: f64 = 0.0025;
 /// The most that the profile may turn from one facet to the next on a curve.
 const MAX_TURN: f64 = FRAC_PI_4;
-/// Where the profile turns by more than 35 degrees at once, it has a crease: the cosine of that.
+/// Cosine of 35 degrees: where the profile turns by more at once, it has a crease.
 const CREASE: f64 = 0.819;
 
 /// One point of a profile.
@@ -25,7 +25,7 @@ struct Knot {
     /// Unit tangents just before and just after the point.
     before: DVec2,
     after: DVec2,
-    /// How much the point follows the ripple of the rim.
+    /// The part of the rim's ripple that the point follows.
     ripple: f64,
 }
 

@@ -28,7 +28,7 @@ use image::ImageFormat;
 use crate::mesh::Mesh;
 use crate::obj::Object;
 
-/// Where the files go.
+/// Directory of the files.
 const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/assets");
 
 const USAGE: &str = "usage: chess_set           write the files\n       \

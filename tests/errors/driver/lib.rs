@@ -8,7 +8,7 @@ use std::ffi::{CStr, c_char, c_void};
 
 use ash::vk;
 
-/// What the loader finds at the start of an instance or a device, and replaces by its own.
+/// The value that the loader finds at the start of an instance or a device, and replaces by its own.
 const LOADER_MAGIC: usize = 0x01CD_C0DE;
 
 /// Settles on version 5 of the loader's interface, the first for Vulkan 1.1 and later.

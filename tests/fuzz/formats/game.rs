@@ -31,7 +31,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads it.
+/// The reader of the format.
 pub const FUNCTION: Function = Function {
     beside: nothing,
     read: |path| {

@@ -10,6 +10,9 @@ use crate::grammar::Grammar;
 #[path = "../../../samples/14_animation/legs.rs"]
 mod file;
 #[allow(missing_docs)]
+#[path = "../../../samples/14_animation/leg.rs"]
+mod leg;
+#[allow(missing_docs)]
 #[path = "../../../samples/14_animation/motion.rs"]
 mod motion;
 
@@ -27,7 +30,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads it.
+/// The reader of the format.
 pub const FUNCTION: Function = Function {
     beside: nothing,
     read: |path| {

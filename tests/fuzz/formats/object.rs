@@ -36,7 +36,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads a model.
+/// The reader of models.
 pub const FUNCTION: Function = Function {
     beside: |folder| {
         for name in ["a.mtl", "a b.mtl"] {
@@ -61,7 +61,7 @@ pub const MATERIAL_FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads a material file.
+/// The reader of material files.
 pub const MATERIAL_FUNCTION: Function = Function {
     beside: |folder| {
         fs::write(folder.join("m.obj"), MODEL).expect("a file can be written");

@@ -29,7 +29,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads it.
+/// The reader of the format.
 pub const FUNCTION: Function = Function { beside, read, memory: 128 << 20 };
 
 /// The model that scenes name.

@@ -29,7 +29,7 @@ pub const FORMAT: Format = Format {
     seal: None,
 };
 
-/// What reads them.
+/// The reader of settings.
 pub const FUNCTION: Function = Function { beside: nothing, read, memory: 1 << 20 };
 
 /// A control of each kind.

@@ -25,7 +25,7 @@ pub const FORMAT: Format = Format {
     seal: Some(seal),
 };
 
-/// What reads it.
+/// The reader of the format.
 pub const FUNCTION: Function = Function {
     beside: |folder| fs::write(folder.join("b.sums"), right(64)).expect("a file can be written"),
     read,

@@ -23,7 +23,7 @@ pub const FORMAT: Format = Format {
     seal: Some(seal),
 };
 
-/// What reads it.
+/// The reader of the format.
 pub const FUNCTION: Function = Function {
     beside: |folder| {
         fs::write(folder.join("m.obj"), object::MODEL).expect("a file can be written");
@@ -118,7 +118,7 @@ fn make(random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// What stands beside the picture: profiles and texts that unpack to far more than they are, and others.
+/// Chunks beside the picture: profiles and texts that unpack to far more than they are, and others.
 fn extra(random: &mut Random, to: &mut Vec<u8>) {
     let bomb = || packed(&vec![b'x'; 8 << 20]);
     let few: Vec<u8> = (0..random.below(40)).map(|_| random.bits() as u8).collect();

@@ -31,7 +31,7 @@ pub unsafe extern "system" fn properties2(
     }
 }
 
-/// What takes as many ticks takes less time if a tick is shorter.
+/// Shortens the tick of the device's clock, so that as many ticks take less time.
 fn hasten(properties: &mut vk::PhysicalDeviceProperties) {
     if let Some(times) = words::value::<f32>("fast") {
         properties.limits.timestamp_period /= times;

@@ -122,7 +122,7 @@ pub unsafe extern "system" fn present(
     }
 }
 
-/// What the display says of an image that it would take as it is.
+/// The display's result for an image that it would accept as it is.
 fn judged(result: vk::Result) -> vk::Result {
     match result {
         vk::Result::SUCCESS if words::has("suboptimal") => vk::Result::SUBOPTIMAL_KHR,

@@ -1,13 +1,13 @@
-//! What the variable `DISPLAY_FAULTS` asks for.
+//! Words of the variable `DISPLAY_FAULTS`.
 
 use std::str::FromStr;
 
-/// Whether the variable holds a word.
+/// Tests whether the variable holds a word.
 pub fn has(word: &str) -> bool {
     words().iter().any(|own| own == word)
 }
 
-/// What stands behind `word=` in the variable.
+/// The value after `word=` in the variable.
 ///
 /// # Panics
 /// If it is no value of that type.

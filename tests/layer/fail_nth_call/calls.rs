@@ -12,7 +12,7 @@ use ash::vk;
 pub struct Function {
     /// Its name.
     pub name: &'static CStr,
-    /// What the layer gives out for it.
+    /// The handle that the layer gives out for it.
     pub own: *const c_void,
     below: AtomicUsize,
     calls: AtomicUsize,
@@ -157,14 +157,14 @@ impl Function {
     }
 }
 
-/// What the variable `FAIL` asks for.
+/// The fault that the variable `FAIL` names.
 struct Fault {
     name: String,
     when: When,
     result: vk::Result,
 }
 
-/// Which call fails.
+/// The call that fails.
 enum When {
     /// The one of this number.
     At(usize),

@@ -1,16 +1,16 @@
-//! What the variable `MINIMUM_LIMITS` asks for beyond narrow limits.
+//! Faults that the variable `MINIMUM_LIMITS` names, beyond narrow limits.
 
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{memory, queues};
 
-/// Whether the variable holds a word.
+/// Tests whether the variable holds a word.
 pub fn has(word: &str) -> bool {
     words().iter().any(|own| own == word)
 }
 
-/// What stands behind `word=` in the variable.
+/// The value after `word=` in the variable.
 pub fn value(word: &str) -> Option<String> {
     words().iter().find_map(|own| Some(own.strip_prefix(word)?.strip_prefix('=')?.to_owned()))
 }
@@ -23,7 +23,7 @@ pub fn tell() {
     fs::write(&file, told).unwrap_or_else(|error| panic!("{file}: {error}"));
 }
 
-/// Whether the swapchain that is being made fails: the first, with `out-of-date`.
+/// Tests whether the swapchain that is being made fails: the first, with `out-of-date`.
 pub fn first_swapchain_is_out_of_date() -> bool {
     static DONE: AtomicBool = AtomicBool::new(false);
     has("out-of-date") && !DONE.swap(true, Ordering::Relaxed)

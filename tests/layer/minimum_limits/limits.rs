@@ -10,7 +10,7 @@ use crate::faults;
 /// The longest side of an image.
 pub const IMAGE_SIDE: u32 = 4096;
 
-/// What some drivers align buffers to, which then is their limit for all offsets.
+/// The alignment of buffers by some drivers, which then is their limit for all offsets.
 pub const LOOSE: u64 = 4;
 
 const LIMITED_SAMPLES: vk::SampleCountFlags = vk::SampleCountFlags::from_raw(

@@ -20,9 +20,9 @@ const BOTH: u32 = 2;
 /// The bytes of each heap, unless the variable says otherwise. The specification promises no size.
 const HEAP: u64 = 1 << 30;
 
-/// What is allocated in the device's heap: its type, and its size.
+/// Allocations in the device's heap: type and size.
 static ALLOCATED: Mutex<BTreeMap<u64, (u32, u64)>> = Mutex::new(BTreeMap::new());
-/// How many allocations there were of each type.
+/// Number of allocations of each type.
 static COUNTS: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
 fn heap() -> u64 {
@@ -212,12 +212,12 @@ pub unsafe extern "system" fn map(
     unsafe { map(device, memory, offset, size, flags, data) }
 }
 
-/// How many allocations there were: that the host cannot map, of the host's memory, of both.
+/// Number of allocations: in memory that the host cannot map, in the host's memory, in both.
 pub fn counts() -> [u32; 3] {
     COUNTS.each_ref().map(|count| count.load(Ordering::Relaxed))
 }
 
-/// What a device that is destroyed had allocated goes with it.
+/// Forgets the allocations of a device that is destroyed.
 pub fn forget_all() {
     ALLOCATED.lock().unwrap_or_else(PoisonError::into_inner).clear();
 }

@@ -1,4 +1,4 @@
-//! What the device says of itself: its properties, features, extensions, and what a window offers.
+//! Answers about the device: its properties, features, extensions, and its surfaces.
 
 use std::ffi::{CStr, c_char, c_void};
 
@@ -135,7 +135,7 @@ unsafe fn without_hidden(head: *mut vk::BaseOutStructure, f: impl FnOnce()) {
     }
 }
 
-/// Whether a structure is of an extension of ray tracing.
+/// Tests whether a structure belongs to an extension of ray tracing.
 fn is_of_rays(kind: vk::StructureType) -> bool {
     use vk::StructureType as Type;
     [

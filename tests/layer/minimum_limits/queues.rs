@@ -154,7 +154,7 @@ pub unsafe extern "system" fn submit2(
     unsafe { (below::device(queue).core.fp_v1_3().queue_submit2)(queue, count, submits, fence) }
 }
 
-/// How often was submitted.
+/// Number of submissions.
 pub fn submits() -> u32 {
     SUBMITS.load(Ordering::Relaxed)
 }

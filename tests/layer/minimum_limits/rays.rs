@@ -1,4 +1,5 @@
-//! What a program may not name where ray tracing is hidden, and a validation layer as old as 1.3.239 does not see.
+//! Names that a program must not use where ray tracing is hidden, and that a validation layer as old as 1.3.239
+//! does not notice.
 
 use ash::vk::{self, BufferUsageFlags as Usage, PipelineStageFlags2 as Stage};
 use layer::below;

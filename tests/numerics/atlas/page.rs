@@ -72,7 +72,7 @@ const fn logarithmic<'a>(label: &'a str, ticks: &'a [f64]) -> Axis<'a> {
     Axis { label, ticks, logarithmic: true }
 }
 
-/// What errors a chart shows.
+/// The errors that a chart shows.
 struct Shown<'a> {
     file: &'a str,
     /// As the cards name them, and by how much they are multiplied.

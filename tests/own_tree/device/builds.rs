@@ -162,7 +162,7 @@ fn what_does_not_fit_is_refused_in_one_line() {
     assert!(error.starts_with("1073741824 triangles are too many"), "{error}");
 }
 
-/// How many nodes the longest path from the root has.
+/// Number of nodes on the longest path from the root.
 fn depth(nodes: &[Node]) -> u32 {
     let mut open = vec![(0, 1)];
     let mut deepest = 0;

@@ -1,5 +1,5 @@
-//! How a tree of boxes decays that is updated and not built: by the surface area heuristic, on the host, so that
-//! it is the same everywhere.
+//! Decay of a tree of boxes that is updated and not built: by the surface area heuristic, on the host, so that it
+//! is the same everywhere.
 //!
 //! The cost of a tree is the sum over its nodes of the part of all rays that meets a node, its area over the
 //! root's (MacDonald and Booth 1990). The tree is the one that the samples' order makes: halves of a list.
@@ -35,13 +35,13 @@ fn tree(list: &[u32], boxes: &[Bounds]) -> (Bounds, f64) {
     (whole, left.1 + right.1 + area(whole))
 }
 
-/// What a tree costs that was built of some boxes and updated to others.
+/// Cost of a tree that was built of some boxes and updated to others.
 fn cost(built: &[Bounds], now: &[Bounds]) -> f64 {
     let (root, sum) = tree(&kd_median(built), now);
     sum / area(root)
 }
 
-/// How many times as much an updated tree costs as one that is built.
+/// Cost of an updated tree relative to one that is built.
 fn decay(built: &[Bounds], now: &[Bounds]) -> f64 {
     cost(built, now) / cost(now, now)
 }

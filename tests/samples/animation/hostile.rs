@@ -4,7 +4,7 @@ use run::refused;
 
 use super::{NAME, legs};
 
-/// What reading such a file gives: how many pieces and legs, or what is wrong.
+/// Reads such a file: the numbers of pieces and legs, or what is wrong.
 fn read(text: &[u8]) -> Result<(usize, usize), String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("g.legs");

@@ -11,7 +11,7 @@ use super::{game, opera};
 use common::scene::assets;
 use run::refused;
 
-/// What reading such a file gives: how many moves, or what is wrong.
+/// Reads such a file: the number of moves, or what is wrong.
 fn read(text: &[u8]) -> Result<usize, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("game.txt");

@@ -1,4 +1,4 @@
-//! What builds and updates take and give: errors before Vulkan is asked, bytes, and times.
+//! Inputs and results of builds and updates: errors before Vulkan is called, bytes, and times.
 
 use ash::vk;
 use common::gpu::{
@@ -19,8 +19,8 @@ fn gpu_with(validate: bool) -> Gpu {
     Gpu::new(&GpuOptions { requirements, validate, ..GpuOptions::default() }).unwrap()
 }
 
-/// Whether the validation layer is 1.3.275, as Ubuntu 24.04 has it: it ends the process where a structure that
-/// compaction made smaller is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
+/// Tests whether the validation layer is 1.3.275, as Ubuntu 24.04 has it: it ends the process where a structure
+/// that compaction made smaller is updated. Neither 1.3.239 nor 1.4.363 does (`docs/devices.md`).
 fn layer_crashes_of_compacted(gpu: &Gpu) -> bool {
     // SAFETY: nothing is asked of the loader but a list.
     let layers = unsafe { gpu.vulkan.entry.enumerate_instance_layer_properties() }.unwrap();

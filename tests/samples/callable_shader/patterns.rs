@@ -49,7 +49,7 @@ fn between(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-/// Where cells have numbers.
+/// The region in which cells have numbers.
 fn within(place: [f32; 3]) -> [f32; 3] {
     place.map(|x| x.clamp(-1e9, 1e9))
 }

@@ -3,7 +3,7 @@
 use super::{FOOTPRINTS, NAME, bent, picture};
 use run::evaluate;
 
-/// What a width, a spread, a distance or a curvature may be; a cosine is from 0 to 1.
+/// Hostile values of a width, a spread, a distance or a curvature; a cosine is from 0 to 1.
 const BAD: &str = "
     const float BAD[12] = float[](0.0, -0.0, 1.0, -1.0, 1e-30, 1e30, -1e30, 3e-39, 1e9, 0.3,
         uintBitsToFloat(0x7fc00000u), uintBitsToFloat(0x7f800000u));

@@ -1,5 +1,5 @@
-//! How far each way to carry a cone is from the mean of 1,024 rays a pixel, in a mirror, in a hollow one and in
-//! glass; how it flickers, and what it costs.
+//! Distance of each way to carry a cone from the mean of 1,024 rays per pixel, in a mirror, in a hollow one and in
+//! glass; its flicker, and its cost.
 
 use common::app::Picture;
 use serde_json::{Map, Value};
@@ -102,7 +102,7 @@ fn error_and_flicker_in_each_of_the_three() {
     expected::hold("40_curved_cones/flicker", Value::Object(flicker));
 }
 
-/// What a frame takes, over what it takes with a point.
+/// Time of a frame relative to that with a point.
 #[test]
 #[ignore = "by hand: takes times"]
 fn time_by_footprint() {

@@ -58,13 +58,13 @@ impl Case {
         ((1.0 - self.cosine) * (1.0 + self.cosine)).sqrt()
     }
 
-    /// Where the axis meets the surface, and the normal there.
+    /// The point where the axis meets the surface, and the normal there.
     fn middle(&self) -> (DVec3, DVec3) {
         (self.before * DVec3::Z, DVec3::new(self.sine(), 0.0, -self.cosine))
     }
 
-    /// Where a ray meets the surface, and the normal there. With u the way from the middle, and n its normal, the
-    /// surface is n·u + k/2 u² = 0: a plane if k is 0.
+    /// The point where a ray meets the surface, and the normal there. With u the way from the middle, and n its
+    /// normal, the surface is n·u + k/2 u² = 0: a plane if k is 0.
     fn met(&self, origin: DVec3, along: DVec3) -> (DVec3, DVec3) {
         let (middle, normal) = self.middle();
         let from = origin - middle;
@@ -76,7 +76,7 @@ impl Case {
         (at, (normal + self.curvature * (at - middle)).normalize())
     }
 
-    /// How wide 64 rays are behind the surface, which `turn` sends on: the root of the area.
+    /// Width of 64 rays behind the surface, which `turn` sends on: the root of the area.
     fn width(&self, is_parallel: bool, turn: impl Fn(DVec3, DVec3) -> DVec3) -> f64 {
         let (middle, normal) = self.middle();
         let axis = turn(DVec3::Z, normal);
@@ -134,7 +134,7 @@ fn after(before: f64, ratio: f64) -> f64 {
     (1.0 - ratio * ratio * (1.0 - before * before)).sqrt()
 }
 
-/// What the shader computes of each case.
+/// Results of the shader for each case.
 fn shader(body: &str) -> Vec<(Case, f64)> {
     let picture = evaluate(&bent(), &format!("{CASES}{body}"), SIZE);
     assert_eq!(picture.pixels.len(), (WIDE * HIGH) as usize);
@@ -142,8 +142,8 @@ fn shader(body: &str) -> Vec<(Case, f64)> {
     found.map(|(i, pixel)| (Case::of(i), f64::from(pixel[0]))).collect()
 }
 
-/// Whether a cone's width is one that a bulging mirror may have: not wider than the rays, and narrower by what is
-/// derived above at most.
+/// Tests whether a cone's width is one that a bulging mirror may have: not wider than the rays, and narrower at
+/// most by the amount derived above.
 fn is_of_mirror(case: Case, width: f64) -> bool {
     let area = (case.mirrored() / width).powi(2) - 1.0;
     let most = (1.0 / case.cosine + case.cosine - 2.0) / 4.0;

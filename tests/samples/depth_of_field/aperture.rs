@@ -1,4 +1,4 @@
-//! Where on the lens rays start: the points of the definitions, evenly spread, and independent of the pixel's.
+//! Starts of rays on the lens: the points of the definitions, evenly spread, and independent of the pixel's.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use super::points::{hash, mirrored, owen, sobol_second};
 use super::{AT_ORIGIN, SIZE, SMALL, picture};
 use run::expected;
 
-/// What a random number is for, as in `shaders/common/random.glsl` and `sample_point.glsl`.
+/// Purpose of a random number, as in `shaders/common/random.glsl` and `sample_point.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 pub const DIMENSION_LENS: u32 = 5;
 
@@ -27,10 +27,12 @@ pub fn numbers(pixel: [u32; 2], seed: u32, i: u32, dimension: u32, ordered: bool
 /// The concentric map, in polar coordinates (Shirley and Chiu 1997).
 pub fn on_disk([u, v]: [f64; 2]) -> DVec2 {
     let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
-    let (radius, angle) = match x * x > y * y {
-        true => (x, PI / 4.0 * (y / x)),
-        false if y == 0.0 => (0.0, 0.0),
-        false => (y, PI / 2.0 - PI / 4.0 * (x / y)),
+    let (radius, angle) = if x * x > y * y {
+        (x, PI / 4.0 * (y / x))
+    } else if y == 0.0 {
+        (0.0, 0.0)
+    } else {
+        (y, PI / 2.0 - PI / 4.0 * (x / y))
     };
     radius * DVec2::from_angle(angle)
 }
@@ -129,7 +131,7 @@ fn blades_turn() {
     assert!(most < 0.5f64.powi(20), "{most}");
 }
 
-/// How many of the 16 pairs, a quarter of the pixel and a quarter of the lens, 64 samples of a pixel have.
+/// Number of the 16 pairs, a quarter of the pixel and a quarter of the lens, that 64 samples of a pixel have.
 fn pairs(pixel: [u32; 2], ordered: bool) -> u32 {
     let quarter = |[u, v]: [f64; 2]| 2 * u32::from(u >= 0.5) + u32::from(v >= 0.5);
     let mut seen = 0u32;

@@ -1,4 +1,4 @@
-//! How far a small light is spread that is not in focus, against the formula; and that one in focus is not.
+//! Spread of a small light that is not in focus, against the formula; and that one in focus is not spread.
 
 use std::fmt::Write;
 use std::fs;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 use super::{NAME, picture_of};
 use run::{command, expected};
 
-/// What the light sends out: the sky behind it sends a millionth of that.
+/// Radiance of the light: that of the sky behind it is a millionth.
 const RADIANCE: f64 = 1e6;
 /// The field of view, in degrees, and the picture's size.
 const VIEW: f64 = 10.0;
@@ -18,7 +18,7 @@ const SIZE: [u32; 2] = [280, 56];
 /// The distance of the plane in focus.
 const FOCUS: f64 = 5.0;
 
-/// How many pixels there are at distance 1, in a length of 1.
+/// Number of pixels at distance 1, in a length of 1.
 fn pixels() -> f64 {
     f64::from(SIZE[1]) / 2.0 / (VIEW.to_radians() / 2.0).tan()
 }
@@ -26,9 +26,9 @@ fn pixels() -> f64 {
 /// A square that shines, seen along -z from `eye`.
 #[derive(Clone, Copy)]
 pub struct Lamp {
-    /// Where it is in the picture, in pixels to the right of the middle.
+    /// Position in the picture, in pixels to the right of the middle.
     pub at: f64,
-    /// How far away along the view.
+    /// Distance along the view.
     pub depth: f64,
     /// Its side in the picture, in pixels.
     pub side: f64,
@@ -62,7 +62,7 @@ impl Lamps {
         Self { folder, eye }
     }
 
-    /// What part of each pixel's samples has met a lamp.
+    /// The part of each pixel's samples that has met a lamp.
     pub fn shown(&self, frames: u32, sets: &[&str]) -> Vec<f64> {
         let model = self.folder.path().join("lamps.obj");
         let [x, y, z] = self.eye;
@@ -214,7 +214,7 @@ fn far_from_the_origin_it_stays_sharp_on_one_rung() {
     assert!(world > 0.1 && eye > 0.1, "{world} and {eye}");
 }
 
-/// How uneven the disk of a blurred light is after some samples.
+/// Unevenness of a blurred light's disk after some samples.
 #[test]
 fn samples_against_the_noise_of_a_blurred_light() {
     const DIAMETER: f64 = 0.4;

@@ -1,4 +1,4 @@
-//! Where rays meet: each passes by its point in focus, however far that is, and however far the camera.
+//! Crossing of rays: each passes by its point in focus, however far that is, and however far the camera.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -13,7 +13,7 @@ fn pixels(camera: &Camera) -> f64 {
     300.0 / (camera.fov_y.to_radians() / 2.0).tan()
 }
 
-/// Where a camera stands that looks at a point 5 units away, and the settings that say so.
+/// A camera that looks at a point 5 units away, and the settings that say so.
 fn camera(distance: f64) -> (Camera, [String; 3]) {
     let eye = distance * DVec3::new(0.6, 0.48, 0.64);
     let target = eye + DVec3::new(-4.0, 0.0, -3.0);
@@ -22,7 +22,7 @@ fn camera(distance: f64) -> (Camera, [String; 3]) {
     (Camera::new(eye, target, 30.0), sets)
 }
 
-/// Where rays cross the plane in focus, seen from the eye: to the right and up, over the distance.
+/// The points where rays cross the plane in focus, seen from the eye: to the right and up, over the distance.
 fn crossings(camera: &Camera, focus: f64, origins: &Picture, directions: &Picture) -> Vec<DVec2> {
     let eye = camera.eye.as_vec3().as_dvec3();
     let [right, up, forward] = camera.axes();
@@ -43,7 +43,7 @@ fn rays(sets: &[&str]) -> [Picture; 2] {
         .map(|show| picture(SMALL, 2, &[sets, &[show]].concat()))
 }
 
-/// How far from its point in focus a ray passes at most, in pixels of a picture 600 high.
+/// Greatest distance of a ray from its point in focus, in pixels of a picture 600 high.
 fn off(distance: f64, focus: &str, rung: &str) -> f64 {
     let (camera, sets) = camera(distance);
     let [focus_set, rung] = [format!("focus distance={focus}"), format!("rung={rung}")];

@@ -1,4 +1,4 @@
-//! What the mean of many frames is off by, and what further frames buy with a lens and without.
+//! Error of the mean of many frames, and the gain of further frames with a lens and without.
 
 use common::app::Picture;
 use serde_json::Map;

@@ -1,5 +1,5 @@
-//! What the page of 28_depth_of_field shows beside its pictures. Drawn when asked for:
-//! `cargo test --test samples depth_of_field::plots -- --ignored`.
+//! Plots for the page of 28_depth_of_field. Drawn on request: `cargo test --test samples
+//! depth_of_field::plots -- --ignored`.
 
 use run::plot::{Axis, Chart, Series, draw};
 

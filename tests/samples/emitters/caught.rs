@@ -1,4 +1,4 @@
-//! Why a path of the furnace is lost in a closed piece: the ray that took it there, by exact arithmetic.
+//! The reason why a path of the furnace is lost in a closed piece: the ray that took it there, by exact arithmetic.
 
 use reference::Ray;
 use run::primary_hits::reference;

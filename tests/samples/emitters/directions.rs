@@ -10,8 +10,7 @@ use super::{NAME, U};
 use crate::glass::equations::hash;
 use run::{command, copy_of_shaders, expected, render_by};
 
-/// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
-/// `vec4 answer`.
+/// Results of this chapter's files, one per pixel: `body` sees the pixel as `uvec2 at` and sets `vec4 answer`.
 fn evaluate(body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let file = folder.path().join(NAME).join("camera.rgen");
@@ -156,14 +155,14 @@ impl Triangle {
         2.0 * a.dot(self.edges[0].cross(self.edges[1])).abs().atan2(sum)
     }
 
-    /// Whether its edges are shorter than 1/64 of its distance.
+    /// Tests whether its edges are shorter than 1/64 of its distance.
     fn is_far(&self) -> bool {
         let longer = self.edges.map(DVec3::length).into_iter().fold(0.0, f64::max);
         longer < self.corners[0].length() / 64.0
     }
 
-    /// How much an error of a coordinate, relative to the distance, is enlarged: more, the flatter the triangle
-    /// is seen, and the nearer a corner is.
+    /// Factor by which an error of a coordinate, relative to the distance, is enlarged: more, the flatter the
+    /// triangle is seen, and the nearer a corner is.
     fn condition(&self) -> f64 {
         let [a, b, c] = self.corners;
         let height = a.dot(self.edges[0].cross(self.edges[1])).abs();

@@ -1,5 +1,5 @@
-//! What the page of 29_emitters shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples emitters::plots -- --ignored --nocapture`.
+//! Plots for the page of 29_emitters. Drawn on request: `cargo test --test samples emitters::plots
+//! -- --ignored --nocapture`.
 
 use common::app::Picture;
 use serde_json::Map;
@@ -124,7 +124,7 @@ fn errors() {
 
 const SMALL: &str = "96x60";
 
-/// What a depth leaves out: by the same random numbers, so that chance has no part in it.
+/// The light that a depth leaves out: by the same random numbers, so that chance has no part in it.
 #[test]
 fn a_depth_leaves_out_what_its_paths_do_not_reach() {
     let of = |depth: u32| brightness(&picture(SMALL, 16, &[&format!("depth={depth}")]));

@@ -71,7 +71,7 @@ fn a_slab_moves_a_ray_aside_and_turns_it_by_nothing() {
     expected::hold("27_glass/slab", json!({ "aside": aside, "off": off, "turned": turned }));
 }
 
-/// Where a ray passes nearest to the z axis.
+/// The point where a ray passes nearest to the z axis.
 fn crossing(origin: DVec3, direction: DVec3) -> f64 {
     let (o, d) = (origin.truncate(), direction.truncate());
     origin.z - direction.z * o.dot(d) / d.dot(d)
@@ -173,12 +173,11 @@ fn a_camera_within_the_ball_sees_what_refraction_lets_in() {
 fn sky(direction: DVec3) -> f64 {
     let mean = |color: [f64; 3]| color.iter().sum::<f64>() / 3.0;
     let (horizon, y) = (mean([0.84, 0.87, 0.90]), direction.y);
-    let (other, part) = match y > 0.0 {
-        true => (mean([0.23, 0.38, 0.62]), y.sqrt()),
-        false => {
-            let x = (-y / 0.45).min(1.0);
-            (mean([0.20, 0.245, 0.29]), x * x * (3.0 - 2.0 * x))
-        }
+    let (other, part) = if y > 0.0 {
+        (mean([0.23, 0.38, 0.62]), y.sqrt())
+    } else {
+        let x = (-y / 0.45).min(1.0);
+        (mean([0.20, 0.245, 0.29]), x * x * (3.0 - 2.0 * x))
     };
     horizon + part * (other - horizon)
 }

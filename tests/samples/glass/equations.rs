@@ -41,7 +41,7 @@ impl Case {
         (self.to - self.from) * (self.to + self.from) + (self.from * self.cosine).powi(2)
     }
 
-    /// What is reflected and what goes through; `None` if all is reflected.
+    /// The reflected and the refracted part; `None` if all is reflected.
     fn split(&self) -> Option<(f64, f64)> {
         let (q, p) = (self.from * self.cosine, Some(self.behind()).filter(|p2| *p2 > 0.0)?.sqrt());
         let (s, t) = (self.to * self.to * q, self.from * self.from * p);

@@ -7,7 +7,7 @@ use reference::{Ray, Surface};
 use super::ground::Landscape;
 use super::shape::HeightfieldShape;
 
-/// What is wrong with an answer.
+/// The fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// Nothing, within the bound.
@@ -66,14 +66,14 @@ impl Exact {
         self.field.intersect(&self.within(ray)?)
     }
 
-    /// How far the height may be from 0 where one end of the last bracket is above and the other below.
+    /// Bound on the height's distance from 0 where one end of the last bracket is above and the other below.
     pub fn bound(&self, ray: &Ray, t: f64) -> f64 {
         let d = ray.direction;
         let gap = t.abs() * 2.0 * 1.2e-7;
         self.error + gap * (self.field.lipschitz * d.x.hypot(d.z) + d.y.abs())
     }
 
-    /// Whether the ray is nowhere farther from the ground than the bound, between two places.
+    /// Tests whether the ray is nowhere farther from the ground than the bound, between two places.
     pub fn stays_near(&self, ray: &Ray, from: f64, to: f64) -> bool {
         (0..=64).all(|i| {
             let t = from + (to - from) * f64::from(i) / 64.0;
@@ -81,7 +81,7 @@ impl Exact {
         })
     }
 
-    /// Whether a ray that meets the ground at `from` leaves it again before `to`.
+    /// Tests whether a ray that meets the ground at `from` leaves it again before `to`.
     fn comes_out(&self, ray: &Ray, from: f64, to: f64) -> bool {
         let side = self.height_above(ray, from - 1e-6).signum();
         let between = (1..1000).map(|i| from + (to - from) * f64::from(i) / 1000.0);

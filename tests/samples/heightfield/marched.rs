@@ -43,7 +43,7 @@ impl Alone {
     }
 }
 
-/// Where the rays of these settings come from: what a setting says, or else the preset.
+/// The camera of these settings: that of a setting, or else of the preset.
 pub fn camera(sets: &[&str]) -> Camera {
     let said = |control: &str| {
         let mut said = sets.iter().filter_map(|set| set.split_once('='));
@@ -60,17 +60,17 @@ pub fn camera(sets: &[&str]) -> Camera {
     camera
 }
 
-/// What a rung makes of a ray.
+/// The march of a ray by a rung.
 pub struct March {
     pub ray: Ray,
-    /// Where it hits.
+    /// The distance of the hit that it found.
     pub found: Option<f64>,
-    /// How often it asked for a height.
+    /// Number of heights that it evaluated.
     pub steps: f64,
     pub verdict: Verdict,
-    /// Where the hit is.
+    /// The distance of the exact hit.
     pub exact: Option<f64>,
-    /// How steeply the ray falls on the ground there, in degrees.
+    /// Angle between the ray and the ground there, in degrees.
     pub angle: Option<f64>,
 }
 
@@ -144,7 +144,7 @@ impl Marched {
             .map(|part| errors.get((errors.len() as f64 * part) as usize).copied().unwrap_or(0.0))
     }
 
-    /// What stands in a row of the page's table.
+    /// A row of the page's table.
     pub fn row(&self) -> Row {
         let count = |verdict| self.count(verdict);
         Row {

@@ -167,7 +167,7 @@ fn shadows_fall_both_ways_and_no_ground_shades_itself() {
     assert!(edges < 20 && from_ground > 3000, "{edges} {from_ground}");
 }
 
-/// What `show=hit` says of the instance, in words.
+/// The instance of `show=hit`, in words.
 fn kind(instance: f32) -> &'static str {
     match instance {
         GROUND => "ground",

@@ -9,7 +9,7 @@ use super::judged::Exact;
 use super::{GROUND, HILLS, land, scenes};
 use run::primary_hits::reference;
 
-/// What a ray meets first, as `show=hit` says it.
+/// The first surface on a ray, by `show=hit`.
 pub struct World {
     scene: ExactScene,
     standing: Vec<f32>,
@@ -37,8 +37,8 @@ impl World {
         met.unwrap_or((-1.0, 0.0))
     }
 
-    /// Whether rounding decides which surface the ray meets first: at the outline of a piece or of a hill,
-    /// or where two surfaces are in one place.
+    /// Tests whether rounding decides which surface the ray meets first: at the outline of a piece or of a hill, or
+    /// where two surfaces are in one place.
     pub fn is_close(&self, ray: &Ray) -> bool {
         let near = self.scene.near_candidates(ray);
         if near.iter().any(|near| near.may_hit(ray) && !near.must_hit(ray)) {

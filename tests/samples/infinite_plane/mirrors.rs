@@ -1,4 +1,4 @@
-//! What the plane mirrors, and what mirrors the plane.
+//! Reflections in the plane, and of the plane in mirrors.
 
 use common::app::Picture;
 use common::scene::Camera;
@@ -10,7 +10,7 @@ use super::{NAME, Octahedron, PLANE, level, picture, pieces};
 use run::flat_shaders;
 use run::primary_hits::rays;
 
-/// Where the board preset is looked at from, and from where that eye's image in the plane would look.
+/// The eye of the board preset, and its image in the plane.
 const EYE: [&str; 2] = ["camera eye=-3.4,1.6,7.2", "camera target=0.6,0.62,0"];
 const IMAGE: [&str; 2] = ["camera eye=-3.4,-1.6,7.2", "camera target=0.6,-0.62,0"];
 

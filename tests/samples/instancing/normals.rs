@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 
 use super::{SPECIMEN, ViewedScene, absolute};
 
-/// What `normals` made of the object-space normals whose bits the GPU wrote: for each pixel the piece,
-/// the sine of the error's angle, and the bound on it if the inverse was rounded once.
+/// Errors of `normals` for the object-space normals whose bits the GPU wrote: for each pixel the piece, the sine of
+/// the error's angle, and the bound on it if the inverse was rounded once.
 fn normal_errors(viewed: &ViewedScene, sets: &[&str]) -> Vec<(usize, f64, f64)> {
     let show = |view| viewed.picture(&[&[SPECIMEN], sets, &[view]].concat());
     let (objects, worlds) = (show("show=object normal"), show("show=normal"));

@@ -1,4 +1,4 @@
-//! What each rung and the margin are worth.
+//! Benefit of each rung and of the margin.
 
 use common::scene::Camera;
 use glam::DVec3;

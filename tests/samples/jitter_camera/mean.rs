@@ -61,7 +61,7 @@ struct Means {
     mean: f32,
     sum: f32,
     exact_sum: f64,
-    /// What the mean may be off by at most, times the count.
+    /// Error bound of the mean, times the count.
     bound: f64,
 }
 
@@ -92,7 +92,7 @@ impl Means {
 /// A frame of a pixel, given its number and the mean so far.
 type Input = fn(u32, f32) -> f32;
 
-/// What makes life hard for a mean.
+/// Inputs that are hard for a mean.
 fn inputs() -> Vec<(&'static str, Input)> {
     vec![
         ("0.1, always", |_, _| 0.1),

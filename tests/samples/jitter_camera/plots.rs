@@ -1,5 +1,5 @@
-//! What the page of 04_jitter_camera shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples jitter_camera::plots -- --ignored --nocapture`.
+//! Plots for the page of 04_jitter_camera. Drawn on request: `cargo test --test samples
+//! jitter_camera::plots -- --ignored --nocapture`.
 
 use serde_json::Map;
 

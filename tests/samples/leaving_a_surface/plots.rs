@@ -1,5 +1,5 @@
-//! What the page of 26_leaving_a_surface shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples leaving_a_surface::plots -- --ignored --nocapture`.
+//! Plots for the page of 26_leaving_a_surface. Drawn on request: `cargo test --test samples
+//! leaving_a_surface::plots -- --ignored --nocapture`.
 
 use serde_json::Map;
 

@@ -1,4 +1,4 @@
-//! What the chapter says of shutters, methods and poses.
+//! Claims of the chapter about shutters, methods and poses.
 
 use common::app::Picture;
 use glam::{Quat, Vec3};
@@ -40,7 +40,7 @@ fn without_a_shutter_it_is_its_parent_to_the_bit() {
     assert!(differs(&["shutter=0"]), "nothing turns");
 }
 
-/// Where nothing is under way, samples are all the same, and their mean is what one sees.
+/// Samples are all the same if nothing is under way, and so is their mean.
 #[test]
 fn a_board_at_rest_is_as_sharp_as_with_one_sample() {
     let [one, many] =
@@ -69,10 +69,8 @@ fn a_frame_is_the_same_bytes_whether_played_or_jumped_to() {
         .map(|method| picture("240x150", &[], &[&one[..], &[method]].concat()));
     let differ = moments.pixels.iter().zip(&swept.pixels).filter(|(a, b)| a != b).count();
     // Two triangle tests may differ at edges of shadows alone; llvmpipe's is that of the chapter.
-    let most = match device::is_software() {
-        true => 8,
-        false => Near::of(NAME).both().flips(&moments) as usize,
-    };
+    let most =
+        if device::is_software() { 8 } else { Near::of(NAME).both().flips(&moments) as usize };
     assert!(differ <= most, "{differ} pixels of {most}");
 }
 
@@ -127,7 +125,7 @@ fn chapter(sets: &[&str]) -> Value {
     render(NAME, "240x150", &sets.collect::<Vec<_>>()).report["chapter"].clone()
 }
 
-/// What is counted of both methods, in one frame of 16 samples.
+/// Counts of both methods, in one frame of 16 samples.
 #[test]
 fn methods_cost_what_is_counted() {
     let of = |method| chapter(&["frame=934", "shutter=2", "count calls=on", method]);

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{DQuat, Quat, Vec3};
 use run::{bits, evaluate, render};
 
-use super::motion::{Motion, UNDER_WAY};
+use super::leg::{Motion, UNDER_WAY};
 use super::shutter::{Between, Pose, between};
 use super::{NAME, legs};
 

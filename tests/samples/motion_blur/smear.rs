@@ -1,4 +1,4 @@
-//! How long each pixel sees what is under way: a ball by its closed form, a turning knight at 1,024 times.
+//! Time for which each pixel sees a moving object: a ball by its closed form, a turning knight at 1,024 times.
 
 use std::f64::consts::PI;
 
@@ -9,8 +9,9 @@ use glam::{DQuat, DVec3};
 use run::{expected, render};
 use serde_json::json;
 
-use super::motion::{Motion, Placed};
-use super::{NAME, legs, turned};
+use super::leg::Motion;
+use super::motion::Placed;
+use super::{NAME, ball, legs};
 
 const BALL: f64 = 0.5;
 const SHUTTER: f64 = 2.0;
@@ -42,8 +43,8 @@ fn seen(file: &str, size: &str, sets: &[&str]) -> (Vec<(DVec3, DVec3)>, Vec<f64>
     (rays.collect(), smear)
 }
 
-/// What part of the time from 0 to 1 a line meets a ball that moves by `way`: that where |(o - c)×d| is less than the
-/// radius times |d|, a quadratic in the time.
+/// The part of the time from 0 to 1 in which a line meets a ball that moves by `way`: that where |(o - c)×d| is
+/// less than the radius times |d|, a quadratic in the time.
 fn met((o, d): (DVec3, DVec3), center: DVec3, way: DVec3, radius: f64) -> f64 {
     let (from, by) = ((o - center).cross(d), -way.cross(d));
     let (a, b) = (by.length_squared(), from.dot(by));
@@ -65,7 +66,7 @@ fn the_smear_of_a_ball_is_its_closed_form() {
     let motion = legs::open(&file).unwrap();
     let [open, close] = ends(&motion, 16).map(|placed| placed.place.as_dvec3() + BALL * DVec3::Y);
     // Between two corners, along and around, lies half the angle of a cell.
-    let half = (PI / (2.0 * f64::from(turned::ROWS))).cos();
+    let half = (PI / (2.0 * f64::from(ball::ROWS))).cos();
     let inner = BALL * half * half;
     let mut held = json!({});
     for (method, samples, lost) in [("swept", 256, 2.0 / 256.0), ("moments", 256, 2.0 / 8.0)] {
@@ -158,7 +159,7 @@ fn the_smear_of_a_knight_is_that_of_1024_times() {
     );
 }
 
-/// Whether a ray meets a triangle (Möller and Trumbore 1997, which the shader does not use).
+/// Tests whether a ray meets a triangle (Möller and Trumbore 1997, which the shader does not use).
 fn meets(o: DVec3, d: DVec3, a: DVec3, b: DVec3, c: DVec3) -> bool {
     let (e1, e2) = (b - a, c - a);
     let p = d.cross(e2);

@@ -15,7 +15,7 @@ use super::alpha::Alpha;
 use super::classify::{self, Rule};
 use super::{BEFORE, BEHIND, NAME, PARENT, SIZE, curve};
 
-/// What a run was told by the layer, and what it said.
+/// The layer's messages to a run, and the run's output.
 struct Told {
     picture: Picture,
     /// Lines by their first word.
@@ -39,7 +39,7 @@ impl Told {
     }
 }
 
-/// Whether the layer can read what a device would: on the software driver, whose addresses are the host's.
+/// Tests whether the layer can read what a device would: on the software driver, whose addresses are the host's.
 fn has_layer() -> bool {
     run::device::is_software()
 }
@@ -68,7 +68,7 @@ fn told(finest: u32, arguments: &[&str]) -> Told {
     told
 }
 
-/// What a mesh's states are, packed.
+/// The packed states of a mesh.
 fn packed(mesh: &Mesh, texture: &Texture, level: u32, rule: Rule) -> Vec<u8> {
     let alpha = Alpha::new(texture.width, texture.height, &texture.rgba);
     let of = |corners: &[u32; 3]| {

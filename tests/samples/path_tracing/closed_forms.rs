@@ -30,7 +30,7 @@ pub const SQUARES: [(&str, [DVec3; 4]); 2] = [
     ),
 ];
 
-/// What part of the half-space above a point of the white square, weighed by the cosine, a polygon fills: the
+/// The part of the half-space above a point of the white square, weighed by the cosine, that a polygon fills: the
 /// closed form of Lambert (Photometria, 1760), a sum over its edges.
 pub fn form_factor(point: DVec3, polygon: &[DVec3; 4]) -> f64 {
     let to = polygon.map(|corner| (corner - point).normalize());

@@ -1,5 +1,5 @@
-//! What the page of 11_path_tracing shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples path_tracing::plots -- --ignored --nocapture`.
+//! Plots for the page of 11_path_tracing. Drawn on request: `cargo test --test samples
+//! path_tracing::plots -- --ignored --nocapture`.
 
 use common::app::Picture;
 use serde_json::Map;
@@ -32,7 +32,7 @@ fn furnace() {
     draw_panels("11_furnace.png", 1, &[Shown::row(&[1, 2, 5, 256].map(show))]);
 }
 
-/// What makes a picture, and what the numbers of its paths are called.
+/// A maker of pictures, and the name of its paths' numbers.
 type Numbers = (&'static str, fn(&str, u32, &[&str]) -> Picture);
 const NUMBERS: [Numbers; 2] = [("random", picture_by_chance), ("Sobol", picture)];
 const FRAMES: [u32; 6] = [1, 4, 16, 64, 256, 1024];

@@ -1,4 +1,4 @@
-//! What a surface does with light, from the shader's own functions.
+//! Light at a surface, from the shader's own functions.
 
 use std::f64::consts::PI;
 
@@ -9,8 +9,7 @@ use serde_json::json;
 use super::NAME;
 use run::{command, copy_of_shaders, expected, render_by};
 
-/// What the files of this chapter compute, a pixel an answer: `body` sees the pixel as `uvec2 at` and sets
-/// `vec4 answer`.
+/// Results of this chapter's files, one per pixel: `body` sees the pixel as `uvec2 at` and sets `vec4 answer`.
 fn evaluate(body: &str, size: &str) -> Picture {
     let folder = copy_of_shaders();
     let file = folder.path().join(NAME).join("camera.rgen");
@@ -82,7 +81,7 @@ fn what_polish_does_not_mirror_it_scatters() {
     }
 }
 
-/// What a highlight reflects of light from all sides, in f64: views from head on to grazing.
+/// Reflection of light from all sides by a highlight, in f64: views from head on to grazing.
 #[test]
 fn a_highlight_creates_no_energy() {
     // As `reflect_light` and `kept_of_highlight` have it, specular 1.

@@ -5,7 +5,7 @@ use common::app::Picture;
 use super::{FOOTPRINTS, NAME};
 use run::{evaluate, render};
 
-/// What a width, a cosine, an edge or a coordinate may be.
+/// Hostile values of a width, a cosine, an edge or a coordinate.
 const BAD: &str = "
     const float BAD[12] = float[](0.0, -0.0, 1.0, -1.0, 1e-30, 1e30, -1e30, 3e-39, 1e9, 0.3,
         uintBitsToFloat(0x7fc00000u), uintBitsToFloat(0x7f800000u));

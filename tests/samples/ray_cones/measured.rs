@@ -1,4 +1,4 @@
-//! How far each footprint is from the mean of 1,024 rays a pixel, how it flickers, and what it costs.
+//! Distance of each footprint from the mean of 1,024 rays per pixel, its flicker, and its cost.
 
 use common::app::Picture;
 use serde_json::{Map, Value};
@@ -24,7 +24,7 @@ fn colors(picture: &Picture) -> Vec<f64> {
     picture.pixels.iter().flat_map(|p| [p[0], p[1], p[2]].map(f64::from)).collect()
 }
 
-/// What changes from frame to frame.
+/// Changes from frame to frame.
 fn changes(frames: &[Vec<f64>]) -> Vec<f64> {
     let pairs = frames.windows(2);
     pairs.flat_map(|pair| pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a)).collect()
@@ -81,7 +81,7 @@ fn error_and_flicker_by_distance_and_angle() {
     expected::hold("19_ray_cones/flicker", Value::Object(flicker));
 }
 
-/// What a frame takes, over what it takes with a point.
+/// Time of a frame relative to that with a point.
 #[test]
 #[ignore = "by hand: takes times"]
 fn time_by_distance_and_angle() {

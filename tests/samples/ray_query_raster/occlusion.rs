@@ -23,7 +23,7 @@ fn run_of(sets: &[&str], frames: &str) -> Run {
     render(NAME, SIZE, &scene.into_iter().chain(sets).collect::<Vec<_>>())
 }
 
-/// How much of the sky each pixel of the plane sees: its number, and the exact part.
+/// The part of the sky that each pixel of the plane sees: its number, and the exact part.
 fn exact() -> Vec<(usize, f64)> {
     let camera = Camera::new(DVec3::new(5.0, 4.0, 6.0), DVec3::new(0.0, 0.2, 0.0), 45.0);
     let show = |view| run_of(&[view, "occlusion rays=0"], "1").picture;

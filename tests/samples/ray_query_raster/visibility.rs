@@ -21,7 +21,7 @@ type Size = (u32, u32);
 /// and so an edge by at most √2/2 of it; what the vertex shader rounds in 32 bits comes on top.
 const SNAP: f64 = std::f64::consts::FRAC_1_SQRT_2 / 256.0 + 0.0002;
 
-/// How the answers of a picture compare with the reference.
+/// Counts of a picture's answers compared with the reference.
 #[derive(Debug, Default)]
 struct Count {
     agree: usize,
@@ -33,7 +33,7 @@ struct Count {
     reach: f64,
     /// A surface farther away than another that covers the pixel too.
     farther: usize,
-    /// How much farther the farthest is.
+    /// Greatest excess of the depth.
     depth: f64,
     /// Nothing, where something covers the pixel.
     lost: usize,
@@ -58,7 +58,7 @@ impl Projection {
         DVec2::new((x + 1.0) * width / 2.0, (1.0 - y) * height / 2.0)
     }
 
-    /// How far inside a triangle the middle of a pixel is: negative outside.
+    /// Distance of a pixel's middle from the triangle's outline: negative outside.
     fn margin(&self, pixel: usize, triangle: &[DVec3; 3]) -> f64 {
         let width = self.size.0 as usize;
         let middle = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
@@ -109,13 +109,13 @@ fn count(exact: &Exact, projection: &Projection, hits: &Picture, rays: &[Ray], s
     count
 }
 
-/// What is looked at, and how it is drawn.
+/// The scene looked at, and the way it is drawn.
 struct View<'a> {
     size: Size,
     camera: Camera,
     sets: &'a [&'a str],
     arithmetic: &'a str,
-    /// How far an edge may move, in pixels.
+    /// Distance by which an edge may move, in pixels.
     snap: f64,
 }
 
@@ -125,7 +125,7 @@ impl View<'_> {
         Self { size, camera, sets: &[], arithmetic: "driver", snap: SNAP }
     }
 
-    /// How the answers of `primary`, raster or rays, compare with the reference.
+    /// Counts of the answers of `primary`, raster or rays, compared with the reference.
     fn count(&self, primary: &str) -> Count {
         static EXACT: LazyLock<Exact> = LazyLock::new(|| reference(&Scene::chess().unwrap()));
         let Camera { eye, target, fov_y, .. } = self.camera;

@@ -1,5 +1,5 @@
-//! What the page of 06_reflection shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples reflection::plots -- --ignored --nocapture`.
+//! Plots for the page of 06_reflection. Drawn on request: `cargo test --test samples
+//! reflection::plots -- --ignored --nocapture`.
 
 use common::app::Picture;
 use serde_json::Map;

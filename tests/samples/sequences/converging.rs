@@ -1,4 +1,4 @@
-//! What further samples buy: how soon the error falls, and how it spreads over neighbours.
+//! Gain of further samples: the speed at which the error falls, and its spread over neighbours.
 
 use common::app::Picture;
 

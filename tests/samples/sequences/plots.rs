@@ -1,5 +1,5 @@
-//! What the page of 37_sequences shows beside its picture. Drawn when asked for:
-//! `cargo test --test samples sequences::plots -- --ignored --nocapture`.
+//! Plots for the page of 37_sequences. Drawn on request: `cargo test --test samples
+//! sequences::plots -- --ignored --nocapture`.
 
 use serde_json::Map;
 

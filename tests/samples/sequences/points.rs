@@ -12,7 +12,7 @@ pub enum Sequence {
     Sobol,
 }
 
-/// What makes the points of two pixels differ, as the control names it.
+/// The rule that makes the points of two pixels differ, as the control names it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scrambling {
     None,
@@ -20,10 +20,10 @@ pub enum Scrambling {
     Owen,
 }
 
-/// What a random number is for: the place within the pixel. As in `shaders/common/random.glsl`.
+/// Purpose of a random number: the place within the pixel. As in `shaders/common/random.glsl`.
 const DIMENSION_PIXEL: u32 = 1;
 
-/// Where the ray of frame `i` goes through a pixel, in [0, 1)².
+/// The point at which the ray of frame `i` goes through a pixel, in [0, 1)².
 pub fn sample_point(
     sequence: Sequence,
     scrambling: Scrambling,

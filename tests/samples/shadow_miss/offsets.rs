@@ -1,4 +1,4 @@
-//! Where shadow rays start in patched copies of the shaders: what the bound on the offset prevents and costs.
+//! Starts of shadow rays in patched copies of the shaders: the benefit and the cost of the bound on the offset.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -37,7 +37,7 @@ fn run_by(shaders: &Path, more: &[&str]) -> (Picture, f64) {
 const BOUND: &str = "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);";
 const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
 
-/// What becomes dark by mistake where the origin is nearer to the surface than the bound says.
+/// Pixels that become dark by mistake where the origin is nearer to the surface than the bound says.
 #[test]
 fn specks_come_where_the_bound_is_not_kept() {
     let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
@@ -61,13 +61,13 @@ fn is_lit(pixel: &[f32; 4]) -> bool {
     pixel[0] == 1.0 && pixel[2] == 1.0
 }
 
-/// How many lit pixels are dark in another picture.
+/// Number of lit pixels that are dark in another picture.
 fn dark(right: &Picture, picture: &Picture) -> usize {
     let pairs = right.pixels.iter().zip(&picture.pixels);
     pairs.filter(|(before, after)| is_lit(before) && after[0] == 0.0).count()
 }
 
-/// What becomes dark where the ray starts at o + t d.
+/// Pixels that become dark where the ray starts at o + t d.
 #[test]
 fn the_hit_s_own_point_is_no_start() {
     let shaders = copy_of_shaders();

@@ -1,4 +1,4 @@
-//! What a ray of 05_shadow_miss pays for: each part taken out in turn, on the clock and for GPUs' compilers.
+//! Price of a ray of 05_shadow_miss: each part taken out in turn, on the clock and for GPUs' compilers.
 
 use run::{command, expected, shaders_with};
 use serde_json::{Map, Value};
@@ -42,10 +42,10 @@ const PARTS: [(&str, &str, &str, &str); 6] = [
     ),
 ];
 
-/// What navi21, navi31 and gfx1201 are.
+/// Generations of navi21, navi31 and gfx1201.
 const GENERATIONS: &str = "RDNA2, RDNA3, RDNA4";
 
-/// What a run reports, by a copy of the shaders if there is one.
+/// Report of a run, by a copy of the shaders if there is one.
 fn report(shaders: Option<&TempDir>, arguments: &[&str]) -> Value {
     let mut command = command(NAME);
     if let Some(folder) = shaders {

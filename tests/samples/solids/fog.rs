@@ -8,7 +8,7 @@ use super::stub::Stub;
 use super::{INSIDE, OUTSIDE, is_endless, shape, solid};
 use run::bits;
 
-/// What part of 0 to `end` lies in these intervals.
+/// The part of 0 to `end` that lies in these intervals.
 fn covered(intervals: &[[f64; 2]], end: f64) -> f64 {
     let part = |[enter, leave]: &[f64; 2]| (leave.min(end) - enter.max(0.0)).max(0.0);
     intervals.iter().map(part).sum()

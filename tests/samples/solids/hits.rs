@@ -101,7 +101,7 @@ fn each_rung_of_the_planes_is_as_good_as_it_promises() {
     held::hold("22_solids/sums", table.into());
 }
 
-/// Where the solid stands: turned by 33 degrees, so many times as large, and moved.
+/// The solid's placement: turned by 33 degrees, so many times as large, and moved.
 struct Standing {
     sets: [&'static str; 3],
     size: f64,

@@ -27,7 +27,7 @@ impl Stub {
         self.picture(SIZE, &[&one, sets].concat())
     }
 
-    /// What rays meet of it: instance, face, t, and whether the ray was inside; -1 for a miss.
+    /// Hits of rays with it: instance, face, t, and whether the ray was inside; -1 for a miss.
     pub fn hits(&self, view: View, name: &str, sets: &[&str]) -> Picture {
         let mut hits = self.seen(view, name, &[sets, &["show=hit"]].concat());
         with_kinds(&mut hits, &self.seen(view, name, &[sets, &["show=hit kind"]].concat()));

@@ -1,4 +1,4 @@
-//! How the answers of a picture came out.
+//! Counts of a picture's answers.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use reference::solid::bound::{SolidAnswer, SolidVerdict, Stray};
 use reference::ulp::ulp_error;
 use serde_json::Value;
 
-/// How the answers of a picture came out.
+/// Counts of a picture's answers.
 #[derive(Default)]
 pub struct Tally {
     pub hits: usize,

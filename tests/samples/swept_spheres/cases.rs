@@ -28,7 +28,7 @@ fn rounded(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-/// Where the surface is: an end, or the body beside the ball at `s`, in a direction across the axis.
+/// A point of the surface: on an end, or on the body beside the ball at `s`, in a direction across the axis.
 fn on_surface(swept: &Swept, s: f64, turn: DVec3) -> DVec3 {
     let [a, b] = swept.ends;
     let radius = swept.radii[0] + s * (swept.radii[1] - swept.radii[0]);

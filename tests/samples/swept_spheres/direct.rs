@@ -31,7 +31,7 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// Where a line goes through the surface.
+    /// A crossing of a line with the surface.
     struct Root {
         t: f32,
         s: f32,
@@ -53,7 +53,7 @@ common::shader_struct! {
     }
 }
 
-/// Where the shader that asks lies in a copy of the book's shaders.
+/// Folder of the test's shader in a copy of the book's shaders.
 const FOLDER: &str = "swept_spheres_of_a_test";
 
 /// Runs a test of this program that asks: alone, so that it may have shaders of its own.
@@ -73,7 +73,7 @@ pub fn run_alone(test: &str) {
     assert!(said.contains("1 passed"), "no test is named {test}");
 }
 
-/// What a rung says of a case.
+/// A rung's result for a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     pub t: f32,

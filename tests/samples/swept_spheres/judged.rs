@@ -1,4 +1,4 @@
-//! What a rung says of a family, held to the exact answers.
+//! Results of a rung on a family, compared with the exact answers.
 
 use glam::DVec3;
 use reference::Surface;
@@ -7,7 +7,7 @@ use reference::ulp::ulp_error;
 
 use super::direct::{Case, Found};
 
-/// How far radii may be changed, relatively, for a ray to count as a tangent that no arithmetic has to decide.
+/// Relative change of the radii for which a ray counts as a tangent that no arithmetic has to decide.
 const TANGENT: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Cases and their exact answers.
@@ -32,7 +32,7 @@ pub struct Tally {
     pub tangents: usize,
     /// Errors of t of the right hits, in units of the last place, sorted.
     pub ulp: Vec<f64>,
-    /// How far the normal is off: the length of the difference, sorted.
+    /// Errors of the normal: the length of the difference, sorted.
     pub normals: Vec<f64>,
     pub first_wrong: Option<String>,
 }
@@ -85,7 +85,7 @@ impl Tally {
     }
 }
 
-/// Whether a ray that hits the shape meets a tip, a ball of radius 0, and nothing else: no hit without it.
+/// Tests whether a ray that hits the shape meets a tip, a ball of radius 0, and nothing else: no hit without it.
 fn touches_tip(case: &Case) -> bool {
     let [a, b] = case.swept.ends;
     let radii = case.swept.radii;

@@ -23,7 +23,7 @@ impl Camera {
         Self(["eye", "forward", "right", "up"].map(|name| vector(name).into()))
     }
 
-    /// Where the ray through a point of the picture meets the board, and its distance.
+    /// The point where the ray through a point of the picture meets the board, and its distance.
     fn board(&self, point: DVec2) -> Option<(DVec2, f64, DVec3)> {
         let Self([origin, forward, right, up]) = *self;
         let screen = 2.0 * point / SIDE as f64 - 1.0;
@@ -35,7 +35,7 @@ impl Camera {
     }
 }
 
-/// Whether a point lies on a light square.
+/// Colour of the board at a point: 1 on a light square.
 fn light(at: DVec2) -> f64 {
     f64::from((at.x.floor() + at.y.floor()).rem_euclid(2.0) == 0.0)
 }

@@ -11,7 +11,7 @@ use crate::reading::address;
 
 pub const PAGE: &str = "27_glass.html";
 
-/// How far a ray goes that leaves the glass.
+/// Length of a ray that leaves the glass.
 const FAR: f64 = 1000.0;
 
 /// A body as the figure draws it: its corners, or a ball's middle and radius.
@@ -22,7 +22,7 @@ struct Body {
 }
 
 impl Body {
-    /// Where a ray meets the body, and the normal on its own side: of an edge by crossing lines.
+    /// The point where a ray meets the body, and the normal on its own side: of an edge by crossing lines.
     fn met(&self, origin: DVec2, d: DVec2, inside: bool) -> Option<(f64, DVec2)> {
         // No ray meets the surface that it leaves.
         let far = |t: f64| t > 1e-6;
@@ -66,7 +66,7 @@ fn divided(angle: f64, from: f64, to: f64) -> (Option<f64>, f64) {
     (Some(behind), 0.5 * (across * across + within * within))
 }
 
-/// What is wrong with ray `n` of the figure, and with all that come of it; how many are right goes to `count`.
+/// Faults of the figure's ray `n`, and of all that come of it; the number that are right goes to `count`.
 fn held(
     rays: &[Value],
     n: usize,

@@ -13,13 +13,13 @@ use crate::reading::address;
 
 pub const PAGE: &str = "14_animation.html";
 
-/// What the figure says: its triangles, the boxes of both trees, what a ray costs on average, how many boxes the
-/// ray meets, and how far down it is.
+/// Content of the figure: its triangles, the boxes of both trees, a ray's average cost, the number of boxes that
+/// the ray meets, and its depth.
 type Found = (Vec<[[f64; 2]; 3]>, [Vec<[[f64; 2]; 2]>; 2], [f64; 2], [usize; 2], f64);
 
 /// Each level of the figure's boxes grows by this.
 const GAP: f64 = 5.0;
-/// Where the leaves stand in a list that has each box before those within.
+/// Positions of the leaves in a list that has each box before those within.
 const LEAVES: [usize; 4] = [2, 3, 5, 6];
 const PARENTS: [[usize; 3]; 3] = [[1, 2, 3], [4, 5, 6], [0, 1, 4]];
 
@@ -40,7 +40,7 @@ fn around<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
     [low, high]
 }
 
-/// Which two triangles each leaf is around, and nothing else: all four leaves hold all triangles.
+/// The two triangles that each leaf is around, and nothing else: all four leaves hold all triangles.
 fn pairs(triangles: &[[[f64; 2]; 3]], boxes: &[[[f64; 2]; 2]]) -> [[usize; 2]; 4] {
     let pairs = LEAVES.map(|leaf| {
         let all = (0..8).flat_map(|i| (i + 1..8).map(move |j| [i, j]));
@@ -68,7 +68,7 @@ fn line(origin: DVec3, direction: DVec3) -> Ray {
     Ray { origin, direction, tmin: f64::NEG_INFINITY, tmax: f64::INFINITY }
 }
 
-/// How many boxes random lines meet that meet the first.
+/// Number of boxes met by random lines that meet the first.
 fn counted(boxes: &[[[f64; 2]; 2]]) -> f64 {
     let boxes: Vec<Aabb> = boxes.iter().map(flat).collect();
     let mut random = Random(14);

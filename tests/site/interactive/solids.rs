@@ -12,7 +12,7 @@ use crate::reading::address;
 
 pub const PAGE: &str = "22_solids.html";
 
-/// What the figure says of a ray: of what is met first the t, the part, whether the ray comes into that part and
+/// The figure's account of a ray: of what is met first the t, the part, whether the ray comes into that part and
 /// whether into the solid.
 type Found = ([f64; 2], [f64; 2], Vec<Vec<Option<f64>>>, bool, Option<(f64, usize, bool, bool)>);
 

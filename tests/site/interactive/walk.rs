@@ -11,7 +11,7 @@ use crate::reading::address;
 
 pub const PAGE: &str = "30_own_tree.html";
 
-/// What an element of a drawing says in an attribute.
+/// The value of an attribute of a drawing's element.
 fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
     element.split_once(&format!("{name}=\"")).unwrap().1.split('"').next().unwrap()
 }
@@ -45,7 +45,7 @@ fn drawn_walk() -> (Vec<[DVec2; 3]>, Vec<Visit>) {
     (triangles, rows)
 }
 
-/// Where a ray from `eye` enters a triangle: where it is within all three edges.
+/// The point where a ray from `eye` enters a triangle: where it is within all three edges.
 fn entered(eye: DVec2, towards: DVec2, corners: [DVec2; 3]) -> Option<f64> {
     let turn = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum();
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);

@@ -42,6 +42,19 @@ pub fn padded((low, high): Bounds, reach: f32) -> [Vec3; 2] {
     [down(low.as_dvec3() - margin), -down(-(high.as_dvec3() + margin))]
 }
 
+/// An upper bound of the distance from a ray's origin to a shape: rays start at the eye or, as shadow rays do,
+/// anywhere on the scene. Rounded up to a power of two, so that few steps of a camera change it.
+pub fn reach((low, high): Bounds, eye: Vec3) -> f32 {
+    let farthest = (eye - low).abs().max((eye - high).abs()).max(high - low);
+    farthest.length().log2().ceil().exp2()
+}
+
+/// The box around a sphere, rounded outwards.
+pub fn sphere_bounds(center: Vec3, radius: f32) -> Bounds {
+    let (center, radius) = (center.as_dvec3(), f64::from(radius));
+    (down(center - radius), -down(-(center + radius)))
+}
+
 /// Rounded to f32, but never up.
 fn down(v: DVec3) -> Vec3 {
     let down = |x: f64| if f64::from(x as f32) > x { (x as f32).next_down() } else { x as f32 };

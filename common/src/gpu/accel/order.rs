@@ -13,6 +13,12 @@ use crate::gpu::Gpu;
 /// A box around a primitive: its low and its high corner.
 pub type Bounds = (Vec3, Vec3);
 
+/// The box around boxes; inside out if there are none.
+pub fn around<'a>(bounds: impl IntoIterator<Item = &'a Bounds>) -> Bounds {
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
+}
+
 /// Which primitive of the model each one of a build is: neighbours in space beside each other, or as they
 /// come if `ordering` is off.
 pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {

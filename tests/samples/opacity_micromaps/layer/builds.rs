@@ -15,7 +15,7 @@ use crate::structures::{
 /// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`.
 const FOUR_STATES: u32 = 2;
 
-/// What a micromap is built of.
+/// Input of a micromap's build.
 pub struct Input<'a> {
     data: &'a MicromapData,
     usages: &'a [UsageError],
@@ -103,13 +103,13 @@ pub unsafe fn passed_on<'a>(
     // SAFETY: the caller's promise; of a geometry of triangles, triangles may be read.
     unsafe {
         let count = info.geometry_count as usize;
-        let mut all: Vec<_> = match info.pp_geometries.is_null() {
-            true if count == 0 => Vec::new(),
-            true => std::slice::from_raw_parts(info.p_geometries, count).to_vec(),
-            false => {
-                let pointers = std::slice::from_raw_parts(info.pp_geometries, count);
-                pointers.iter().map(|&pointer| *pointer).collect()
-            }
+        let mut all: Vec<_> = if !info.pp_geometries.is_null() {
+            let pointers = std::slice::from_raw_parts(info.pp_geometries, count);
+            pointers.iter().map(|&pointer| *pointer).collect()
+        } else if count == 0 {
+            Vec::new()
+        } else {
+            std::slice::from_raw_parts(info.p_geometries, count).to_vec()
         };
         let mut found = None;
         let triangles = vk::GeometryTypeKHR::TRIANGLES;

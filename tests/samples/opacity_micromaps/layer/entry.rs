@@ -1,4 +1,4 @@
-//! Where the loader enters the layer, and the functions that the layer has of its own.
+//! Entry points of the layer for the loader, and the layer's own functions.
 
 use std::ffi::{c_char, c_void};
 

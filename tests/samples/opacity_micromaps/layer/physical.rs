@@ -1,4 +1,4 @@
-//! What the device says of itself: both extensions, their features and limits.
+//! Answers about the device: both extensions, their features and limits.
 
 use std::ffi::{CStr, c_char, c_void};
 
@@ -8,7 +8,7 @@ use layer::below;
 use crate::record::finest;
 use crate::structures::{ADDRESS_COMMANDS_FEATURES, FEATURES, Feature, PROPERTIES, Properties};
 
-/// What is offered, wherever a driver below does not.
+/// Extensions that the layer adds, wherever a driver below lacks them.
 pub const EXTENSIONS: [&CStr; 2] = [c"VK_KHR_device_address_commands", c"VK_KHR_opacity_micromap"];
 
 /// The extensions of the device below.

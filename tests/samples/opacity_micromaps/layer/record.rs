@@ -1,4 +1,4 @@
-//! What was built, what was broken, and what `MICROMAPS` asks for.
+//! Records of the layer: objects built, rules broken, and the words of `MICROMAPS`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -42,12 +42,12 @@ impl Record {
         self.micromaps.get_mut(&handle.as_raw())
     }
 
-    /// Whether a handle is one of the layer's.
+    /// Tests whether a handle is one of the layer's.
     pub fn has(&self, handle: u64) -> bool {
         self.micromaps.contains_key(&handle)
     }
 
-    /// Whether it was one of the layer's.
+    /// Removes a handle; true if it was one of the layer's.
     pub fn remove(&mut self, handle: u64) -> bool {
         self.micromaps.remove(&handle).is_some()
     }
@@ -74,7 +74,7 @@ impl Record {
     }
 }
 
-/// What stands behind a word's equals sign.
+/// The text after a word's equals sign.
 fn word(name: &str) -> Option<String> {
     let words = std::env::var("MICROMAPS").unwrap_or_default();
     let mut words = words.split(',').filter_map(|word| word.split_once('='));

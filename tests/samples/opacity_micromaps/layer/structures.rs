@@ -18,7 +18,7 @@ pub const PIPELINE_FLAG: u32 = 0x0100_0000;
 /// `VK_BUILD_ACCELERATION_STRUCTURE_…`: compaction, fast trace, fast build, lossy.
 pub const BUILD_FLAGS: u32 = 0x2 | 0x4 | 0x8 | 0x400;
 
-/// How the features of either extension look.
+/// Layout of the features of either extension.
 #[repr(C)]
 pub struct Feature {
     pub kind: i32,
