@@ -5,8 +5,8 @@ use ash::vk;
 use common::gpu::{AccelerationStructure, Buffer, Gpu, order};
 use common::model::{Model, Texture};
 use common::scene::{
-    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions,
-    input_usage, instance_on_gpu, moved_bounds,
+    InstanceRecord, Material, Scene, SceneAddresses, SceneOnGpu, SceneOptions, input_usage,
+    instance_on_gpu, moved_bounds,
 };
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 

@@ -77,7 +77,7 @@ impl ShapesOnGpu {
         let reach = if build.margin { reach(everything, eye) } else { 0.0 };
 
         // ANCHOR: order
-        let orders = [&spheres, &boxes].map(|bounds| gpu.emulation.order(build.order.of(bounds)));
+        let orders = [&spheres, &boxes].map(|bounds| gpu.driver_shim.order(build.order.of(bounds)));
         // ANCHOR_END: order
         let trees = [built(&orders[0], &spheres), built(&orders[1], &boxes)]
             .map(|ordered| tree::nodes(&ordered));

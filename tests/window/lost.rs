@@ -67,7 +67,7 @@ fn a_window_ends_in_one_line_wherever_its_device_is_lost() {
 #[test]
 fn a_device_may_be_lost_before_the_first_picture() {
     let _alone = alone();
-    let layer = Layer::failing(&format!("vkCreateRayTracingPipelinesKHR:1:{DEVICE_LOST}"));
+    let layer = Layer::fail_nth_call(&format!("vkCreateRayTracingPipelinesKHR:1:{DEVICE_LOST}"));
     is_told(&crate::desk::outcome("08_intersection", &SMALL, &layer.environment()));
 }
 
@@ -86,7 +86,7 @@ fn a_device_may_be_lost_in_an_animation() {
     // While it plays: from the second frame on, however many bands a frame has, which depends on how busy the
     // machine is.
     let moving = ["--size", "160x100", "--set", "play=on"];
-    let layer = Layer::failing(&format!("vkQueuePresentKHR:2+:{DEVICE_LOST}"));
+    let layer = Layer::fail_nth_call(&format!("vkQueuePresentKHR:2+:{DEVICE_LOST}"));
     is_told(&crate::desk::outcome("14_animation", &moving, &layer.environment()));
 }
 
