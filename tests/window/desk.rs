@@ -111,11 +111,6 @@ impl Desk {
         })
     }
 
-    /// The window's title.
-    pub fn named(&self) -> String {
-        self.title(self.window)
-    }
-
     fn title(&self, window: u32) -> String {
         let (name, string) = (AtomEnum::WM_NAME, AtomEnum::ANY);
         let cookie = self.x.get_property(false, window, name, string, 0, 1024).unwrap();
