@@ -332,7 +332,7 @@ fn a_ray_that_names_the_miss_shader_of_another_payload_is_refused() {
     let folder = folder("common/shadow.glsl", |text| text.replace(from, to));
     let mut command = run::command("05_shadow_miss");
     command.args(["--headless", "--size", "8x8"]).env("SHADERS", folder.path());
-    let words = "a ray has the missIndex 0, which is 05_shadow_miss/sky.rmiss, and passes a payload of another type";
+    let words = "a ray has the missIndex 0, which is common/sky.rmiss, and passes a payload of another type";
     refused_by(command, 1, &[&format!("05_shadow_miss/camera.rgen: {words}")]);
 }
 

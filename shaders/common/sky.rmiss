@@ -1,8 +1,9 @@
 #version 460
+// Taught by 05_shadow_miss.
 #extension GL_GOOGLE_include_directive : require
 #include "common/extensions.glsl"
-#include "push.glsl"
 #include "common/hit.glsl"
+#include "common/shade.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 
