@@ -1,7 +1,7 @@
 //! 26 · Leaving a surface: where a shadow ray or a mirrored ray starts, by eight rules.
 //!
 //! New since 06_reflection: a start for each direction, in three sizes of the scene and far from the
-//! origin. The hit shader reports what the strictest rule needs: the weights and the matrix.
+//! origin. The hit shader reports what the strictest rule needs: the barycentrics and the matrix.
 
 use std::process::ExitCode;
 

@@ -9,7 +9,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     vec3 normal = world_normal(surface);
     vec3 view = -gl_WorldRayDirectionEXT;

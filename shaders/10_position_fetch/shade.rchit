@@ -7,7 +7,7 @@
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
@@ -20,10 +20,10 @@ void main() {
     Surface surface;
     if (POSITIONS == POSITIONS_STRUCTURE) {
         corners = gl_HitTriangleVertexPositionsEXT;
-        surface = surface_at(corners, push.meshes.at[instance.mesh], instance.triangles.at[triangle], weights);
+        surface = surface_at(corners, push.meshes.at[instance.mesh], instance.triangles.at[triangle], barycentrics);
     } else {
         corners = corners_at(instance, triangle);
-        surface = surface_at(instance, triangle, weights);
+        surface = surface_at(instance, triangle, barycentrics);
     }
     // ANCHOR_END: corners
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -61,7 +61,7 @@ void main() {
         payload = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
     }
     if (SHOW == SHOW_HIT_POINT) {
-        payload = vec4(gl_ObjectToWorldEXT * vec4(point_at(corners, weights), 1.0), gl_HitTEXT);
+        payload = vec4(gl_ObjectToWorldEXT * vec4(point_at(corners, barycentrics), 1.0), gl_HitTEXT);
     }
     if (SHOW == SHOW_RAY_POINT) {
         payload = vec4(gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT, gl_HitTEXT);

@@ -74,7 +74,7 @@ Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
 
     Hit hit;
     hit.position = plane.anchor + from_anchor;
-    hit.height = 0.0;   // a ray that leaves the plane is not tested against it
+    hit.offset = 0.0;   // a ray that leaves the plane is not tested against it
     hit.face = inside ? -outward : outward;
     hit.t = t;
     hit.normal = hit.face;

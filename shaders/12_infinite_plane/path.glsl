@@ -27,7 +27,7 @@ bool goes_on(Path path) {
 // ANCHOR_END: path
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
+vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     bool plain = missed || hit.instance == PLANE;
     switch (SHOW) {
@@ -50,7 +50,7 @@ bool shines(Hit hit) {
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     vec3 mirror = vec3(0.0);
     if (hit.t >= 0.0 && !shines(hit)) {
@@ -84,7 +84,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start, visible));
     path.throughput *= mirror;
     path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
+    ray.origin = hit.position + hit.offset * hit.face;
     ray.direction = mirrored(ray.direction, hit.normal, hit.face);
     // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
     ray.width += ray.spread * hit.t;

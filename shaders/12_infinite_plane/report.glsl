@@ -1,5 +1,5 @@
 // What a hit shader reports of the surface that a ray met.
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
@@ -17,13 +17,13 @@ float curvature(InstanceRecord instance, uint triangle) {
 }
 
 // The built-in variables of a hit shader say which surface it is.
-Hit report(vec2 weights) {
+Hit report(vec2 barycentrics) {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     Hit hit;
-    place(hit, instance, triangle, weights);
+    hit_point(hit, instance, triangle, barycentrics);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));

@@ -6,9 +6,9 @@
 #include "report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(weights);
+    hit = report(barycentrics);
 }

@@ -3,7 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #include "report.glsl"
 #include "common/pattern.glsl"
 #include "finish.glsl"

@@ -3,7 +3,7 @@
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The point with these barycentric coordinates, in the mesh's own space.
 vec3 object_point(InstanceRecord instance, uint triangle, vec2 w) {
@@ -18,9 +18,9 @@ vec3 object_point(InstanceRecord instance, uint triangle, vec2 w) {
 void report() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights);
+    hit_point(hit, instance, triangle, barycentrics);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
@@ -34,6 +34,6 @@ void report() {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.object = object_point(instance, triangle, weights);
+    hit.object = object_point(instance, triangle, barycentrics);
     hit.weight = 0.0;
 }

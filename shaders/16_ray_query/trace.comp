@@ -55,7 +55,7 @@ Hit trace(vec3 origin, vec3 direction) {
 }
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
+vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {
         case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
@@ -80,7 +80,7 @@ void main() {
     vec3 direction = ray_direction(push.camera, point, imageSize(picture));
     Hit hit = trace(push.camera.origin, direction);
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     if (hit.t >= 0.0) {
         MaterialRecord material = push.scene.materials.at[hit.material];

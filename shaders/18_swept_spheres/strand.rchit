@@ -3,13 +3,13 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT Crossing crossing;
 
 // Where the hit is, and how far above the surface a leaving ray must start.
-void place_on_strand(Node a, Node b) {
+void hit_point_on_strand(Node a, Node b) {
     vec3 own;
     float radius;
     vec3 point = strand_point(a, b, crossing, own, radius);
@@ -19,13 +19,13 @@ void place_on_strand(Node a, Node b) {
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+    vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
     hit.position = world;
     hit.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * dot(abs(hit.face), straying);
+    hit.offset = ROUNDING * dot(abs(hit.face), error_bound);
 }
 
 // The nearest hit is a swept sphere: the intersection shader has left its normal, and where along it.
@@ -34,7 +34,7 @@ void main() {
     Segment segment = push.strands.segments.at[id];
     Node a = push.strands.nodes.at[segment.first];
     Node b = push.strands.nodes.at[segment.first + 1];
-    place_on_strand(a, b);
+    hit_point_on_strand(a, b);
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     if (NORMAL == NORMAL_AXIS) {

@@ -4,7 +4,7 @@
 #include "push.glsl"
 #include "common/heat.glsl"
 #include "common/hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #include "seen.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
@@ -12,7 +12,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 #include "common/lookup.glsl"
 
 layout(location = 0) rayPayloadInEXT Seen seen;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // What is read of a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
@@ -49,10 +49,10 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     Hit hit;
-    place(hit, instance, triangle, weights);
+    hit_point(hit, instance, triangle, barycentrics);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));

@@ -27,7 +27,7 @@ void place_on_ground() {
     hit.face = heightfield_normal(shape, point.xz);
     // A ray falls on the ground, or it comes up from below.
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = 2.0 * push.ground.error;
+    hit.offset = 2.0 * push.ground.error;
 }
 
 // The nearest hit is the ground.

@@ -3,7 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #include "solid.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
@@ -16,25 +16,25 @@ hitAttributeEXT uvec2 crossed;
 // Plane: brought onto it, the point is off by the rounding of the last sum, |p|. The next ray's height
 // is a sum of products with the distances to the anchor, or from the origin: 4 roundings of those.
 // Ball: as in shape.rchit of chapter 08, 46 roundings of the radius.
-vec3 point_of_face(Face face, out vec3 normal, out vec3 straying) {
+vec3 point_of_face(Face face, out vec3 normal, out vec3 error_bound) {
     precise vec3 p = gl_ObjectRayOriginEXT + gl_HitTEXT * gl_ObjectRayDirectionEXT;
     if (face.kind == FACE_BALL) {
         Ball ball = push.solids.balls.at[face.index];
         normal = normalize(p - ball.center);
         precise vec3 point = ball.center + ball.radius * normal;
-        straying = abs(point) + vec3(46.0 * ball.radius);
+        error_bound = abs(point) + vec3(46.0 * ball.radius);
         return point;
     }
     Plane plane = push.solids.planes.at[face.index];
     precise float off = height_below(plane, p) / dot(plane.normal, plane.normal);
     precise vec3 point = p + off * plane.normal;
     normal = normalize(plane.normal);
-    straying = 6.0 * abs(point) + 4.0 * abs(plane.anchor);
+    error_bound = 6.0 * abs(point) + 4.0 * abs(plane.anchor);
     return point;
 }
 
-// From there to the world, as for triangles (common/above.glsl).
-void place_on_face(Face face) {
+// From there to the world, as for triangles (common/ray_offset.glsl).
+void hit_point_on_face(Face face) {
     vec3 normal;
     vec3 own;
     vec3 point = point_of_face(face, normal, own);
@@ -44,7 +44,7 @@ void place_on_face(Face face) {
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+    vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
     hit.position = world;
@@ -52,7 +52,7 @@ void place_on_face(Face face) {
     // out. And that is the side seen, turned to the eye.
     hit.face = normalize(vec3(normal * gl_WorldToObjectEXT));
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * dot(abs(hit.face), straying);
+    hit.offset = ROUNDING * dot(abs(hit.face), error_bound);
 }
 
 // The nearest hit is a solid: the intersection shader has left its part and face.
@@ -60,7 +60,7 @@ void main() {
     SolidRecord solid = push.solids.at.at[gl_InstanceCustomIndexEXT - push.solids.first];
     Part part = push.solids.parts.at[solid.first_part + crossed.x];
     Face face = push.solids.faces.at[crossed.y];
-    place_on_face(face);
+    hit_point_on_face(face);
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     hit.lift = vec3(0.0);

@@ -4,12 +4,12 @@
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "time.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The inverse of a matrix, by its cofactors.
 mat4x3 inverted(const mat4x3 m) {
@@ -37,9 +37,9 @@ void main() {
     }
     InstanceRecord instance = push.scene.instances.at[record];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights, to_world, to_object, gl_WorldRayDirectionEXT);
+    hit_point(hit, instance, triangle, barycentrics, to_world, to_object, gl_WorldRayDirectionEXT);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));

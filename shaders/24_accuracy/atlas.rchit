@@ -4,9 +4,9 @@
 #include "atlas.glsl"
 
 layout(location = 0) rayPayloadInEXT Found payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // Only opaque hits come here.
 void main() {
-    payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, weights);
+    payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, barycentrics);
 }

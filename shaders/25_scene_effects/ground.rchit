@@ -17,7 +17,7 @@ void main() {
     hit.material = MATERIAL_GROUND;
     hit.color = vec3(0.0);
 #ifdef DEPARTURES
-    hit.height = 2.0 * push.world.ground.error;
+    hit.offset = 2.0 * push.world.ground.error;
     hit.face = hit.normal;
 #endif
 #ifdef LIFTS

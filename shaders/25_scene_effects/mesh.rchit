@@ -4,15 +4,15 @@
 #include "push.glsl"
 #include "hit.glsl"
 
-// Where no ray leaves a surface, no height is told: place() of chapter 05 fills what it knows.
+// Where no ray leaves a surface, no offset is told: hit_point() of chapter 05 fills what it knows.
 struct Placed {
     vec3 position;
-    float height;
+    float offset;
     vec3 face;
     vec3 lift;
 };
 #define Hit Placed
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #undef Hit
 
 #ifdef FINISHES
@@ -31,7 +31,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 #ifdef CURVES
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
@@ -88,10 +88,10 @@ vec3 point_between(vec3 corners[3], vec2 w) {
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     Placed placed;
-    place(placed, instance, triangle, weights);
+    hit_point(placed, instance, triangle, barycentrics);
     hit.position = placed.position;
     hit.t = gl_HitTEXT;
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
@@ -110,12 +110,12 @@ void main() {
     }
 #endif
 #ifdef DEPARTURES
-    hit.height = placed.height;
+    hit.offset = placed.offset;
     hit.face = placed.face;
 #endif
 #ifdef LIFTS
     // Not placed.lift: what is known sooner is kept in registers longer. The compiler drops the other.
-    hit.lift = lift_to_smooth(placed.face, instance, triangle, weights, gl_ObjectToWorldEXT);
+    hit.lift = lift_to_smooth(placed.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.
@@ -136,7 +136,7 @@ void main() {
 #endif
 #ifdef EFFECT_PATTERNS
     if (finish.pattern != PATTERN_PLAIN) {
-        hit.color = point_between(corners_of(instance, triangle), weights);
+        hit.color = point_between(corners_of(instance, triangle), barycentrics);
     }
 #endif
 #ifdef EFFECT_WIREFRAME

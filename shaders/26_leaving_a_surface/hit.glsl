@@ -3,7 +3,7 @@
 
 struct Hit {
     vec3 position;    // on the surface, in the world
-    float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
+    float offset;     // a ray that starts so far along `face` is above the surface, wherever it goes
     vec3 face;        // the triangle's own normal: unit, on the side that the ray came from
     float t;          // the distance along the ray; -1 if the ray met nothing
     vec3 normal;      // the normal to shade with: unit, on the same side
@@ -12,6 +12,6 @@ struct Hit {
     uint triangle;    // which triangle of the model
     vec3 lift;        // from the flat triangle to the round surface that its normals pretend
     uint instance;    // which instance: gl_InstanceCustomIndexEXT
-    vec2 weights;     // of the triangle's second and third corner
+    vec2 barycentrics;     // of the triangle's second and third corner
     mat4x3 to_mesh;   // from the world to the mesh's space: gl_WorldToObjectEXT
 };                    // 136 bytes

@@ -25,7 +25,7 @@ bool goes_on(Path path) {
 // ANCHOR_END: path
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, Ray ray, Start start, float visible) {
+vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {
         case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
@@ -41,7 +41,7 @@ vec4 view_of(Hit hit, Ray ray, Start start, float visible) {
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     vec3 color = hit.color;
-    Start start = Start(vec3(0.0), 0.0);
+    RayOrigin start = RayOrigin(vec3(0.0), 0.0);
     float visible = 1.0;
     vec3 mirror = vec3(0.0);
     Ray next = ray;

@@ -1,16 +1,16 @@
 // What a hit shader reports of the surface that a ray met.
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 // The built-in variables of a hit shader say which surface it is.
-Hit report(vec2 weights) {
+Hit report(vec2 barycentrics) {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     Hit hit;
-    place(hit, instance, triangle, weights);
+    hit_point(hit, instance, triangle, barycentrics);
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
@@ -24,7 +24,7 @@ Hit report(vec2 weights) {
     hit.material = instance.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.weights = weights;
+    hit.barycentrics = barycentrics;
     hit.to_mesh = gl_WorldToObjectEXT;
     return hit;
 }

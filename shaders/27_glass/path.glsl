@@ -78,7 +78,7 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
         path.media = beyond;
         side = -1.0;
     }
-    ray.origin = hit.position + side * hit.height * hit.face;
+    ray.origin = hit.position + side * hit.offset * hit.face;
     // ANCHOR_END: choice
     // A shadow ray does not see through glass: the light behind it is met by chance.
     path.asked = false;
@@ -117,7 +117,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // From within glass, a shadow ray would only find glass.
     bool asks = path.media.x == AIR;
     if (asks) {
-        Start start = shadow_start(hit);
+        RayOrigin start = shadow_start(hit);
         float visible = visible_part(push.world.light, start, numbers(path, DIMENSION_LIGHT));
         vec3 to_light = towards_light(push.world.light.light, start.origin);
         hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
@@ -144,5 +144,5 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         path.asked = asks;
     }
     path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
+    ray.origin = hit.position + hit.offset * hit.face;
 }

@@ -6,13 +6,13 @@
 #include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(push.world.scene, weights);
+    hit = report(push.world.scene, barycentrics);
     // A normal without faceforward looks out of the body.
     InstanceRecord instance = push.world.scene.instances.at[hit.instance];
-    vec3 out_of = vec3(surface_at(instance, hit.triangle, weights).face * gl_WorldToObjectEXT);
+    vec3 out_of = vec3(surface_at(instance, hit.triangle, barycentrics).face * gl_WorldToObjectEXT);
     hit.entering = dot(out_of, hit.face) > 0.0;
 }

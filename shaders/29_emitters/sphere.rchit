@@ -3,7 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
@@ -16,7 +16,7 @@ void main() {
     precise vec3 point = sphere.corner + sphere.radius * outward;
     hit.position = point;
     hit.face = faceforward(outward, gl_WorldRayDirectionEXT, outward);
-    hit.height = ROUNDING * dot(abs(outward), 31.0 * abs(point) + vec3(46.0 * sphere.radius));
+    hit.offset = ROUNDING * dot(abs(outward), 31.0 * abs(point) + vec3(46.0 * sphere.radius));
     hit.t = gl_HitTEXT;
     // A sphere has one normal, and is as round as it looks.
     hit.normal = hit.face;

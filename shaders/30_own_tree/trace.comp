@@ -31,7 +31,7 @@ Hit trace(vec3 origin, vec3 direction, out Met met) {
 }
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
+vec4 view_of(Hit hit, Met met, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {
         case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
@@ -59,7 +59,7 @@ void main() {
     Met met;
     Hit hit = trace(push.camera.origin, direction, met);
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     float apart = 1.0;    // from the pixel of the one ray
     if (SHOW == SHOW_WALK) {

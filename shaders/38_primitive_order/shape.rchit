@@ -3,7 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
@@ -16,8 +16,8 @@ hitAttributeEXT vec3 outward;
 // for u·r and then, for the roots to have one sign, needs 6u·r (c) or 29u·r (the foot: 15u·r along the ray,
 // 4u·r across, 10u·r of root and sum): 46u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
-// difference is never wrong. Then the instance's transform, as for triangles (common/above.glsl).
-void place_on_shape() {
+// difference is never wrong. Then the instance's transform, as for triangles (common/ray_offset.glsl).
+void hit_point_on_shape() {
     precise vec3 point;
     vec3 own;
     if (gl_HitKindEXT == KIND_SPHERE) {
@@ -38,13 +38,13 @@ void place_on_shape() {
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+    vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
     hit.position = world;
     hit.face = normalize(vec3(outward * gl_WorldToObjectEXT));
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * dot(abs(hit.face), straying);
+    hit.offset = ROUNDING * dot(abs(hit.face), error_bound);
 }
 
 // The nearest hit is a sphere or a box: the intersection shader has left its normal.
@@ -53,7 +53,7 @@ void main() {
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
     uint material = sphere ? sphere_of(gl_PrimitiveID).material : box_of(gl_PrimitiveID).material;
-    place_on_shape();
+    hit_point_on_shape();
     hit.t = gl_HitTEXT;
     // A shape has one normal, and is as round as it looks.
     hit.normal = hit.face;

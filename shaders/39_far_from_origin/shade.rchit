@@ -3,13 +3,13 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #include "common/instance.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // From the mesh's space to the world, not of unit length. The matrix is right only if it turns and no
 // more: whatever stretches a surface one way must turn its normal the other way.
@@ -40,9 +40,9 @@ void main() {
     PieceRecord piece = push.pieces.at[gl_InstanceCustomIndexEXT];
     InstanceRecord instance = push.scene.instances.at[piece.mesh];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[piece.material];
-    place(hit, instance, triangle, weights);
+    hit_point(hit, instance, triangle, barycentrics);
     hit.t = gl_HitTEXT;
     vec3 normal = normalize(world_normal(piece, surface.normal));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.

@@ -10,14 +10,14 @@
 #include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: lit here, and the mirrored ray is traced from here.
 void main() {
     // ANCHOR: trace
     // The built-in variables are read before anything is traced: afterwards the software driver takes
     // these for the last ray's own.
-    Hit hit = report(push.scene, weights);
+    Hit hit = report(push.scene, barycentrics);
     Ray ray = Ray(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT);
     advance(path, ray, hit);
     if (goes_on(path)) {

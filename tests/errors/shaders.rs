@@ -381,8 +381,8 @@ fn a_hit_attribute_is_of_the_type_that_is_written() {
         (
             "02_basic",
             "shade.rchit",
-            "hitAttributeEXT vec2 weights;",
-            "hitAttributeEXT vec3 all;\n#define weights all.xy",
+            "hitAttributeEXT vec2 barycentrics;",
+            "hitAttributeEXT vec3 all;\n#define barycentrics all.xy",
             "its hitAttributeEXT is no vec2, and a triangle's are two weights",
         ),
     ] {
