@@ -4,10 +4,10 @@
 #include "push.glsl"
 #include "hit.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    hit.t = -1.0;
-    hit.color = sky(gl_WorldRayDirectionEXT);
+    seen.hit.t = -1.0;
+    seen.hit.color = sky(gl_WorldRayDirectionEXT);
 }

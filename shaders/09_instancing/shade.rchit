@@ -7,7 +7,7 @@
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT PieceHit seen;
 hitAttributeEXT vec2 barycentrics;
 
 // From the mesh's space to the world, not of unit length. The matrix is right only if it turns and no
@@ -30,7 +30,12 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[piece.material];
-    hit_point(hit, instance, triangle, barycentrics);
+    Hit hit;
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     vec3 normal = normalize(world_normal(piece, surface.normal));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
@@ -43,6 +48,7 @@ void main() {
     hit.material = piece.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.place = gl_InstanceID;
-    hit.object = surface.normal;
+    seen.hit = hit;
+    seen.place = gl_InstanceID;
+    seen.object = surface.normal;
 }

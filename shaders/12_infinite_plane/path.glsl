@@ -47,7 +47,8 @@ bool shines(Hit hit) {
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
-void advance(inout Path path, inout Ray ray, Hit hit) {
+void advance(inout Path path, inout Ray ray, CurvedHit seen) {
+    Hit hit = seen.hit;
     // ANCHOR: light
     vec3 color = hit.color;
     RayOrigin start = shadow_start(hit);
@@ -88,5 +89,5 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     ray.direction = mirrored(ray.direction, hit.normal, hit.face);
     // A curved mirror turns what comes along the cone's sides apart, by twice the angle of its normals.
     ray.width += ray.spread * hit.t;
-    ray.spread += 2.0 * hit.curvature * ray.width;
+    ray.spread += 2.0 * seen.curvature * ray.width;
 }

@@ -3,7 +3,6 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/hit_point.glsl"
 #include "report.glsl"
 #include "common/pattern.glsl"
 #include "finish.glsl"
@@ -11,6 +10,6 @@
 // The nearest hit on marble: the record has chosen this shader, and nothing is left to choose.
 void main() {
     report();
-    Finish finish = push.finishes.at[hit.material];
-    mix_colors(hit, finish, marble(finish.scale * hit.object, int(push.far)));
+    Finish finish = push.finishes.at[seen.hit.material];
+    mix_colors(seen, finish, marble(finish.scale * seen.object, int(push.far)));
 }

@@ -3,7 +3,6 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/hit_point.glsl"
 #include "report.glsl"
 #include "choose.glsl"
 
@@ -11,6 +10,6 @@
 void main() {
     report();
     if (STAGE == STAGE_HIT && CHOOSE != CHOOSE_HIT_GROUP) {
-        patterned(hit);
+        patterned(seen);
     }
 }

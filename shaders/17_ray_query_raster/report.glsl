@@ -21,7 +21,11 @@ void report(inout Hit hit, Seen seen, vec3 ray) {
     InstanceRecord instance = push.scene.instances.at[seen.instance];
     Surface surface = surface_at(instance, seen.triangle, seen.barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    hit_point(hit, instance, seen.triangle, seen.barycentrics, to_world, to_object, ray);
+    HitPoint at = hit_point(instance, seen.triangle, seen.barycentrics, to_world, to_object, ray);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = dot(hit.position - push.camera.origin, ray);
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));

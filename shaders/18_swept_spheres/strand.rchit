@@ -5,11 +5,11 @@
 #include "hit.glsl"
 #include "common/hit_point.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT StrandHit seen;
 hitAttributeEXT Crossing crossing;
 
 // Where the hit is, and how far above the surface a leaving ray must start.
-void hit_point_on_strand(Node a, Node b) {
+HitPoint hit_point_on_strand(Node a, Node b) {
     vec3 own;
     float radius;
     vec3 point = strand_point(a, b, crossing, own, radius);
@@ -22,10 +22,13 @@ void hit_point_on_strand(Node a, Node b) {
     vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
-    hit.position = world;
-    hit.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
-    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.offset = ROUNDING * dot(abs(hit.face), error_bound);
+    HitPoint at;
+    at.position = world;
+    at.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
+    at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
+    at.offset = ROUNDING * dot(abs(at.face), error_bound);
+    at.lift = vec3(0.0);   // a shape is as round as it looks
+    return at;
 }
 
 // The nearest hit is a swept sphere: the intersection shader has left its normal, and where along it.
@@ -34,7 +37,12 @@ void main() {
     Segment segment = push.strands.segments.at[id];
     Node a = push.strands.nodes.at[segment.first];
     Node b = push.strands.nodes.at[segment.first + 1];
-    hit_point_on_strand(a, b);
+    HitPoint at = hit_point_on_strand(a, b);
+    Hit hit;
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     if (NORMAL == NORMAL_AXIS) {
@@ -44,10 +52,9 @@ void main() {
         vec3 away = normalize(from - dot(from, axis) / max(dot(axis, axis), 1e-30) * axis);
         hit.normal = faceforward(away, gl_WorldRayDirectionEXT, away);
     }
-    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[segment.material].base_color;
     hit.material = segment.material;
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.along = crossing.s;
+    seen = StrandHit(hit, crossing.s);
 }

@@ -6,7 +6,7 @@
 #include "common/hit_point.glsl"
 #include "solid.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT SolidHit seen;
 // The part and the face that the ray goes through.
 hitAttributeEXT uvec2 crossed;
 
@@ -34,7 +34,7 @@ vec3 point_of_face(Face face, out vec3 normal, out vec3 error_bound) {
 }
 
 // From there to the world, as for triangles (common/ray_offset.glsl).
-void hit_point_on_face(Face face) {
+HitPoint hit_point_on_face(Face face) {
     vec3 normal;
     vec3 own;
     vec3 point = point_of_face(face, normal, own);
@@ -47,12 +47,15 @@ void hit_point_on_face(Face face) {
     vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
-    hit.position = world;
+    HitPoint at;
+    at.position = world;
     // Out of the solid, whichever part has the face: against a ray that comes in, along one that goes
     // out. And that is the side seen, turned to the eye.
-    hit.face = normalize(vec3(normal * gl_WorldToObjectEXT));
-    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.offset = ROUNDING * dot(abs(hit.face), error_bound);
+    at.face = normalize(vec3(normal * gl_WorldToObjectEXT));
+    at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
+    at.offset = ROUNDING * dot(abs(at.face), error_bound);
+    at.lift = vec3(0.0);   // a shape is as round as it looks
+    return at;
 }
 
 // The nearest hit is a solid: the intersection shader has left its part and face.
@@ -60,14 +63,18 @@ void main() {
     SolidRecord solid = push.solids.at.at[gl_InstanceCustomIndexEXT - push.solids.first];
     Part part = push.solids.parts.at[solid.first_part + crossed.x];
     Face face = push.solids.faces.at[crossed.y];
-    hit_point_on_face(face);
+    HitPoint at = hit_point_on_face(face);
+    Hit hit;
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
-    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[part.material].base_color;
     hit.material = part.material;
     // The place of the face among those of its solid.
     hit.triangle = crossed.y - push.solids.parts.at[solid.first_part].first_face;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.kind = gl_HitKindEXT;
+    seen = SolidHit(hit, gl_HitKindEXT);
 }

@@ -3,17 +3,7 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-
-// Where no ray leaves a surface, no offset is told: hit_point() of chapter 05 fills what it knows.
-struct Placed {
-    vec3 position;
-    float offset;
-    vec3 face;
-    vec3 lift;
-};
-#define Hit Placed
 #include "common/hit_point.glsl"
-#undef Hit
 
 #ifdef FINISHES
 #include "finish.glsl"
@@ -90,36 +80,35 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    Placed placed;
-    hit_point(placed, instance, triangle, barycentrics);
-    hit.position = placed.position;
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
     hit.t = gl_HitTEXT;
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    hit.normal = faceforward(normal, -placed.face, normal);
+    hit.normal = faceforward(normal, -at.face, normal);
     hit.material = instance.material;
     hit.color = material.base_color;
 #ifdef EFFECT_TEXTURES
     if (material.base_texture >= 0) {
         int index = material.base_texture;
 #ifdef EFFECT_FILTERED_TEXTURES
-        hit.color *= texture_along(index, surface.uv, row_on(instance, triangle, placed.face, index));
+        hit.color *= texture_along(index, surface.uv, row_on(instance, triangle, at.face, index));
 #else
         hit.color *= textureLod(textures[nonuniformEXT(index)], surface.uv, 0.0).rgb;
 #endif
     }
 #endif
 #ifdef DEPARTURES
-    hit.offset = placed.offset;
-    hit.face = placed.face;
+    hit.offset = at.offset;
+    hit.face = at.face;
 #endif
 #ifdef LIFTS
-    // Not placed.lift: what is known sooner is kept in registers longer. The compiler drops the other.
-    hit.lift = lift_to_smooth(placed.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
+    // Not at.lift: what is known sooner is kept in registers longer. The compiler drops the other.
+    hit.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.
-    hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), placed.face) > 0.0;
+    hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), at.face) > 0.0;
 #endif
 #ifdef CHANCES
     hit.emitter = NO_EMITTER;

@@ -27,19 +27,20 @@ struct Departure {
     vec3 e2;
 };
 
-Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
+Departure departure(TriangleHit seen, InstanceRecord instance, Ray arriving) {
+    Hit hit = seen.hit;
     uvec3 corner = instance.triangles.at[hit.triangle];
     vec3 a = instance.vertices.at[corner.x].position;
     Departure from;
     from.e1 = instance.vertices.at[corner.y].position - a;
     from.e2 = instance.vertices.at[corner.z].position - a;
-    precise vec3 within = hit.barycentrics.x * from.e1 + hit.barycentrics.y * from.e2;
+    precise vec3 within = seen.barycentrics.x * from.e1 + seen.barycentrics.y * from.e2;
     precise vec3 point = a + within;
     from.reached = arriving.start.origin + hit.t * arriving.direction;
     from.position = hit.position;
     from.normal = hit.face;
     from.offset = hit.offset;
-    from.to_mesh = mat3(hit.to_mesh);
+    from.to_mesh = mat3(seen.to_mesh);
     from.to_a = -within;
 
     // Without an area there is no normal but the one that chapter 05 chose.
@@ -48,9 +49,9 @@ Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
     // A normal comes into the world by the transposed matrix that takes points out of it.
     up = faceforward(up, -from.normal, up * from.to_mesh);
     mat3 sizes = mat3(abs(from.to_mesh[0]), abs(from.to_mesh[1]), abs(from.to_mesh[2]));
-    precise vec3 back = hit.to_mesh * vec4(from.position, 1.0);
+    precise vec3 back = seen.to_mesh * vec4(from.position, 1.0);
     vec3 rounding = abs(point) + 3.0 * (abs(from.e1) + abs(from.e2))
-        + 8.0 * (sizes * abs(from.position) + abs(hit.to_mesh[3]));
+        + 8.0 * (sizes * abs(from.position) + abs(seen.to_mesh[3]));
     from.sunk = dot(up, point - back);
     from.error = dot(abs(up), rounding);
     from.rise = dot(up, from.to_mesh * from.normal);

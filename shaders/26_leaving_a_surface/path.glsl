@@ -39,7 +39,8 @@ vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
-void advance(inout Path path, inout Ray ray, Hit hit) {
+void advance(inout Path path, inout Ray ray, TriangleHit seen) {
+    Hit hit = seen.hit;
     vec3 color = hit.color;
     RayOrigin start = RayOrigin(vec3(0.0), 0.0);
     float visible = 1.0;
@@ -47,7 +48,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     Ray next = ray;
     if (hit.t >= 0.0) {
         // ANCHOR: light
-        Departure from = departure(hit, push.scene.instances.at[hit.instance], ray);
+        Departure from = departure(seen, push.scene.instances.at[hit.instance], ray);
         start = shadow_start(hit, from, push.light.direction);
         visible = visibility(hit, start, push.light.direction);
         // Fetched after the shadow ray: a material would wait in registers for it.

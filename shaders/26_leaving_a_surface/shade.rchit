@@ -3,12 +3,14 @@
 #include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "report.glsl"
+#include "common/report.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT TriangleHit seen;
 hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(barycentrics);
+    seen.hit = report(push.scene, barycentrics);
+    seen.barycentrics = barycentrics;
+    seen.to_mesh = gl_WorldToObjectEXT;
 }

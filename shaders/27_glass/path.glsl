@@ -44,11 +44,12 @@ bool goes_on(inout Path path) {
 }
 
 // A ray met glass, and goes one of two ways.
-void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
+void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
+    Hit hit = seen.hit;
     // ANCHOR: between
     uvec4 beyond = path.media;
     if (glass.kind == GLASS_THICK) {
-        beyond = hit.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
+        beyond = seen.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
     }
     uint inner = glass.kind == GLASS_THIN ? hit.material : beyond.x;
     bool is_real = inner != path.media.x;
@@ -85,7 +86,8 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
 }
 
 // Lights and gathers the surface that a ray has met, and chooses the next ray.
-void advance(inout Path path, inout Ray ray, Hit hit) {
+void advance(inout Path path, inout Ray ray, BodyHit seen) {
+    Hit hit = seen.hit;
     // ANCHOR: absorb
     if (path.media.x != AIR && hit.t >= 0.0) {
         path.throughput *= left_after(hit.t * push.world.glasses.at[path.media.x].absorption);
@@ -104,7 +106,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
     Glass glass = push.world.glasses.at[hit.material];
     if (glass.kind != GLASS_NONE) {
-        pass(path, ray, hit, glass);
+        pass(path, ray, seen, glass);
         path.bounce++;
         return;
     }

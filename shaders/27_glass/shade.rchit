@@ -5,14 +5,14 @@
 #include "hit.glsl"
 #include "common/report.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT BodyHit seen;
 hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(push.world.scene, barycentrics);
+    seen.hit = report(push.world.scene, barycentrics);
     // A normal without faceforward looks out of the body.
-    InstanceRecord instance = push.world.scene.instances.at[hit.instance];
-    vec3 out_of = vec3(surface_at(instance, hit.triangle, barycentrics).face * gl_WorldToObjectEXT);
-    hit.entering = dot(out_of, hit.face) > 0.0;
+    InstanceRecord instance = push.world.scene.instances.at[seen.hit.instance];
+    vec3 out_of = vec3(surface_at(instance, seen.hit.triangle, barycentrics).face * gl_WorldToObjectEXT);
+    seen.entering = dot(out_of, seen.hit.face) > 0.0;
 }

@@ -4,11 +4,11 @@
 #include "push.glsl"
 #include "hit.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT BodyHit seen;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    hit.t = -1.0;
+    seen.hit.t = -1.0;
     vec3 day = sky(gl_WorldRayDirectionEXT);
-    hit.color = SKY == SKY_WHITE ? vec3(1.0) : SKY == SKY_DAY ? day : 0.3 * day * day;
+    seen.hit.color = SKY == SKY_WHITE ? vec3(1.0) : SKY == SKY_DAY ? day : 0.3 * day * day;
 }

@@ -16,7 +16,11 @@ void main() {
     uint triangle = instance.original.at[gl_PrimitiveID];
     Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    hit_point(hit, instance, triangle, barycentrics);
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     if (!SMOOTH_TERMINATOR) {
         hit.lift = vec3(0.0);
     }

@@ -4,8 +4,7 @@
 // variables say which ray it was, and where the instance lies.
 #include "ray_offset.glsl"
 
-// Fills position, face, offset and lift of a hit.
-void hit_point(inout Hit hit, InstanceRecord instance, uint triangle, vec2 barycentrics) {
-    hit_point(hit, instance, triangle, barycentrics, gl_ObjectToWorldEXT, gl_WorldToObjectEXT,
+HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 barycentrics) {
+    return hit_point(instance, triangle, barycentrics, gl_ObjectToWorldEXT, gl_WorldToObjectEXT,
         gl_WorldRayDirectionEXT);
 }

@@ -56,9 +56,17 @@ vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 bary
     return mat3(to_world) * lift;
 }
 
-// Fills position, face, offset and lift of a hit: of a ray in direction `ray`, on a triangle of an instance that
-// `to_world` places. What is `const` needs no copy, which could cost registers.
-void hit_point(inout Hit hit, InstanceRecord instance, uint triangle, vec2 barycentrics, const mat4x3 to_world,
+// The part of a hit that says where rays may leave; common/hit.glsl explains its fields.
+struct HitPoint {
+    vec3 position;
+    float offset;
+    vec3 face;
+    vec3 lift;
+};
+
+// Where a ray in direction `ray` meets a triangle of an instance that `to_world` places. What is `const` needs no
+// copy, which could cost registers.
+HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 barycentrics, const mat4x3 to_world,
         const mat4x3 to_object, const vec3 ray) {
     uvec3 corner = instance.triangles.at[triangle];
     vec3 a = instance.vertices.at[corner.x].position;
@@ -82,11 +90,13 @@ void hit_point(inout Hit hit, InstanceRecord instance, uint triangle, vec2 baryc
     area = max(max(area, 2.0 * ROUNDING * longest * longest), 1e-30);
     float test = longest * (37.0 + 2.0 * longest * longest / area);
 
-    hit.position = world;
+    HitPoint at;
+    at.position = world;
     vec3 face = vec3(cross(e1, e2) * to_object);
     // Without an area there is no normal: then the side that the ray came from is up.
-    hit.face = normalize(dot(face, face) > 1e-37 ? face : ray);
-    hit.face = faceforward(hit.face, ray, hit.face);
-    hit.offset = ROUNDING * (dot(abs(hit.face), error_bound) + test);
-    hit.lift = lift_to_smooth(hit.face, instance, triangle, barycentrics, to_world);
+    at.face = normalize(dot(face, face) > 1e-37 ? face : ray);
+    at.face = faceforward(at.face, ray, at.face);
+    at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);
+    at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);
+    return at;
 }

@@ -34,8 +34,8 @@ fn run_by(shaders: &Path, more: &[&str]) -> (Picture, f64) {
 }
 
 /// The bound of `ray_offset.glsl`, and the line of `shade.rchit` after which a hit has its place.
-const BOUND: &str = "hit.offset = ROUNDING * (dot(abs(hit.face), error_bound) + test);";
-const PLACED: &str = "    hit_point(hit, instance, triangle, barycentrics);\n";
+const BOUND: &str = "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);";
+const PLACED: &str = "    hit.lift = at.lift;\n";
 
 /// What becomes dark by mistake where the origin is nearer to the surface than the bound says.
 #[test]

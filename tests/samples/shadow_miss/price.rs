@@ -18,14 +18,14 @@ const PARTS: [(&str, &str, &str, &str); 6] = [
     (
         "height",
         "common/ray_offset.glsl",
-        "hit.offset = ROUNDING * (dot(abs(hit.face), error_bound) + test);",
-        "hit.offset = 1e-4;",
+        "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);",
+        "at.offset = 1e-4;",
     ),
     (
         "lift",
         "common/ray_offset.glsl",
-        "hit.lift = lift_to_smooth(hit.face, instance, triangle, barycentrics, to_world);",
-        "hit.lift = vec3(0.0);",
+        "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);",
+        "at.lift = vec3(0.0);",
     ),
     ("texture", "05_shadow_miss/shade.rchit", "if (material.base_texture >= 0) {", "if (false) {"),
     (
