@@ -1,4 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+#include "common/views.glsl"
 
 // ANCHOR: path
 struct Path {
@@ -29,19 +30,6 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-// What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
-    bool missed = hit.t < 0.0;
-    switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
-    }
-}
-
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
@@ -63,7 +51,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR_END: light
     // ANCHOR: next
     bool is_picture = SHOW == SHOW_PICTURE;
-    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start, visible));
+    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start.origin, visible));
     path.throughput *= mirror;
     path.bounce++;
     ray.origin = hit.position + hit.offset * hit.face;

@@ -1,6 +1,7 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
 
 #include "ray.glsl"
+#include "common/views.glsl"
 
 // ANCHOR: path
 struct Path {
@@ -31,13 +32,10 @@ vec4 view_of(Hit hit, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     bool plain = missed || hit.instance == PLANE;
     switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
         case SHOW_TRIANGLE: return vec4(plain ? hit.color : false_color(hit.triangle), 1.0);
         case SHOW_HIT:
             return missed ? vec4(-1.0) : vec4(int(hit.instance), hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+        default: return view_of(hit, direction, start.origin, visible);
     }
 }
 

@@ -60,7 +60,8 @@ vec4 view_of(Hit hit, Seen seen, vec3 direction, float visible, float open) {
     switch (SHOW) {
         case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
         case SHOW_WEIGHTS:
-            return vec4(missed ? hit.color : vec3(seen.barycentrics, 1.0 - seen.barycentrics.x - seen.barycentrics.y), 1.0);
+            return vec4(missed ? hit.color
+                : vec3(seen.barycentrics, 1.0 - seen.barycentrics.x - seen.barycentrics.y), 1.0);
         case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
         case SHOW_DIRECTION: return vec4(direction, hit.t);
         case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);

@@ -1,4 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+#include "common/views.glsl"
 
 // ANCHOR: path
 struct Path {
@@ -26,15 +27,9 @@ bool goes_on(Path path) {
 
 // What a view shows of a hit instead of the picture.
 vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
-    bool missed = hit.t < 0.0;
     switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(ray.direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
         case SHOW_RAY_ORIGIN: return vec4(ray.start.origin, ray.start.tmin);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+        default: return view_of(hit, ray.direction, start.origin, visible);
     }
 }
 

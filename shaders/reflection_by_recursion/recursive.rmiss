@@ -14,6 +14,6 @@ void main() {
     Hit hit;
     hit.t = -1.0;
     hit.color = sky(gl_WorldRayDirectionEXT);
-    vec4 view = view_of(hit, gl_WorldRayDirectionEXT, RayOrigin(vec3(0.0), vec3(0.0)), 1.0);
+    vec4 view = view_of(hit, gl_WorldRayDirectionEXT, vec3(0.0), 1.0);
     gather(path, SHOW == SHOW_PICTURE ? vec4(hit.color, 1.0) : view);
 }
