@@ -66,11 +66,12 @@ pub fn own(project: &Project, chapter: &Chapter) -> Vec<String> {
     files
 }
 
-/// The shaders that a chapter includes from elsewhere, directly or not, each with a file that does so.
+/// The shaders that a chapter takes from elsewhere, directly or not, each with a file that names or includes it.
 pub fn shared(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> {
     let own = own(project, chapter);
-    let mut found = BTreeMap::new();
+    let mut found = named(project, chapter);
     let mut open = own.clone();
+    open.extend(found.keys().cloned());
     while let Some(file) = open.pop() {
         for included in includes(project, &file) {
             if !own.contains(&included) && !found.contains_key(&included) {
@@ -78,6 +79,24 @@ pub fn shared(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> 
                 open.push(included);
             }
         }
+    }
+    found
+}
+
+/// The stages of `shaders/common` that a chapter's program names, each with the source that does so.
+fn named(project: &Project, chapter: &Chapter) -> BTreeMap<String, String> {
+    let stages: Vec<String> = project
+        .files("shaders/common")
+        .into_iter()
+        .filter(|file| !file.ends_with(".glsl"))
+        .collect();
+    let mut found = BTreeMap::new();
+    for source in project.files(&format!("samples/{}", chapter.name)) {
+        let text = project.read(&source).unwrap_or_default();
+        let is_named = |stage: &&String| {
+            text.contains(&format!("\"{}\"", stage.trim_start_matches("shaders/")))
+        };
+        found.extend(stages.iter().filter(is_named).map(|stage| (stage.clone(), source.clone())));
     }
     found
 }

@@ -49,7 +49,7 @@ pub fn pipeline(
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("reflection_by_recursion/recursive.rgen")
         .miss("reflection_by_recursion/recursive.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("reflection_by_recursion/recursive.rchit"))
         .constant(0, constants.show)
         // The camera's ray and every reflection are a level each, and so is the last hit's shadow ray.

@@ -145,7 +145,7 @@ fn pipeline(
     let builder = RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(hit("shade.rchit"))
         .hit(hit("marble.rchit"))
         .hit(hit("wood.rchit"))

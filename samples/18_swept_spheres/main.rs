@@ -158,7 +158,7 @@ fn pipeline(
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("swept.rint").closest_hit("strand.rchit"))
         .constant(0, constants.show)

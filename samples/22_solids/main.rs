@@ -173,7 +173,7 @@ fn pipeline(
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("solid.rint").closest_hit("solid.rchit"))
         .constant(0, constants.show)

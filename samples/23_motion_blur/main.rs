@@ -210,8 +210,8 @@ fn pipeline(
 ) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
-        .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/sky.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("moved.rint").closest_hit("shade.rchit"))
         .constant(0, constants.show)

@@ -145,7 +145,7 @@ pub fn pipeline(gpu: &Gpu, textures: &TextureTable, recipe: Recipe) -> Result<Ra
         .raygen("camera.rgen")
         .miss("sky.rmiss");
     if recipe.effects.has_any(&[PointShadows, DirectionalShadows, Emitters]) {
-        builder = builder.miss("shadow.rmiss");
+        builder = builder.miss("common/shadow.rmiss");
     }
     for kind in recipe.kinds() {
         builder = builder.hit(recipe.hit_group(kind));

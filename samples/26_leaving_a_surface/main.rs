@@ -1,7 +1,7 @@
 //! 26 · Leaving a surface: where a shadow ray or a mirrored ray starts, by eight rules.
 //!
 //! New since 06_reflection: a start for each direction, in three sizes of the scene and far from the
-//! origin. The hit shader reports what the strictest rule needs: the weights and the matrix.
+//! origin. The hit shader reports what the strictest rule needs: the barycentrics and the matrix.
 
 use std::process::ExitCode;
 
@@ -145,7 +145,7 @@ fn pipeline(
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.origin)

@@ -34,8 +34,8 @@ common::shader_struct! {
         /// Index of its material.
         pub material: u32,
         /// A ray that ends so far above it, and [`Emitter::slack`] times its length, does not meet it.
-        pub height: f32,
-        /// See [`Emitter::height`].
+        pub offset: f32,
+        /// See [`Emitter::offset`].
         pub slack: f32,
     }
 }
@@ -128,7 +128,7 @@ fn sphere(sphere: &Sphere) -> Emitter {
         probability: 0.0,
         along: Vec3::ZERO,
         material: sphere.material as u32,
-        height: (ROUNDING * height) as f32,
+        offset: (ROUNDING * height) as f32,
         slack: (ROUNDING * 80.0) as f32,
     }
 }
@@ -141,7 +141,7 @@ fn triangles(scene: &Scene, instance: &Instance) -> impl Iterator<Item = Emitter
     })
 }
 
-/// The least distance from a ray's end to a triangle: as in common/above.glsl for one that starts there, for the
+/// The least distance from a ray's end to a triangle: as in common/ray_offset.glsl for one that starts there, for the
 /// farthest corner. The part that grows with the way is `slack`: 25u for origin and direction in the mesh's space,
 /// and those parts of the triangle's test that there are multiples of its longest edge; and 10u of the target's
 /// place.
@@ -154,11 +154,11 @@ fn triangle(corners: [DVec3; 3], instance: &Instance) -> Emitter {
     let (out, back) = (absolute(linear), absolute(linear.inverse()));
     let height = corners.map(|corner| {
         let (reach, world) = (out * corner.abs(), (linear * corner + shift).abs());
-        let straying = out * (corner.abs() + 3.0 * ((b - a).abs() + (c - a).abs()))
+        let error_bound = out * (corner.abs() + 3.0 * ((b - a).abs() + (c - a).abs()))
             + 4.0 * (reach + shift.abs())
             + 2.0 * world
             + out * (back * (18.0 * reach + 14.0 * (world + shift.abs())));
-        straying.length()
+        error_bound.length()
     });
     let longest = across.length().max(along.length()).max((along - across).length());
     let area = across.cross(along).length().max(2.0 * ROUNDING * longest * longest).max(1e-300);
@@ -173,7 +173,7 @@ fn triangle(corners: [DVec3; 3], instance: &Instance) -> Emitter {
         probability: 0.0,
         along: along.as_vec3(),
         material: instance.material as u32,
-        height: (ROUNDING * height) as f32,
+        offset: (ROUNDING * height) as f32,
         slack: (ROUNDING * (25.0 * norm + test + 10.0)) as f32,
     }
 }

@@ -100,8 +100,8 @@ impl Sample for Demo {
 fn pipeline(gpu: &Gpu, textures: &TextureTable, show: Show) -> Result<RayTracingPipeline> {
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
-        .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/sky.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, show)
         .recursion(1)

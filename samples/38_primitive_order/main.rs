@@ -192,7 +192,7 @@ fn pipeline(
     RayTracingPipeline::builder(env!("CARGO_BIN_NAME"))
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .hit(HitGroup::procedural("sphere.rint").closest_hit("shape.rchit"))
         .hit(HitGroup::procedural("box.rint").closest_hit("shape.rchit"))

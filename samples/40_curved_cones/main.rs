@@ -118,7 +118,7 @@ fn pipeline(
     builder
         .raygen("camera.rgen")
         .miss("sky.rmiss")
-        .miss("shadow.rmiss")
+        .miss("common/shadow.rmiss")
         .hit(HitGroup::triangles().closest_hit("shade.rchit"))
         .constant(0, constants.show)
         .constant(1, constants.footprint)

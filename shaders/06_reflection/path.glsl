@@ -1,4 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+#include "common/views.glsl"
 
 // ANCHOR: path
 struct Path {
@@ -29,24 +30,11 @@ bool goes_on(Path path) {
 }
 // ANCHOR_END: path
 
-// What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
-    bool missed = hit.t < 0.0;
-    switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
-    }
-}
-
 // What a ray has met is lit and gathered, and says which ray comes next.
 void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR: light
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     vec3 mirror = vec3(0.0);
     if (hit.t >= 0.0) {
@@ -63,10 +51,10 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // ANCHOR_END: light
     // ANCHOR: next
     bool is_picture = SHOW == SHOW_PICTURE;
-    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start, visible));
+    gather(path, is_picture ? vec4(color, 1.0) : view_of(hit, ray.direction, start.origin, visible));
     path.throughput *= mirror;
     path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
+    ray.origin = hit.position + hit.offset * hit.face;
     ray.direction = mirrored(ray.direction, hit.normal, hit.face);
     // ANCHOR_END: next
 }

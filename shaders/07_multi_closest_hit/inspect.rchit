@@ -1,19 +1,17 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit, not as it looks but as it is: what the looks need not know.
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
     if (push.show == SHOW_NORMAL) {
-        Surface surface = surface_at(instance, triangle, weights);
+        Surface surface = surface_at(instance, triangle, barycentrics);
         vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
         vec3 face = vec3(surface.face * gl_WorldToObjectEXT);
         face = faceforward(face, gl_WorldRayDirectionEXT, face);

@@ -2,7 +2,7 @@
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // ANCHOR: look
 // What follows the handle in this shader's record.
@@ -17,7 +17,7 @@ layout(shaderRecordEXT, scalar) buffer Look {
 // The triangle that was hit.
 Surface surface_at_hit() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
-    return surface_at(instance, instance.original.at[gl_PrimitiveID], weights);
+    return surface_at(instance, instance.original.at[gl_PrimitiveID], barycentrics);
 }
 
 // The point that was hit, in the mesh's own space: there the texture stays in place when a piece moves.

@@ -1,9 +1,6 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "look.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
@@ -12,7 +9,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     vec3 normal = world_normal(surface);
     vec3 view = -gl_WorldRayDirectionEXT;

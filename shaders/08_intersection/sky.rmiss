@@ -1,15 +1,13 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
 
 // The ray hit nothing: it sees the sky.
 void main() {
-    hit.t = -1.0;
-    hit.color = sky(gl_WorldRayDirectionEXT);
+    seen.hit.t = -1.0;
+    seen.hit.color = sky(gl_WorldRayDirectionEXT);
 }

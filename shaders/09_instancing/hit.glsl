@@ -1,17 +1,8 @@
-// What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
-// The raygen shader decides what to do about it.
+// The payload of this chapter's rays: what a hit shader reports.
+#include "common/hit.glsl"
 
-struct Hit {
-    vec3 position;    // on the surface, in the world
-    float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
-    vec3 face;        // the triangle's own normal: unit, on the side that the ray came from
-    float t;          // the distance along the ray; -1 if the ray met nothing
-    vec3 normal;      // the normal to shade with: unit, on the same side
-    uint material;    // which material: push.scene.materials.at[material]
-    vec3 color;       // the material's colour, its texture already read; for a miss, the sky's
-    uint triangle;    // which triangle of the model
-    vec3 lift;        // from the flat triangle to the round surface that its normals pretend
-    uint instance;    // which piece: gl_InstanceCustomIndexEXT
+struct PieceHit {
+    Hit hit;
     vec3 object;      // in the mesh's space, for a view: the normal
     uint place;       // the instance's place in the array that was built: gl_InstanceID
 };                    // 96 bytes

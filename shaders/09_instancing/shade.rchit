@@ -1,17 +1,14 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+layout(location = 0) rayPayloadInEXT PieceHit seen;
+hitAttributeEXT vec2 barycentrics;
 
 // From the mesh's space to the world, not of unit length. The matrix is right only if it turns and no
 // more: whatever stretches a surface one way must turn its normal the other way.
@@ -31,9 +28,14 @@ void main() {
     PieceRecord piece = push.pieces.at[gl_InstanceCustomIndexEXT];
     InstanceRecord instance = push.scene.instances.at[piece.mesh];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[piece.material];
-    place(hit, instance, triangle, weights);
+    Hit hit;
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     vec3 normal = normalize(world_normal(piece, surface.normal));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
@@ -46,6 +48,7 @@ void main() {
     hit.material = piece.material;
     hit.triangle = triangle;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.place = gl_InstanceID;
-    hit.object = surface.normal;
+    seen.hit = hit;
+    seen.place = gl_InstanceID;
+    seen.object = surface.normal;
 }

@@ -14,11 +14,11 @@ struct MeshRecord {
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes { MeshRecord at[]; };
 
 // As 02's, with corners from elsewhere, and attributes where vertices were.
-Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 weights) {
+Surface surface_at(vec3 corners[3], MeshRecord mesh, uvec3 index, vec2 barycentrics) {
     Attributes a = mesh.vertices.at[index.x];
     Attributes b = mesh.vertices.at[index.y];
     Attributes c = mesh.vertices.at[index.z];
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     Surface surface;
     surface.normal = w.x * a.normal + w.y * b.normal + w.z * c.normal;
     surface.face = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -36,6 +36,6 @@ vec3[3] corners_at(InstanceRecord instance, uint triangle) {
 }
 
 // The point with these barycentric coordinates, in object space.
-vec3 point_at(vec3 corners[3], vec2 weights) {
-    return corners[0] + weights.x * (corners[1] - corners[0]) + weights.y * (corners[2] - corners[0]);
+vec3 point_at(vec3 corners[3], vec2 barycentrics) {
+    return corners[0] + barycentrics.x * (corners[1] - corners[0]) + barycentrics.y * (corners[2] - corners[0]);
 }

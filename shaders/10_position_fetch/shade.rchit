@@ -1,16 +1,13 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_ray_tracing_position_fetch : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
+#extension GL_EXT_ray_tracing_position_fetch : require
 #include "push.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: normal, material and light give the colour.
 void main() {
@@ -23,10 +20,10 @@ void main() {
     Surface surface;
     if (POSITIONS == POSITIONS_STRUCTURE) {
         corners = gl_HitTriangleVertexPositionsEXT;
-        surface = surface_at(corners, push.meshes.at[instance.mesh], instance.triangles.at[triangle], weights);
+        surface = surface_at(corners, push.meshes.at[instance.mesh], instance.triangles.at[triangle], barycentrics);
     } else {
         corners = corners_at(instance, triangle);
-        surface = surface_at(instance, triangle, weights);
+        surface = surface_at(instance, triangle, barycentrics);
     }
     // ANCHOR_END: corners
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
@@ -64,7 +61,7 @@ void main() {
         payload = vec4(gl_WorldRayDirectionEXT, gl_HitTEXT);
     }
     if (SHOW == SHOW_HIT_POINT) {
-        payload = vec4(gl_ObjectToWorldEXT * vec4(point_at(corners, weights), 1.0), gl_HitTEXT);
+        payload = vec4(gl_ObjectToWorldEXT * vec4(point_at(corners, barycentrics), 1.0), gl_HitTEXT);
     }
     if (SHOW == SHOW_RAY_POINT) {
         payload = vec4(gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT, gl_HitTEXT);

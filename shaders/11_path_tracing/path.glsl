@@ -61,7 +61,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     float to_eye = max(dot(hit.normal, -ray.direction), 0.0);
     // ANCHOR: light
     // No ray meets this light by chance: here alone it is asked for.
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = visible_part(push.light, start, numbers(path, DIMENSION_LIGHT));
     vec3 to_light = towards_light(push.light.light, start.origin);
     hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
@@ -86,6 +86,6 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         path.throughput *= scattered(material, color, to_eye, to_next) / (1.0 - mirrors);
     }
     path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
+    ray.origin = hit.position + hit.offset * hit.face;
     // ANCHOR_END: next
 }

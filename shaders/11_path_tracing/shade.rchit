@@ -1,17 +1,14 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(push.scene, weights);
+    hit = report(push.scene, barycentrics);
 }

@@ -58,7 +58,7 @@ const uint SIDE_INSIDE = 1;
 
 // The plane at the distance t of a ray, reported as a hit shader reports a triangle. If it `shines`, its
 // colour from inside is one of its own.
-Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
+CurvedHit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     vec3 outward = normalize(plane.normal);
     bool inside = dot(ray.direction, plane.normal) > 0.0;
     // From the anchor, not from the world's origin: small numbers near the camera. Then back onto the
@@ -74,7 +74,7 @@ Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
 
     Hit hit;
     hit.position = plane.anchor + from_anchor;
-    hit.height = 0.0;   // a ray that leaves the plane is not tested against it
+    hit.offset = 0.0;   // a ray that leaves the plane is not tested against it
     hit.face = inside ? -outward : outward;
     hit.t = t;
     hit.normal = hit.face;
@@ -83,6 +83,5 @@ Hit hit_of_plane(Plane plane, Board board, bool shines, Ray ray, float t) {
     hit.triangle = 0;
     hit.lift = vec3(0.0);
     hit.instance = PLANE;
-    hit.curvature = 0.0;
-    return hit;
+    return CurvedHit(hit, 0.0);
 }

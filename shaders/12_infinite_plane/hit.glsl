@@ -1,18 +1,10 @@
-// What the hit shader reports of the surface that a ray met: the payload of the raygen shader's rays.
-// The raygen shader decides what to do about it. The plane is reported by the raygen shader itself.
+// The payload of this chapter's rays: what a hit shader reports.
+// The plane is reported by the raygen shader itself.
+#include "common/hit.glsl"
 
-struct Hit {
-    vec3 position;    // on the surface, in the world
-    float height;     // a ray that starts so far along `face` is above the surface, wherever it goes
-    vec3 face;        // the triangle's own normal: unit, on the side that the ray came from
-    float t;          // the distance along the ray; -1 if the ray met nothing
-    vec3 normal;      // the normal to shade with: unit, on the same side
-    uint material;    // which material: push.scene.materials.at[material]
-    vec3 color;       // the material's colour, its texture already read; for a miss, the sky's
-    uint triangle;    // which triangle of the model
-    vec3 lift;        // from the flat triangle to the round surface that its normals pretend
-    uint instance;    // which instance: gl_InstanceCustomIndexEXT, or PLANE
+struct CurvedHit {
+    Hit hit;
     float curvature;  // by how much the normal turns in a unit of length
 };                    // 84 bytes
 
-const uint PLANE = -2;
+const uint PLANE = -2;   // the plane's `instance`

@@ -6,6 +6,7 @@
 #include "common/false_color.glsl"
 #include "common/plane.glsl"
 #include "board.glsl"
+#include "common/show.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Reflections { vec3 at[]; };
 
@@ -27,15 +28,7 @@ layout(push_constant, scalar) uniform Push {
     float minimum_contribution;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;
+// Views of this chapter, beside those of common/show.glsl.
 const uint SHOW_RUNGS = 7;
 
 layout(constant_id = 1) const uint PLANE_RUNG = PLANE_COMPENSATED;

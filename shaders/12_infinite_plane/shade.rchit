@@ -1,17 +1,17 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "report.glsl"
+#include "common/report.glsl"
+#include "curvature.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+layout(location = 0) rayPayloadInEXT CurvedHit seen;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(weights);
+    seen.hit = report(push.scene, barycentrics);
+    InstanceRecord instance = push.scene.instances.at[seen.hit.instance];
+    seen.curvature = curvature(instance, seen.hit.triangle);
 }

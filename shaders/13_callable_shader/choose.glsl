@@ -22,9 +22,9 @@ float weight_at(uint kind, vec3 place, int far) {
 }
 
 // The hit's colour becomes that of its material's pattern.
-void patterned(inout Hit hit) {
-    Finish finish = push.finishes.at[hit.material];
+void patterned(inout PatternHit seen) {
+    Finish finish = push.finishes.at[seen.hit.material];
     if (finish.pattern != PATTERN_PLAIN) {
-        mix_colors(hit, finish, weight_at(finish.pattern, finish.scale * hit.object, int(push.far)));
+        mix_colors(seen, finish, weight_at(finish.pattern, finish.scale * seen.object, int(push.far)));
     }
 }

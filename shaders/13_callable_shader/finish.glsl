@@ -1,6 +1,6 @@
 // Two colours, mixed by a pattern.
 
-void mix_colors(inout Hit hit, Finish finish, float weight) {
-    hit.weight = weight;
-    hit.color = finish.first + weight * (finish.second - finish.first);
+void mix_colors(inout PatternHit seen, Finish finish, float weight) {
+    seen.weight = weight;
+    seen.hit.color = finish.first + weight * (finish.second - finish.first);
 }

@@ -1,9 +1,8 @@
 // What a hit shader reports, whatever the surface's pattern is.
+#include "common/report.glsl"
 
-layout(set = 1, binding = 0) uniform sampler2D textures[];
-
-layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+layout(location = 0) rayPayloadInEXT PatternHit seen;
+hitAttributeEXT vec2 barycentrics;
 
 // The point with these barycentric coordinates, in the mesh's own space.
 vec3 object_point(InstanceRecord instance, uint triangle, vec2 w) {
@@ -16,24 +15,8 @@ vec3 object_point(InstanceRecord instance, uint triangle, vec2 w) {
 
 // The nearest hit: what surface it is, and where.
 void report() {
-    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
-    uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
-    MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights);
-    hit.t = gl_HitTEXT;
-    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
-    vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
-    hit.normal = faceforward(normal, -hit.face, normal);
-
-    hit.color = material.base_color;
-    if (material.base_texture >= 0) {
-        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
-    }
-    hit.material = instance.material;
-    hit.triangle = triangle;
-    hit.instance = gl_InstanceCustomIndexEXT;
-    hit.object = object_point(instance, triangle, weights);
-    hit.weight = 0.0;
+    seen.hit = report(push.scene, barycentrics);
+    InstanceRecord instance = push.scene.instances.at[seen.hit.instance];
+    seen.object = object_point(instance, seen.hit.triangle, barycentrics);
+    seen.weight = 0.0;
 }

@@ -42,9 +42,9 @@ uint micro_triangle(vec3 w, int level) {
     return index;
 }
 
-// The state of a hit; `weights` are its hit attributes.
-uint state_at(Micromap micromap, uint triangle, vec2 weights) {
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+// The state of a hit; `barycentrics` are its hit attributes.
+uint state_at(Micromap micromap, uint triangle, vec2 barycentrics) {
+    vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     // A weight that is not a number fails here, too.
     bool inside = w.x >= -SLACK && w.y >= -SLACK && w.z >= -SLACK;
     if (micromap.level < 0 || !inside) {

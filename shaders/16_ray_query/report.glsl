@@ -2,7 +2,7 @@
 // built-in variables is a question here.
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
@@ -12,7 +12,7 @@ void report(inout Hit hit, rayQueryEXT query) {
     // ANCHOR: questions
     uint number = rayQueryGetIntersectionInstanceCustomIndexEXT(query, true);
     uint primitive = rayQueryGetIntersectionPrimitiveIndexEXT(query, true);
-    vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true);
+    vec2 barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
     mat4x3 to_world = rayQueryGetIntersectionObjectToWorldEXT(query, true);
     mat4x3 to_object = rayQueryGetIntersectionWorldToObjectEXT(query, true);
     hit.t = rayQueryGetIntersectionTEXT(query, true);
@@ -20,9 +20,13 @@ void report(inout Hit hit, rayQueryEXT query) {
     // ANCHOR_END: questions
     InstanceRecord instance = push.scene.instances.at[number];
     uint triangle = instance.original.at[primitive];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights, to_world, to_object, ray);
+    HitPoint at = hit_point(instance, triangle, barycentrics, to_world, to_object, ray);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.

@@ -7,6 +7,7 @@
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
+#include "common/views.glsl"
 #include "report.glsl"
 
 layout(local_size_x_id = 3, local_size_y_id = 4) in;
@@ -54,19 +55,6 @@ Hit trace(vec3 origin, vec3 direction) {
     return hit;
 }
 
-// What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, vec3 direction, Start start, float visible) {
-    bool missed = hit.t < 0.0;
-    switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
-    }
-}
-
 // One ray a pixel, through its middle; and from what it meets, one to the light.
 void main() {
     // ANCHOR: band
@@ -80,7 +68,7 @@ void main() {
     vec3 direction = ray_direction(push.camera, point, imageSize(picture));
     Hit hit = trace(push.camera.origin, direction);
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     if (hit.t >= 0.0) {
         MaterialRecord material = push.scene.materials.at[hit.material];
@@ -88,6 +76,6 @@ void main() {
         color = material.emission + hit.color * ambient(hit.normal)
             + lit_by(visible * push.light.radiance, push.light.direction, hit, material, -direction);
     }
-    vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, direction, start, visible);
+    vec4 pixel = SHOW == SHOW_PICTURE ? vec4(color, 1.0) : view_of(hit, direction, start.origin, visible);
     imageStore(picture, ivec2(id), pixel);
 }

@@ -20,7 +20,7 @@ const uint DEPTH_SHORT = 2;
 
 layout(location = 0) flat out uint instance;
 layout(location = 1) flat out uint triangle;
-layout(location = 2) out vec2 weights;
+layout(location = 2) out vec2 barycentrics;
 
 // One corner of a triangle, by the records that a hit shader reads. A draw call is for one instance.
 void main() {
@@ -30,7 +30,7 @@ void main() {
     InstanceRecord record = draw.scene.instances.at[instance];
     vec3 position = record.vertices.at[record.triangles.at[triangle][corner]].position;
     // The second and the third barycentric coordinate, as a ray reports them.
-    weights = vec2(corner == 1, corner == 2);
+    barycentrics = vec2(corner == 1, corner == 2);
 
     // The inverse of ray_direction: along which ray of the camera does the corner lie, and how far?
     vec3 world = draw.placed.at[instance].to_world * vec4(position, 1.0);

@@ -8,7 +8,7 @@ const uint DIMENSION_OCCLUSION = 2;
 // The part of the sky that is open, each direction weighted by its cosine: 0 to 1. Points on the unit disk,
 // lifted to the hemisphere above it, are spread by just that weight (Malley's method), so each ray counts
 // alike. `first` are two random numbers.
-float openness(Start start, vec3 normal, uint count, vec2 first) {
+float openness(RayOrigin start, vec3 normal, uint count, vec2 first) {
     vec3 aside = abs(normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 right = normalize(cross(aside, normal));
     vec3 ahead = cross(normal, right);

@@ -1,7 +1,7 @@
 // What is to be known of the surface that a pixel sees, whether a rasteriser or a ray has found it.
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
@@ -9,7 +9,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 struct Seen {
     uint instance;        // NOTHING for the sky
     uint triangle;        // of the model
-    vec2 weights;         // the second and the third barycentric coordinate
+    vec2 barycentrics;         // the second and the third barycentric coordinate
 };
 
 const uint NOTHING = 0xffffffff;
@@ -19,9 +19,13 @@ void report(inout Hit hit, Seen seen, vec3 ray) {
     mat4x3 to_world = push.placed.at[seen.instance].to_world;
     mat4x3 to_object = push.placed.at[seen.instance].to_object;
     InstanceRecord instance = push.scene.instances.at[seen.instance];
-    Surface surface = surface_at(instance, seen.triangle, seen.weights);
+    Surface surface = surface_at(instance, seen.triangle, seen.barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, seen.triangle, seen.weights, to_world, to_object, ray);
+    HitPoint at = hit_point(instance, seen.triangle, seen.barycentrics, to_world, to_object, ray);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = dot(hit.position - push.camera.origin, ray);
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));

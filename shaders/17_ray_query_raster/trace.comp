@@ -60,7 +60,8 @@ vec4 view_of(Hit hit, Seen seen, vec3 direction, float visible, float open) {
     switch (SHOW) {
         case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
         case SHOW_WEIGHTS:
-            return vec4(missed ? hit.color : vec3(seen.weights, 1.0 - seen.weights.x - seen.weights.y), 1.0);
+            return vec4(missed ? hit.color
+                : vec3(seen.barycentrics, 1.0 - seen.barycentrics.x - seen.barycentrics.y), 1.0);
         case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
         case SHOW_DIRECTION: return vec4(direction, hit.t);
         case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
@@ -86,7 +87,7 @@ void main() {
     float open = 1.0;
     if (seen.instance != NOTHING) {
         report(hit, seen, direction);
-        Start start = shadow_start(hit);
+        RayOrigin start = shadow_start(hit);
         MaterialRecord material = push.scene.materials.at[hit.material];
         visible = visibility(start, push.light.direction, 1e30);
         if (push.occlusion_rays > 0) {

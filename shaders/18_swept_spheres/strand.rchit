@@ -1,17 +1,15 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT StrandHit seen;
 hitAttributeEXT Crossing crossing;
 
 // Where the hit is, and how far above the surface a leaving ray must start.
-void place_on_strand(Node a, Node b) {
+HitPoint hit_point_on_strand(Node a, Node b) {
     vec3 own;
     float radius;
     vec3 point = strand_point(a, b, crossing, own, radius);
@@ -21,13 +19,16 @@ void place_on_strand(Node a, Node b) {
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+    vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
-    hit.position = world;
-    hit.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
-    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * dot(abs(hit.face), straying);
+    HitPoint at;
+    at.position = world;
+    at.face = normalize(vec3(crossing.outward * gl_WorldToObjectEXT));
+    at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
+    at.offset = ROUNDING * dot(abs(at.face), error_bound);
+    at.lift = vec3(0.0);   // a shape is as round as it looks
+    return at;
 }
 
 // The nearest hit is a swept sphere: the intersection shader has left its normal, and where along it.
@@ -36,7 +37,12 @@ void main() {
     Segment segment = push.strands.segments.at[id];
     Node a = push.strands.nodes.at[segment.first];
     Node b = push.strands.nodes.at[segment.first + 1];
-    place_on_strand(a, b);
+    HitPoint at = hit_point_on_strand(a, b);
+    Hit hit;
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     hit.normal = hit.face;
     if (NORMAL == NORMAL_AXIS) {
@@ -46,10 +52,9 @@ void main() {
         vec3 away = normalize(from - dot(from, axis) / max(dot(axis, axis), 1e-30) * axis);
         hit.normal = faceforward(away, gl_WorldRayDirectionEXT, away);
     }
-    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[segment.material].base_color;
     hit.material = segment.material;
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.along = crossing.s;
+    seen = StrandHit(hit, crossing.s);
 }

@@ -1,13 +1,10 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/heat.glsl"
 #include "common/hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 #include "seen.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
@@ -15,7 +12,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 #include "common/lookup.glsl"
 
 layout(location = 0) rayPayloadInEXT Seen seen;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // What is read of a texture of this size.
 Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
@@ -52,10 +49,14 @@ Row chosen(InstanceRecord instance, uint triangle, vec3 face, vec2 size) {
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
     Hit hit;
-    place(hit, instance, triangle, weights);
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));

@@ -1,14 +1,12 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_ray_tracing_position_fetch : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
+#extension GL_EXT_ray_tracing_position_fetch : require
 #include "push.glsl"
 #include "line.glsl"
 
 layout(location = 0) rayPayloadInEXT vec4 payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: the triangle's own normal, the material's colour, and the lines.
 void main() {
@@ -35,7 +33,7 @@ void main() {
         color = 0.5 + 0.5 * normal;
     }
     // Darker on a light surface, lighter on a dark one. The fourth number is what the line covers.
-    float coverage = line_coverage(weights);
+    float coverage = line_coverage(barycentrics);
     float brightness = dot(color, vec3(0.2126, 0.7152, 0.0722));
     vec3 ink = brightness > 0.1 ? 0.15 * color : color + 0.2;
     if (SHOW == SHOW_LINES) {

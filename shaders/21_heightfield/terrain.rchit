@@ -1,8 +1,6 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
 
@@ -29,7 +27,7 @@ void place_on_ground() {
     hit.face = heightfield_normal(shape, point.xz);
     // A ray falls on the ground, or it comes up from below.
     hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = 2.0 * push.ground.error;
+    hit.offset = 2.0 * push.ground.error;
 }
 
 // The nearest hit is the ground.

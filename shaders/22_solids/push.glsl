@@ -4,6 +4,7 @@
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 #include "common/plane.glsl"
+#include "common/show.glsl"
 
 struct Ball {
     vec3 center;
@@ -79,15 +80,7 @@ layout(push_constant, scalar) uniform Push {
     float section_distance;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;
+// Views of this chapter, beside those of common/show.glsl.
 const uint SHOW_KIND = 7;
 const uint SHOW_SECTION = 8;
 const uint SHOW_FOG = 9;

@@ -4,6 +4,7 @@
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 #include "mover.glsl"
+#include "common/show.glsl"
 
 // How often the intersection shader was called.
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Calls { uint count; };
@@ -19,15 +20,7 @@ layout(push_constant, scalar) uniform Push {
     uint frame;      // of the game
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;
+// Views of this chapter, beside those of common/show.glsl.
 const uint SHOW_SMEAR = 7;
 
 layout(constant_id = 1) const uint TIMES = 2;

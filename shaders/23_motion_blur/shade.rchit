@@ -1,18 +1,15 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
 #include "time.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The inverse of a matrix, by its cofactors.
 mat4x3 inverted(const mat4x3 m) {
@@ -40,9 +37,13 @@ void main() {
     }
     InstanceRecord instance = push.scene.instances.at[record];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights, to_world, to_object, gl_WorldRayDirectionEXT);
+    HitPoint at = hit_point(instance, triangle, barycentrics, to_world, to_object, gl_WorldRayDirectionEXT);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));

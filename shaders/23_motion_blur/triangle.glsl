@@ -3,7 +3,7 @@
 
 struct Crossing {
     float t;
-    vec2 weights;    // of the second and third corner
+    vec2 barycentrics;    // of the second and third corner
 };
 
 // Axes in another order, that of the direction's largest coordinate last.
@@ -31,7 +31,7 @@ bool crosses(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out Crossing c
     if (outside || sum == 0.0) {
         return false;
     }
-    crossing.weights = vec2(v, w) / sum;
+    crossing.barycentrics = vec2(v, w) / sum;
     crossing.t = (u * pa.z + v * pb.z + w * pc.z) / (sum * d.z);
     return true;
 }

@@ -43,7 +43,7 @@ Answer ask_secondary_origin(uint rung, Query query, Numbers numbers) {
         from.position = position;
         from.normal = unit(position - from.center);
     }
-    Start start = start_of_ray(rung, from);
+    RayOrigin start = start_of_ray(rung, from);
     answer.point = start.origin;
     query.tmin = start.tmin / length(direction);
     query.tmax = 1e30;

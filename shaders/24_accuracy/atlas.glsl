@@ -11,7 +11,7 @@ struct Aim {
 struct Met {
     uint primitive;
     float t;
-    vec2 weights;   // of the second and the third corner
+    vec2 barycentrics;   // of the second and the third corner
 };
 
 struct Found {

@@ -1,14 +1,12 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "atlas.glsl"
 
 layout(location = 0) rayPayloadInEXT Found payload;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // Only opaque hits come here.
 void main() {
-    payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, weights);
+    payload.nearest = Met(gl_PrimitiveID, gl_HitTEXT, barycentrics);
 }

@@ -1,7 +1,7 @@
 // Where a ray starts that leaves a sphere: 26_leaving_a_surface has the same rules for triangles.
 //
 // A start below the surface meets it again; a start too far above it is beyond what stands close by.
-#include "common/start.glsl"
+#include "common/ray_origin.glsl"
 #include "common/up_by_floats.glsl"
 #include "common/two_float.glsl"
 
@@ -21,29 +21,29 @@ struct SphereDeparture {
 };
 
 // The point as it stands. Half of all such points lie below the surface.
-Start start_nothing(SphereDeparture from) {
-    return Start(from.position, 0.0);
+RayOrigin start_nothing(SphereDeparture from) {
+    return RayOrigin(from.position, 0.0);
 }
 
 // The same, but whatever is near does not count.
-Start start_tmin(SphereDeparture from) {
-    return Start(from.position, 1e-4);
+RayOrigin start_tmin(SphereDeparture from) {
+    return RayOrigin(from.position, 1e-4);
 }
 
 // A step up, as long for a grain of sand as for a planet.
-Start start_normal(SphereDeparture from) {
-    return Start(from.position + 1e-4 * from.normal, 0.0);
+RayOrigin start_normal(SphereDeparture from) {
+    return RayOrigin(from.position + 1e-4 * from.normal, 0.0);
 }
 
-Start start_integers(SphereDeparture from) {
-    return Start(up_by_floats(from.position, from.normal), 0.0);
+RayOrigin start_integers(SphereDeparture from) {
+    return RayOrigin(up_by_floats(from.position, from.normal), 0.0);
 }
 
 // The same from the nearest point of the sphere, which does not get worse with the way of the last ray.
-Start start_reprojected(SphereDeparture from) {
+RayOrigin start_reprojected(SphereDeparture from) {
     precise vec3 f = from.position - from.center;
     precise vec3 point = from.center + (from.radius / length(f)) * f;
-    return Start(up_by_floats(point, from.normal), 0.0);
+    return RayOrigin(up_by_floats(point, from.normal), 0.0);
 }
 
 // The nearest point of the sphere, up by no more than rounding may cost (after Pharr, Jakob and
@@ -63,7 +63,7 @@ Start start_reprojected(SphereDeparture from) {
 //    square of that over 2r.
 //
 // 1 to 4 sum up to 6u·r and u·|n|·|p|; 8u·r has room for what is of higher order.
-Start start_bound(SphereDeparture from) {
+RayOrigin start_bound(SphereDeparture from) {
     const float ROUNDING = 5.9604645e-8;
     float r = from.radius;
     precise vec3 f = from.position - from.center;
@@ -73,15 +73,15 @@ Start start_bound(SphereDeparture from) {
 
     vec3 world = abs(from.center + point);
     float aside = ROUNDING * length(world);
-    float height = ROUNDING * (8.0 * r + dot(abs(from.normal), world)) + 1.5 * aside * aside / r;
+    float offset = ROUNDING * (8.0 * r + dot(abs(from.normal), world)) + 1.5 * aside * aside / r;
     float side = dot(from.normal, f) < 0.0 ? -1.0 : 1.0;
-    precise vec3 above = point + (side * height / r) * point;
+    precise vec3 above = point + (side * offset / r) * point;
     precise vec3 origin = from.center + above;
-    return Start(origin, 0.0);
+    return RayOrigin(origin, 0.0);
 }
 
 // The start by one of the rules above.
-Start start_of_ray(uint rule, SphereDeparture from) {
+RayOrigin start_of_ray(uint rule, SphereDeparture from) {
     switch (rule) {
         case ORIGIN_NOTHING: return start_nothing(from);
         case ORIGIN_TMIN: return start_tmin(from);

@@ -43,7 +43,7 @@ vec3 asked(Path path, Hit hit, float matte) {
     }
     Emitter emitter = push.world.emitters.emitters.at[chosen(numbers(path, DIMENSION_EMITTER))];
     // The next ray starts at the same place, or the two chances would not be those of one direction.
-    vec3 from = hit.position + hit.height * hit.face;
+    vec3 from = hit.position + hit.offset * hit.face;
     Aim aim = aim_at(emitter, from, numbers(path, DIMENSION_POINT));
     float chance = likelihood(aim.direction, hit.normal, hit.face) * aim.angle;
     float weight = chance / (emitter.probability + matte * chance);

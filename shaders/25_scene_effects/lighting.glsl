@@ -6,13 +6,13 @@
 
 #ifdef SHADOWS
 // Where shadow rays start.
-struct Start {
+struct RayOrigin {
     vec3 origin;
     bool lifted;     // to the round surface that triangles stand for
 };
 
-Start shadow_start(Hit hit) {
-    Start start = Start(hit.position + hit.height * hit.face, false);
+RayOrigin shadow_start(Hit hit) {
+    RayOrigin start = RayOrigin(hit.position + hit.offset * hit.face, false);
 #ifdef LIFTS
     start.origin += hit.lift;
     start.lifted = hit.lift != vec3(0.0);
@@ -37,7 +37,7 @@ bool casts_shadows(Light light, uint number) {
 
 // What part of a light reaches a surface, 0 to 1. One ray tells if the light has no size; else rays go to
 // points of it, which begin at the random numbers `first`.
-float visibility(DiskLight disk, Start start, Hit hit, vec2 first) {
+float visibility(DiskLight disk, RayOrigin start, Hit hit, vec2 first) {
 #ifdef EFFECT_AREA_LIGHT
     bool soft = disk.radius > 0.0;
     uint count = soft ? push.world.light_samples : 1;

@@ -1,22 +1,9 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-
-// Where no ray leaves a surface, no height is told: place() of chapter 05 fills what it knows.
-struct Placed {
-    vec3 position;
-    float height;
-    vec3 face;
-    vec3 lift;
-};
-#define Hit Placed
-#include "common/place.glsl"
-#undef Hit
+#include "common/hit_point.glsl"
 
 #ifdef FINISHES
 #include "finish.glsl"
@@ -34,7 +21,7 @@ layout(set = 1, binding = 0) uniform sampler2D textures[];
 #endif
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 #ifdef CURVES
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
@@ -91,38 +78,37 @@ vec3 point_between(vec3 corners[3], vec2 w) {
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    Placed placed;
-    place(placed, instance, triangle, weights);
-    hit.position = placed.position;
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
     hit.t = gl_HitTEXT;
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    hit.normal = faceforward(normal, -placed.face, normal);
+    hit.normal = faceforward(normal, -at.face, normal);
     hit.material = instance.material;
     hit.color = material.base_color;
 #ifdef EFFECT_TEXTURES
     if (material.base_texture >= 0) {
         int index = material.base_texture;
 #ifdef EFFECT_FILTERED_TEXTURES
-        hit.color *= texture_along(index, surface.uv, row_on(instance, triangle, placed.face, index));
+        hit.color *= texture_along(index, surface.uv, row_on(instance, triangle, at.face, index));
 #else
         hit.color *= textureLod(textures[nonuniformEXT(index)], surface.uv, 0.0).rgb;
 #endif
     }
 #endif
 #ifdef DEPARTURES
-    hit.height = placed.height;
-    hit.face = placed.face;
+    hit.offset = at.offset;
+    hit.face = at.face;
 #endif
 #ifdef LIFTS
-    // Not placed.lift: what is known sooner is kept in registers longer. The compiler drops the other.
-    hit.lift = lift_to_smooth(placed.face, instance, triangle, weights, gl_ObjectToWorldEXT);
+    // Not at.lift: what is known sooner is kept in registers longer. The compiler drops the other.
+    hit.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, gl_ObjectToWorldEXT);
 #endif
 #ifdef EFFECT_GLASS
     // A normal without faceforward looks out of the body.
-    hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), placed.face) > 0.0;
+    hit.entering = dot(vec3(surface.face * gl_WorldToObjectEXT), at.face) > 0.0;
 #endif
 #ifdef CHANCES
     hit.emitter = NO_EMITTER;
@@ -139,7 +125,7 @@ void main() {
 #endif
 #ifdef EFFECT_PATTERNS
     if (finish.pattern != PATTERN_PLAIN) {
-        hit.color = point_between(corners_of(instance, triangle), weights);
+        hit.color = point_between(corners_of(instance, triangle), barycentrics);
     }
 #endif
 #ifdef EFFECT_WIREFRAME

@@ -158,7 +158,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         path.color += asked(path, hit, matte);
 #endif
 #ifdef SHADOWS
-        Start start = shadow_start(hit);
+        RayOrigin start = shadow_start(hit);
 #endif
         for (uint i = 0; i < LIGHTS && i < push.world.light_count; i++) {
             DiskLight disk = light_of(i);
@@ -206,7 +206,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         ray.spread += 2.0 * hit.curvature * ray.width;
 #endif
     }
-    ray.origin = hit.position + side * hit.height * hit.face;
+    ray.origin = hit.position + side * hit.offset * hit.face;
 #ifdef EFFECT_PLANE
     ray.on_plane = hit.material == MATERIAL_PLANE;
 #endif

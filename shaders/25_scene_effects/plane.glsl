@@ -32,7 +32,7 @@ Hit hit_of_plane(Ray ray, float t) {
     hit.material = MATERIAL_PLANE;
     hit.color = mix(board.dark, board.light, checker_light(board.anchor + middle, width));
 #ifdef DEPARTURES
-    hit.height = 0.0;   // a ray that leaves the plane is not tested against it
+    hit.offset = 0.0;   // a ray that leaves the plane is not tested against it
     hit.face = hit.normal;
 #endif
 #ifdef LIFTS

@@ -20,7 +20,7 @@ Hit report(vec3 point, vec3 outward, vec3 own, float curvature, uint material) {
 #endif
 #ifdef DEPARTURES
     const float ROUNDING = 5.9604645e-8;
-    hit.height = ROUNDING * dot(abs(hit.normal), own + 30.0 * abs(point));
+    hit.offset = ROUNDING * dot(abs(hit.normal), own + 30.0 * abs(point));
     hit.face = hit.normal;
 #endif
 #ifdef LIFTS

@@ -2,16 +2,16 @@
 // starts where its direction asks for.
 
 // Whether nothing lies between a start above a surface and the light.
-bool is_lit(Start start, vec3 to_light);
+bool is_lit(RayOrigin start, vec3 to_light);
 
-Start shadow_start(Hit hit, Departure from, vec3 to_light) {
-    Start start = start_of_ray(from, to_light);
+RayOrigin shadow_start(Hit hit, Departure from, vec3 to_light) {
+    RayOrigin start = start_of_ray(from, to_light);
     start.origin += hit.lift;
     return start;
 }
 
 // 1 if light arrives from a direction, else 0.
-float visibility(Hit hit, Start start, vec3 to_light) {
+float visibility(Hit hit, RayOrigin start, vec3 to_light) {
     // On a round surface that is made of triangles, up is where the smooth normal points.
     vec3 up = hit.lift != vec3(0.0) ? hit.normal : hit.face;
     // What is below the surface, the surface itself hides; that needs no ray.

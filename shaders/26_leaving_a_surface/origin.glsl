@@ -3,12 +3,12 @@
 //
 // A ray that starts below the surface hits it again: acne. A ray that starts too far above it misses things
 // that are close by: leaks.
-#include "common/start.glsl"
+#include "common/ray_origin.glsl"
 
 const float ROUNDING = 5.9604645e-8;
 
 struct Ray {
-    Start start;
+    RayOrigin start;
     vec3 direction;
 };
 
@@ -17,7 +17,7 @@ struct Departure {
     vec3 reached;    // where the last ray's t ends
     vec3 position;   // the same in the triangle, by its corners
     vec3 normal;     // of the triangle: unit, on the side that the last ray came from
-    float height;    // chapter 05's
+    float offset;    // chapter 05's
     float sunk;      // how far the way into the world and back puts the position below the triangle
     float error;     // what rounding may hide of that, in units of ROUNDING
     float rise;      // how far a step of 1 along the normal goes up in the mesh's space
@@ -27,19 +27,20 @@ struct Departure {
     vec3 e2;
 };
 
-Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
+Departure departure(TriangleHit seen, InstanceRecord instance, Ray arriving) {
+    Hit hit = seen.hit;
     uvec3 corner = instance.triangles.at[hit.triangle];
     vec3 a = instance.vertices.at[corner.x].position;
     Departure from;
     from.e1 = instance.vertices.at[corner.y].position - a;
     from.e2 = instance.vertices.at[corner.z].position - a;
-    precise vec3 within = hit.weights.x * from.e1 + hit.weights.y * from.e2;
+    precise vec3 within = seen.barycentrics.x * from.e1 + seen.barycentrics.y * from.e2;
     precise vec3 point = a + within;
     from.reached = arriving.start.origin + hit.t * arriving.direction;
     from.position = hit.position;
     from.normal = hit.face;
-    from.height = hit.height;
-    from.to_mesh = mat3(hit.to_mesh);
+    from.offset = hit.offset;
+    from.to_mesh = mat3(seen.to_mesh);
     from.to_a = -within;
 
     // Without an area there is no normal but the one that chapter 05 chose.
@@ -48,9 +49,9 @@ Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
     // A normal comes into the world by the transposed matrix that takes points out of it.
     up = faceforward(up, -from.normal, up * from.to_mesh);
     mat3 sizes = mat3(abs(from.to_mesh[0]), abs(from.to_mesh[1]), abs(from.to_mesh[2]));
-    precise vec3 back = hit.to_mesh * vec4(from.position, 1.0);
+    precise vec3 back = seen.to_mesh * vec4(from.position, 1.0);
     vec3 rounding = abs(point) + 3.0 * (abs(from.e1) + abs(from.e2))
-        + 8.0 * (sizes * abs(from.position) + abs(hit.to_mesh[3]));
+        + 8.0 * (sizes * abs(from.position) + abs(seen.to_mesh[3]));
     from.sunk = dot(up, point - back);
     from.error = dot(abs(up), rounding);
     from.rise = dot(up, from.to_mesh * from.normal);
@@ -59,31 +60,31 @@ Departure departure(Hit hit, InstanceRecord instance, Ray arriving) {
 
 // ANCHOR: naive
 // The point that the last ray reached, as it stands. Half of all such points lie below the surface.
-Start start_nothing(Departure from) {
-    return Start(from.reached, 0.0);
+RayOrigin start_nothing(Departure from) {
+    return RayOrigin(from.reached, 0.0);
 }
 
 // The same, but whatever is near does not count.
-Start start_tmin(Departure from) {
-    return Start(from.reached, 1e-4);
+RayOrigin start_tmin(Departure from) {
+    return RayOrigin(from.reached, 1e-4);
 }
 
 // A step up, as long for a grain of sand as for a planet.
-Start start_normal(Departure from) {
-    return Start(from.reached + 1e-4 * from.normal, 0.0);
+RayOrigin start_normal(Departure from) {
+    return RayOrigin(from.reached + 1e-4 * from.normal, 0.0);
 }
 // ANCHOR_END: naive
 
 #include "common/up_by_floats.glsl"
 
 // ANCHOR: integers
-Start start_integers(Departure from) {
-    return Start(up_by_floats(from.reached, from.normal), 0.0);
+RayOrigin start_integers(Departure from) {
+    return RayOrigin(up_by_floats(from.reached, from.normal), 0.0);
 }
 
 // The same from the point in the triangle, which does not get worse with the way the last ray came.
-Start start_reprojected(Departure from) {
-    return Start(up_by_floats(from.position, from.normal), 0.0);
+RayOrigin start_reprojected(Departure from) {
+    return RayOrigin(up_by_floats(from.position, from.normal), 0.0);
 }
 // ANCHOR_END: integers
 
@@ -119,18 +120,18 @@ float triangle_test_error(Departure from, vec3 direction) {
 
 // From the point in the triangle, up by no more than rounding may cost. How much the matrices cost is
 // not guessed: the point is sent back through the inverse, as the device will send the ray.
-Start start_bound(Departure from, vec3 direction) {
+RayOrigin start_bound(Departure from, vec3 direction) {
     float error = from.error + triangle_test_error(from, from.to_mesh * direction);
-    float height = max(from.sunk + ROUNDING * error, 0.0);
+    float offset = max(from.sunk + ROUNDING * error, 0.0);
 
     // A step along the world's normal, and the rounding of the sum.
-    float step = height / from.rise + ROUNDING * dot(abs(from.normal), abs(from.position));
-    return Start(from.position + step * from.normal, 0.0);
+    float step = offset / from.rise + ROUNDING * dot(abs(from.normal), abs(from.position));
+    return RayOrigin(from.position + step * from.normal, 0.0);
 }
 
 // Chapter 05's: one step for every direction above the surface, so it knows no direction.
-Start start_height(Departure from) {
-    return Start(from.position + from.height * from.normal, 0.0);
+RayOrigin start_height(Departure from) {
+    return RayOrigin(from.position + from.offset * from.normal, 0.0);
 }
 
 // A vector of the mesh's space in the world, by the inverse of the matrix that goes the other way.
@@ -144,17 +145,17 @@ vec3 into_world(mat3 to_mesh, vec3 v) {
 // Up by what enters the position: the largest coordinates of the corners, as seen along the normal. The
 // factor was found by trial: one to eight roundings were enough, and 32 leave room (Mitsuba 3, pull request
 // 1962, 2026; its meshes lie in the world, so the corners are taken there).
-Start start_magnitudes(Departure from) {
+RayOrigin start_magnitudes(Departure from) {
     vec3 a = from.position + into_world(from.to_mesh, from.to_a);
     vec3 b = a + into_world(from.to_mesh, from.e1);
     vec3 c = a + into_world(from.to_mesh, from.e2);
     vec3 largest = max(abs(a), max(abs(b), abs(c)));
-    float height = 32.0 * ROUNDING * dot(abs(from.normal), largest);
-    return Start(from.position + height * from.normal, 0.0);
+    float offset = 32.0 * ROUNDING * dot(abs(from.normal), largest);
+    return RayOrigin(from.position + offset * from.normal, 0.0);
 }
 
 // The start by the rule that the pipeline is made for, for a ray in this direction.
-Start start_of_ray(Departure from, vec3 direction) {
+RayOrigin start_of_ray(Departure from, vec3 direction) {
     switch (ORIGIN) {
         case ORIGIN_NOTHING: return start_nothing(from);
         case ORIGIN_TMIN: return start_tmin(from);

@@ -1,4 +1,5 @@
 // A path of rays: what it has gathered, which ray is next, and whether that is worth tracing.
+#include "common/views.glsl"
 
 // ANCHOR: path
 struct Path {
@@ -25,29 +26,24 @@ bool goes_on(Path path) {
 // ANCHOR_END: path
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, Ray ray, Start start, float visible) {
-    bool missed = hit.t < 0.0;
+vec4 view_of(Hit hit, Ray ray, RayOrigin start, float visible) {
     switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(ray.direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
         case SHOW_RAY_ORIGIN: return vec4(ray.start.origin, ray.start.tmin);
-        default: return missed ? vec4(-1.0) : vec4(start.origin, visible);
+        default: return view_of(hit, ray.direction, start.origin, visible);
     }
 }
 
 // What a ray has met is lit and gathered, and says which ray comes next.
-void advance(inout Path path, inout Ray ray, Hit hit) {
+void advance(inout Path path, inout Ray ray, TriangleHit seen) {
+    Hit hit = seen.hit;
     vec3 color = hit.color;
-    Start start = Start(vec3(0.0), 0.0);
+    RayOrigin start = RayOrigin(vec3(0.0), 0.0);
     float visible = 1.0;
     vec3 mirror = vec3(0.0);
     Ray next = ray;
     if (hit.t >= 0.0) {
         // ANCHOR: light
-        Departure from = departure(hit, push.scene.instances.at[hit.instance], ray);
+        Departure from = departure(seen, push.scene.instances.at[hit.instance], ray);
         start = shadow_start(hit, from, push.light.direction);
         visible = visibility(hit, start, push.light.direction);
         // Fetched after the shadow ray: a material would wait in registers for it.

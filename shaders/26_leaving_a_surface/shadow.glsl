@@ -4,7 +4,7 @@ layout(set = 0, binding = 0) uniform accelerationStructureEXT tlas;
 
 layout(location = 1) rayPayloadEXT bool lit;
 
-bool is_lit(Start start, vec3 to_light) {
+bool is_lit(RayOrigin start, vec3 to_light) {
     // Any hit will do, and no shader needs to hear of it. No surface here asks an any-hit shader.
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT
         | gl_RayFlagsOpaqueEXT;

@@ -44,11 +44,12 @@ bool goes_on(inout Path path) {
 }
 
 // A ray met glass, and goes one of two ways.
-void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
+void pass(inout Path path, inout Ray ray, BodyHit seen, Glass glass) {
+    Hit hit = seen.hit;
     // ANCHOR: between
     uvec4 beyond = path.media;
     if (glass.kind == GLASS_THICK) {
-        beyond = hit.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
+        beyond = seen.entering ? entered(path.media, hit.material) : left(path.media, hit.material);
     }
     uint inner = glass.kind == GLASS_THIN ? hit.material : beyond.x;
     bool is_real = inner != path.media.x;
@@ -78,14 +79,15 @@ void pass(inout Path path, inout Ray ray, Hit hit, Glass glass) {
         path.media = beyond;
         side = -1.0;
     }
-    ray.origin = hit.position + side * hit.height * hit.face;
+    ray.origin = hit.position + side * hit.offset * hit.face;
     // ANCHOR_END: choice
     // A shadow ray does not see through glass: the light behind it is met by chance.
     path.asked = false;
 }
 
 // Lights and gathers the surface that a ray has met, and chooses the next ray.
-void advance(inout Path path, inout Ray ray, Hit hit) {
+void advance(inout Path path, inout Ray ray, BodyHit seen) {
+    Hit hit = seen.hit;
     // ANCHOR: absorb
     if (path.media.x != AIR && hit.t >= 0.0) {
         path.throughput *= left_after(hit.t * push.world.glasses.at[path.media.x].absorption);
@@ -104,7 +106,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     }
     Glass glass = push.world.glasses.at[hit.material];
     if (glass.kind != GLASS_NONE) {
-        pass(path, ray, hit, glass);
+        pass(path, ray, seen, glass);
         path.bounce++;
         return;
     }
@@ -117,7 +119,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     // From within glass, a shadow ray would only find glass.
     bool asks = path.media.x == AIR;
     if (asks) {
-        Start start = shadow_start(hit);
+        RayOrigin start = shadow_start(hit);
         float visible = visible_part(push.world.light, start, numbers(path, DIMENSION_LIGHT));
         vec3 to_light = towards_light(push.world.light.light, start.origin);
         hit.color = scattered(material, color, to_eye, max(dot(hit.normal, normalize(to_light)), 0.0));
@@ -144,5 +146,5 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
         path.asked = asks;
     }
     path.bounce++;
-    ray.origin = hit.position + hit.height * hit.face;
+    ray.origin = hit.position + hit.offset * hit.face;
 }

@@ -1,21 +1,18 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
 #include "common/report.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+layout(location = 0) rayPayloadInEXT BodyHit seen;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    hit = report(push.world.scene, weights);
+    seen.hit = report(push.world.scene, barycentrics);
     // A normal without faceforward looks out of the body.
-    InstanceRecord instance = push.world.scene.instances.at[hit.instance];
-    vec3 out_of = vec3(surface_at(instance, hit.triangle, weights).face * gl_WorldToObjectEXT);
-    hit.entering = dot(out_of, hit.face) > 0.0;
+    InstanceRecord instance = push.world.scene.instances.at[seen.hit.instance];
+    vec3 out_of = vec3(surface_at(instance, seen.hit.triangle, barycentrics).face * gl_WorldToObjectEXT);
+    seen.entering = dot(out_of, seen.hit.face) > 0.0;
 }

@@ -114,7 +114,7 @@ void advance(inout Path path, inout Ray ray, Hit hit) {
     float mirrors = largest(mirror) / max(largest(mirror) + largest(rest), 1e-30);
     // Shadow rays and the next ray start at one place, so that the chances of both are about the same
     // direction. There is no lift to the smooth surface: a path could end up within another surface.
-    vec3 from = hit.position + hit.height * hit.face;
+    vec3 from = hit.position + hit.offset * hit.face;
     if (ESTIMATOR != ESTIMATOR_BSDF && path.bounce < push.depth && largest(rest) > 0.0) {
         ask(path, hit, material, from, to_eye, 1.0 - mirrors);
     }

@@ -1,11 +1,9 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "common/hit.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 hitAttributeEXT vec3 outward;
@@ -18,7 +16,7 @@ void main() {
     precise vec3 point = sphere.corner + sphere.radius * outward;
     hit.position = point;
     hit.face = faceforward(outward, gl_WorldRayDirectionEXT, outward);
-    hit.height = ROUNDING * dot(abs(outward), 31.0 * abs(point) + vec3(46.0 * sphere.radius));
+    hit.offset = ROUNDING * dot(abs(outward), 31.0 * abs(point) + vec3(46.0 * sphere.radius));
     hit.t = gl_HitTEXT;
     // A sphere has one normal, and is as round as it looks.
     hit.normal = hit.face;

@@ -5,6 +5,7 @@
 #include "common/false_color.glsl"
 #include "constants.glsl"
 #include "tree.glsl"
+#include "common/show.glsl"
 
 // The pixels of a dispatch.
 struct Band {
@@ -28,15 +29,7 @@ layout(push_constant, scalar) uniform Push {
     Band band;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;
+// Views of this chapter, beside those of common/show.glsl.
 const uint SHOW_STEPS = 7;
 const uint SHOW_DEPTH = 8;
 const uint SHOW_BOXES = 9;

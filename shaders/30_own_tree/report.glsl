@@ -1,11 +1,11 @@
 // What the walk reports of the surface that its ray has met: what 16 asks a ray query for is read here.
 #include "common/hit.glsl"
-#include "common/above.glsl"
+#include "common/ray_offset.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
-// The weights of the second and the third corner, as the watertight test has them.
-vec2 weights_at(Corners corners, vec3 origin, vec3 direction) {
+// The barycentrics of the second and the third corner, as the watertight test has them.
+vec2 barycentrics_at(Corners corners, vec3 origin, vec3 direction) {
     uint axis = longest_axis(direction);
     vec3 d = permuted(direction, axis);
     precise vec2 slope = d.xy / d.z;
@@ -30,15 +30,19 @@ void report(inout Hit hit, Met met, vec3 origin, vec3 ray) {
     mat4x3 to_object = placed.to_object;
     vec3 o = to_object * vec4(origin, 1.0);
     vec3 d = mat3(to_object) * ray;
-    vec2 weights = weights_at(push.trees.at[0].corners.at[met.position], o, d);
+    vec2 barycentrics = barycentrics_at(push.trees.at[0].corners.at[met.position], o, d);
     uint number = placed.number;
     uint primitive = met.position - placed.first;
     hit.t = met.t;
     InstanceRecord instance = push.scene.instances.at[number];
     uint triangle = instance.original.at[primitive];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights, to_world, to_object, ray);
+    HitPoint at = hit_point(instance, triangle, barycentrics, to_world, to_object, ray);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * to_object));
     // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.

@@ -8,6 +8,7 @@
 #include "views.glsl"
 #include "report.glsl"
 #include "common/lighting.glsl"
+#include "common/views.glsl"
 
 layout(local_size_x_id = 4, local_size_y_id = 5) in;
 
@@ -31,18 +32,14 @@ Hit trace(vec3 origin, vec3 direction, out Met met) {
 }
 
 // What a view shows of a hit instead of the picture.
-vec4 view_of(Hit hit, Met met, vec3 direction, Start start, float visible) {
+vec4 view_of(Hit hit, Met met, vec3 direction, RayOrigin start, float visible) {
     bool missed = hit.t < 0.0;
     switch (SHOW) {
-        case SHOW_NORMAL: return vec4(missed ? hit.color : 0.5 + 0.5 * hit.normal, 1.0);
-        case SHOW_TRIANGLE: return vec4(missed ? hit.color : false_color(hit.triangle), 1.0);
-        case SHOW_HIT: return missed ? vec4(-1.0) : vec4(hit.instance, hit.triangle, hit.t, hit.material);
-        case SHOW_DIRECTION: return vec4(direction, hit.t);
-        case SHOW_SHADOW: return vec4(missed ? hit.color : vec3(visible), 1.0);
-        case SHOW_ORIGIN: return missed ? vec4(-1.0) : vec4(start.origin, visible);
         case SHOW_STEPS: return vec4(heat(float(met.boxes + met.triangles) / 150.0), 1.0);
         case SHOW_DEPTH: return vec4(heat(missed ? 0.0 : float(depth_of(push.trees.at[0], met)) / 32.0), 1.0);
-        default: return vec4(edges_over(0.5 * hit.color, hit.t), 1.0);
+        case SHOW_BOXES:
+        case SHOW_WALK: return vec4(edges_over(0.5 * hit.color, hit.t), 1.0);
+        default: return view_of(hit, direction, start.origin, visible);
     }
 }
 
@@ -59,7 +56,7 @@ void main() {
     Met met;
     Hit hit = trace(push.camera.origin, direction, met);
     vec3 color = hit.color;
-    Start start = shadow_start(hit);
+    RayOrigin start = shadow_start(hit);
     float visible = 1.0;
     float apart = 1.0;    // from the pixel of the one ray
     if (SHOW == SHOW_WALK) {

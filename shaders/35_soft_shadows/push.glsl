@@ -5,19 +5,10 @@
 #include "common/disk.glsl"
 #include "common/random.glsl"
 #include "common/false_color.glsl"
+#include "common/show.glsl"
 
 layout(push_constant, scalar) uniform Push {
     CameraBasis camera;
     SceneAddresses scene;
     DiskLight light;
 } push;
-
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;

@@ -4,6 +4,7 @@
 #include "common/shade.glsl"
 #include "common/false_color.glsl"
 #include "common/heat.glsl"
+#include "common/show.glsl"
 
 struct Sphere {
     vec3 center;
@@ -51,15 +52,7 @@ layout(push_constant, scalar) uniform Push {
     DirectionalLight light;
 } push;
 
-// What is fixed when the pipeline is made: code that cannot run is not even there.
-layout(constant_id = 0) const uint SHOW = 0;
-const uint SHOW_PICTURE = 0;
-const uint SHOW_NORMAL = 1;
-const uint SHOW_TRIANGLE = 2;
-const uint SHOW_HIT = 3;
-const uint SHOW_DIRECTION = 4;
-const uint SHOW_SHADOW = 5;
-const uint SHOW_ORIGIN = 6;
+// Views of this chapter, beside those of common/show.glsl.
 const uint SHOW_KIND = 7;
 const uint SHOW_PLACE = 8;
 const uint SHOW_TESTS = 9;

@@ -1,38 +1,16 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/report.glsl"
 
-layout(set = 1, binding = 0) uniform sampler2D textures[];
-
-layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: what surface it is, and where.
 void main() {
-    InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
-    uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
-    MaterialRecord material = push.scene.materials.at[instance.material];
-    place(hit, instance, triangle, weights);
-    hit.t = gl_HitTEXT;
-    // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
-    vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
-    // The triangle's own normal decides which side is seen: near an outline the smooth one may look away.
-    hit.normal = faceforward(normal, -hit.face, normal);
-
-    hit.color = material.base_color;
-    if (material.base_texture >= 0) {
-        hit.color *= textureLod(textures[nonuniformEXT(material.base_texture)], surface.uv, 0.0).rgb;
-    }
-    hit.material = instance.material;
-    hit.triangle = triangle;
-    hit.instance = gl_InstanceCustomIndexEXT;
-    hit.kind = gl_HitKindEXT;
-    hit.place = -1.0;
+    seen.hit = report(push.scene, barycentrics);
+    seen.kind = gl_HitKindEXT;
+    seen.place = -1.0;
 }

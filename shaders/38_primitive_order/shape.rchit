@@ -1,13 +1,11 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 #include "hit.glsl"
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
-layout(location = 0) rayPayloadInEXT Hit hit;
+layout(location = 0) rayPayloadInEXT ShapeHit seen;
 hitAttributeEXT vec3 outward;
 
 // Computes the hit anew, from the shape and not from the ray: on the sphere or the wall as nearly as
@@ -18,8 +16,8 @@ hitAttributeEXT vec3 outward;
 // for u·r and then, for the roots to have one sign, needs 6u·r (c) or 29u·r (the foot: 15u·r along the ray,
 // 4u·r across, 10u·r of root and sum): 46u·r in all.
 // Box: the wall's own coordinate is the point's, and the next ray's test subtracts it: the sign of a
-// difference is never wrong. Then the instance's transform, as for triangles (common/above.glsl).
-void place_on_shape() {
+// difference is never wrong. Then the instance's transform, as for triangles (common/ray_offset.glsl).
+HitPoint hit_point_on_shape() {
     precise vec3 point;
     vec3 own;
     if (gl_HitKindEXT == KIND_SPHERE) {
@@ -40,13 +38,16 @@ void place_on_shape() {
     mat3 inverse = absolute(mat3(gl_WorldToObjectEXT));
     vec3 shift = abs(gl_ObjectToWorldEXT[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * own + 4.0 * (reach + shift) + abs(world)
+    vec3 error_bound = linear * own + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
-    hit.position = world;
-    hit.face = normalize(vec3(outward * gl_WorldToObjectEXT));
-    hit.face = faceforward(hit.face, gl_WorldRayDirectionEXT, hit.face);
-    hit.height = ROUNDING * dot(abs(hit.face), straying);
+    HitPoint at;
+    at.position = world;
+    at.face = normalize(vec3(outward * gl_WorldToObjectEXT));
+    at.face = faceforward(at.face, gl_WorldRayDirectionEXT, at.face);
+    at.offset = ROUNDING * dot(abs(at.face), error_bound);
+    at.lift = vec3(0.0);   // a shape is as round as it looks
+    return at;
 }
 
 // The nearest hit is a sphere or a box: the intersection shader has left its normal.
@@ -55,16 +56,19 @@ void main() {
     uint id = sphere ? push.shapes.sphere_ids.at[gl_PrimitiveID]
                      : push.shapes.box_ids.at[gl_PrimitiveID];
     uint material = sphere ? sphere_of(gl_PrimitiveID).material : box_of(gl_PrimitiveID).material;
-    place_on_shape();
+    HitPoint at = hit_point_on_shape();
+    Hit hit;
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
-    // A shape has one normal, and is as round as it looks.
+    // A shape has one normal.
     hit.normal = hit.face;
-    hit.lift = vec3(0.0);
     hit.color = push.scene.materials.at[material].base_color;
     hit.material = material;
     hit.triangle = id;
     hit.instance = gl_InstanceCustomIndexEXT;
-    hit.kind = gl_HitKindEXT;
     uint count = sphere ? push.shapes.sphere_count : push.shapes.box_count;
-    hit.place = float(gl_PrimitiveID) / float(count);
+    seen = ShapeHit(hit, gl_HitKindEXT, float(gl_PrimitiveID) / float(count));
 }

@@ -32,7 +32,7 @@ void mirror(inout Ray ray, inout Seen seen, vec3 normal, float curvature) {
     seen.cone = after_mirror(seen.cone, seen.hit.t, curvature);
 #endif
     ray.direction = mirrored(from, normal, seen.hit.face);
-    ray.origin = seen.hit.position + seen.hit.height * seen.hit.face;
+    ray.origin = seen.hit.position + seen.hit.offset * seen.hit.face;
 }
 
 void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, float to) {
@@ -51,7 +51,7 @@ void refract_into(inout Ray ray, inout Seen seen, vec3 normal, float curvature, 
 #endif
     // Interpolated normals may send it back to the side it came from: mirrored at the triangle, it goes through.
     ray.direction = normalize(on - 2.0 * max(dot(on, seen.hit.face), 0.0) * seen.hit.face);
-    ray.origin = seen.hit.position - seen.hit.height * seen.hit.face;
+    ray.origin = seen.hit.position - seen.hit.offset * seen.hit.face;
     ray.index = to;
 }
 

@@ -9,7 +9,7 @@ struct Emitter {
     float probability;    // that it is chosen by its power
     vec3 along;           // and to its third
     uint material;
-    float height;         // a ray that ends so far above it, and `slack` times its length, does not meet it
+    float offset;         // a ray that ends so far above it, and `slack` times its length, does not meet it
     float slack;
 };
 

@@ -8,20 +8,20 @@ bool is_lit(vec3 origin, vec3 to_light, float end);
 
 // ANCHOR: start
 // Where a shadow ray starts, and which way is up there.
-struct Start {
+struct RayOrigin {
     vec3 origin;
     vec3 up;
 };
 
-Start shadow_start(Hit hit) {
+RayOrigin shadow_start(Hit hit) {
     // On a round surface that is made of triangles, up is where the smooth normal points.
     bool lifted = hit.lift != vec3(0.0);
-    return Start(hit.position + hit.height * hit.face + hit.lift, lifted ? hit.normal : hit.face);
+    return RayOrigin(hit.position + hit.offset * hit.face + hit.lift, lifted ? hit.normal : hit.face);
 }
 // ANCHOR_END: start
 
 // 1 if light arrives from a direction, else 0: it comes from t = `end` along `to_light`.
-float visibility(Start start, vec3 to_light, float end) {
+float visibility(RayOrigin start, vec3 to_light, float end) {
     // A light below the surface is hidden by the surface itself: that needs no ray.
     return dot(start.up, to_light) > 0.0 && is_lit(start.origin, to_light, end) ? 1.0 : 0.0;
 }

@@ -1,18 +1,22 @@
 // Taught by 06_reflection.
 //
 // What a closest hit shader reports of the triangle that a ray met.
-#include "common/place.glsl"
+#include "common/hit_point.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D textures[];
 
 // The built-in variables of a hit shader say which surface it is.
-Hit report(SceneAddresses scene, vec2 weights) {
+Hit report(SceneAddresses scene, vec2 barycentrics) {
     InstanceRecord instance = scene.instances.at[gl_InstanceCustomIndexEXT];
     uint triangle = instance.original.at[gl_PrimitiveID];
-    Surface surface = surface_at(instance, triangle, weights);
+    Surface surface = surface_at(instance, triangle, barycentrics);
     MaterialRecord material = scene.materials.at[instance.material];
     Hit hit;
-    place(hit, instance, triangle, weights);
+    HitPoint at = hit_point(instance, triangle, barycentrics);
+    hit.position = at.position;
+    hit.offset = at.offset;
+    hit.face = at.face;
+    hit.lift = at.lift;
     hit.t = gl_HitTEXT;
     // A normal turns with the inverse transpose; a row vector times a matrix is the transposed product.
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));

@@ -49,16 +49,16 @@ struct Surface {
     vec2 uv;
 };
 
-// Interpolates the vertices of a triangle; `weights` are the hit attributes, the second and third
+// Interpolates the vertices of a triangle; `barycentrics` are the hit attributes, the second and third
 // barycentric coordinates.
-Surface surface_at(InstanceRecord instance, uint triangle, vec2 weights) {
+Surface surface_at(InstanceRecord instance, uint triangle, vec2 barycentrics) {
     // ANCHOR: corner
     uvec3 corner = instance.triangles.at[triangle];
     Vertex a = instance.vertices.at[corner.x];
     // ANCHOR_END: corner
     Vertex b = instance.vertices.at[corner.y];
     Vertex c = instance.vertices.at[corner.z];
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     Surface surface;
     surface.normal = w.x * a.normal + w.y * b.normal + w.z * c.normal;
     surface.face = cross(b.position - a.position, c.position - a.position);

@@ -6,7 +6,7 @@
 
 // From 0 to 1. One ray tells if the disk is a mere point; else several rays go to points of it, which begin
 // at the random numbers `first`.
-float visible_part(DiskLight disk, Start start, vec2 first) {
+float visible_part(DiskLight disk, RayOrigin start, vec2 first) {
     bool soft = disk.radius > 0.0;
     uint count = soft ? disk.samples : 1;
     float seen = 0.0;

@@ -36,7 +36,7 @@ Aim aim_from_inside(Emitter emitter, vec3 to_center, vec3 d) {
     float half_chord = sqrt(max(middle * middle + apart, 0.0));
     float t = middle < 0.0 ? apart / (half_chord - middle) : middle + half_chord;
     vec3 inward = normalize(to_center - t * d);
-    return Aim(d, 12.566370614, t * d + (emitter.height + emitter.slack * t) * inward);
+    return Aim(d, 12.566370614, t * d + (emitter.offset + emitter.slack * t) * inward);
 }
 
 Aim aim_at_sphere(Emitter emitter, vec3 from, vec2 u) {
@@ -61,6 +61,6 @@ Aim aim_at_sphere(Emitter emitter, vec3 from, vec2 u) {
     float half_chord = sqrt(max((radius - aside) * (radius + aside), 0.0));
     float t = (distance - radius) * (distance + radius) / (distance * (1.0 - w) + half_chord);
     vec3 outward = (aside * ((1.0 - w) * side - sine * axis) - half_chord * direction) / radius;
-    vec3 to = t * direction + (emitter.height + emitter.slack * t) * outward;
+    vec3 to = t * direction + (emitter.offset + emitter.slack * t) * outward;
     return Aim(direction, 6.283185307 * whole, to);
 }

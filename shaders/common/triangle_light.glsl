@@ -56,6 +56,6 @@ Aim aim_at_triangle(Emitter emitter, vec3 from, vec2 u) {
         aim.direction = normalize(aim.to);
         aim.angle = angle_by_area(emitter, aim.to);
     }
-    aim.to += (emitter.height + emitter.slack * length(aim.to)) * normal;
+    aim.to += (emitter.offset + emitter.slack * length(aim.to)) * normal;
     return aim;
 }

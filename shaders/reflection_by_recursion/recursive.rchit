@@ -1,9 +1,6 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "06_reflection/push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
@@ -13,14 +10,14 @@
 #include "common/report.glsl"
 
 layout(location = 0) rayPayloadInEXT Path path;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // The nearest hit: lit here, and the mirrored ray is traced from here.
 void main() {
     // ANCHOR: trace
     // The built-in variables are read before anything is traced: afterwards the software driver takes
     // these for the last ray's own.
-    Hit hit = report(push.scene, weights);
+    Hit hit = report(push.scene, barycentrics);
     Ray ray = Ray(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT);
     advance(path, ray, hit);
     if (goes_on(path)) {

@@ -1,8 +1,6 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "06_reflection/push.glsl"
 #include "common/hit.glsl"
 #include "common/lighting.glsl"
@@ -16,6 +14,6 @@ void main() {
     Hit hit;
     hit.t = -1.0;
     hit.color = sky(gl_WorldRayDirectionEXT);
-    vec4 view = view_of(hit, gl_WorldRayDirectionEXT, Start(vec3(0.0), vec3(0.0)), 1.0);
+    vec4 view = view_of(hit, gl_WorldRayDirectionEXT, vec3(0.0), 1.0);
     gather(path, SHOW == SHOW_PICTURE ? vec4(hit.color, 1.0) : view);
 }

@@ -257,7 +257,7 @@ cargo run --bin 02_basic -- --headless --size 32x20 --out basic.png
 <!-- controls 02_basic -->
 <!-- /controls -->
 
-All chapters share `band.glsl`, `camera.glsl`, `scene.glsl` and `shade.glsl`.
+All chapters share `band.glsl`, `camera.glsl`, `extensions.glsl`, `scene.glsl` and `shade.glsl`.
 
 Compare them with `cargo chapters diff 01 02`, list what `cargo run --bin NN_name` can do.
 

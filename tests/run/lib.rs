@@ -185,8 +185,8 @@ pub fn replace_line(shaders: &Path, file: &str, from: &str, to: &str) {
 
 /// A copy of `shaders/` where rays leave triangles as they are, not the round surfaces that they stand for.
 pub fn flat_shaders() -> tempfile::TempDir {
-    let lift = "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);";
-    shaders_with("common/above.glsl", lift, "hit.lift = vec3(0.0);")
+    let lift = "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);";
+    shaders_with("common/ray_offset.glsl", lift, "at.lift = vec3(0.0);")
 }
 
 /// Copies a folder and all below it.

@@ -245,9 +245,9 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
 
 /// The lines in which `origin.glsl` goes up by the step of a rule.
 const STEPS: [(&str, &str); 3] = [
-    ("bound", "return Start(from.position + step * from.normal, 0.0);"),
-    ("height", "return Start(from.position + from.height * from.normal, 0.0);"),
-    ("magnitudes", "return Start(from.position + height * from.normal, 0.0);"),
+    ("bound", "return RayOrigin(from.position + step * from.normal, 0.0);"),
+    ("height", "return RayOrigin(from.position + from.offset * from.normal, 0.0);"),
+    ("magnitudes", "return RayOrigin(from.position + offset * from.normal, 0.0);"),
 ];
 
 impl Setting<'_> {

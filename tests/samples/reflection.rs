@@ -161,8 +161,8 @@ fn no_ray_hits_what_it_left_or_passes_what_stands_there() {
     let scene = Scene::chess_of_metal().unwrap();
     let exact = reference(&scene);
     // Where nothing is lifted, a mirrored ray starts where the shadow ray of the same hit does.
-    let lifts = "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);";
-    let flat = shaders_with("common/above.glsl", lifts, "hit.lift = vec3(0.0);");
+    let lifts = "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);";
+    let flat = shaders_with("common/ray_offset.glsl", lifts, "at.lift = vec3(0.0);");
     let show = |sets: &[&str]| {
         picture_by(flat.path(), "240x150", &[&["minimum contribution=0"], sets].concat())
     };

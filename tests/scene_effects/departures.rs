@@ -8,7 +8,7 @@ use run::{command, expected, render_by, shaders_with};
 
 /// The start of `lit_by`, and the point that a pipeline without shadows does not compute.
 const LIT: &str = "    vec3 to_light = normalize(towards_light(light, hit.position));\n";
-const LIFTED: &str = "#ifdef DEPARTURES\n    hit.position += hit.height * hit.face;\n#endif\n";
+const LIFTED: &str = "#ifdef DEPARTURES\n    hit.position += hit.offset * hit.face;\n#endif\n";
 
 #[test]
 #[ignore = "by hand: takes figures of the page"]

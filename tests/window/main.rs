@@ -477,7 +477,7 @@ fn a_pipeline_that_cannot_be_made_leaves_the_old_one_in_its_place() {
     let copy = tempfile::tempdir().expect("a temporary folder");
     copy_shaders(copy.path(), &["common", "25_scene_effects"]);
     let broken = "#version 460\nnonsense\n";
-    std::fs::write(copy.path().join("25_scene_effects/shadow.rmiss"), broken).expect("an edit");
+    std::fs::write(copy.path().join("common/shadow.rmiss"), broken).expect("an edit");
     // It casts no shadow until the box is ticked.
     let scene = run::root().join("samples/assets/scenes/one_sphere.toml");
     let scene = scene.to_str().expect("a plain path");

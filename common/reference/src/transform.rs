@@ -10,7 +10,7 @@ pub const U: f64 = 1.0 / (1 << 24) as f64;
 ///
 /// # How far the ray strays
 /// A GPU tests triangles in object space, with a ray that it makes from the world's by the inverse
-/// map W in f32: `o' = W_L·o + W_T`, `d' = W_L·d`. What follows bounds the straying of that ray as
+/// map W in f32: `o' = W_L·o + W_T`, `d' = W_L·d`. What follows bounds the error of that ray as
 /// seen from the world, to first order in u; |·| of a matrix or vector takes every entry's absolute
 /// value, and ≤ holds entry by entry.
 ///
@@ -43,7 +43,7 @@ pub struct Transform {
     /// A bound on the factor by which L stretches: `√(‖L‖₁·‖L‖∞)`, at least its spectral norm.
     pub stretch: f64,
     /// H above, without unit.
-    pub straying: DMat3,
+    pub error_bound: DMat3,
 }
 
 fn absolute(m: DMat3) -> DMat3 {
@@ -84,7 +84,7 @@ impl Transform {
 
         let inverse = linear.inverse();
         let (size, inverse_size) = (absolute(linear), absolute(inverse));
-        let straying = if is_scaled_permutation(linear) {
+        let error_bound = if is_scaled_permutation(linear) {
             DMat3::IDENTITY
         } else {
             let cofactors = permanent_cofactors(size);
@@ -101,7 +101,7 @@ impl Transform {
             inverse,
             determinant,
             stretch: (column_sum * row_sum).sqrt(),
-            straying,
+            error_bound,
         })
     }
 
@@ -120,7 +120,7 @@ impl Transform {
     ///
     /// `reach` is a vector: the farthest that the ray goes along each axis. In world units.
     pub fn stray(&self, origin: DVec3, reach: DVec3) -> DVec3 {
-        self.straying * (origin.abs() + self.translation.abs() + reach.abs()) * U
+        self.error_bound * (origin.abs() + self.translation.abs() + reach.abs()) * U
     }
 }
 
@@ -151,7 +151,7 @@ mod tests {
             let direction = f32s(random.unit());
             let local = through_f32(rows, direction, 0.0);
             let back = transform.linear * local;
-            let bound = transform.straying * direction.abs() * U;
+            let bound = transform.error_bound * direction.abs() * U;
             worst = worst.max(((back - direction).abs() / bound).max_element());
         }
         assert!((0.03..=1.0).contains(&worst), "{worst}");
@@ -161,8 +161,8 @@ mod tests {
     fn the_identity_and_its_kin_stray_by_one_rounding() {
         let rows = [[0.0, -2.0, 0.0, 3.1], [0.5, 0.0, 0.0, -7.7], [0.0, 0.0, 1.0, 1e-3]];
         let transform = Transform::from_rows(rows).unwrap();
-        assert_eq!(transform.straying, DMat3::IDENTITY);
-        assert_eq!(Transform::identity().straying, DMat3::IDENTITY);
+        assert_eq!(transform.error_bound, DMat3::IDENTITY);
+        assert_eq!(Transform::identity().error_bound, DMat3::IDENTITY);
         let mut random = Random(6);
         for _ in 0..1000 {
             let origin = f32s(random.in_cube() * 10.0);
@@ -173,7 +173,7 @@ mod tests {
         }
         let mut turned = rows;
         turned[2][2] = 1.5;
-        assert_ne!(Transform::from_rows(turned).unwrap().straying, DMat3::IDENTITY);
+        assert_ne!(Transform::from_rows(turned).unwrap().error_bound, DMat3::IDENTITY);
     }
 
     #[test]

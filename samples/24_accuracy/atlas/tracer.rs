@@ -37,7 +37,7 @@ common::shader_struct! {
         /// In lengths of the ray's direction.
         pub t: f32,
         /// Of the second and the third corner.
-        pub weights: Vec2,
+        pub barycentrics: Vec2,
     }
 }
 

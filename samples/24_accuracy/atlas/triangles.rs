@@ -233,12 +233,12 @@ impl Tally {
                 return;
             }
         };
-        if !(met.t.is_finite() && met.weights.is_finite()) {
+        if !(met.t.is_finite() && met.barycentrics.is_finite()) {
             return self.not_finite += 1;
         }
         self.t.add(ulp_error(met.t, t));
         self.t_part = self.t_part.max((f64::from(met.t) - t).abs() / (off.t + MOVED * ulp(t)));
-        for (k, weight) in met.weights.to_array().into_iter().enumerate() {
+        for (k, weight) in met.barycentrics.to_array().into_iter().enumerate() {
             let error = (f64::from(weight) - weights[k]).abs();
             self.weights.add(error * f64::from(1 << 24));
             self.weights_ulp.add(ulp_error(weight, weights[k]));

@@ -19,7 +19,7 @@ pub const FORMAT: Format = Format {
     make: |random| GRAMMAR.text(random, 2000).into_bytes(),
     grammar: Some(|| &GRAMMAR),
     seeds: || {
-        let right = ours("shaders/05_shadow_miss/shadow.rmiss");
+        let right = ours("shaders/common/shadow.rmiss");
         [vec![right, long_sum()], corpus("shader")].concat()
     },
     seal: None,

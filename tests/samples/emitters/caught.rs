@@ -39,9 +39,9 @@ fn entries(open: usize) -> [Vec<[f32; 4]>; 2] {
         }
         std::fs::write(&path, text).expect("a copy can be written");
     };
-    let behind = "hit = report(push.scene, weights);
+    let behind = "hit = report(push.scene, barycentrics);
         hit.triangle |= gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? 1u << 31 : 0;";
-    change("shade.rchit", &[("hit = report(push.scene, weights);", behind)]);
+    change("shade.rchit", &[("hit = report(push.scene, barycentrics);", behind)]);
     let note = format!(
         "if (entry == vec4(0.0) && hit.t >= 0.0 && hit.triangle >> 31 == 1 && hit.instance < {open}) {{
             entry = vec4(ray.origin, hit.t);

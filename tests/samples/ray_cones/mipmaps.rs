@@ -30,9 +30,6 @@ fn means(texture: &Texture, step: u32, value: fn(u8) -> f64) -> Vec<[f64; 3]> {
 fn level(number: u32, side: u32) -> Vec<[f64; 3]> {
     let shaders = copy_of_shaders();
     let file = "19_ray_cones/camera.rgen";
-    let nonuniform = "#extension GL_EXT_nonuniform_qualifier : require\n";
-    let tracing = "#extension GL_EXT_ray_tracing : require";
-    replace_line(shaders.path(), file, tracing, &format!("{tracing}\n{nonuniform}"));
     let seen = "#include \"seen.glsl\"";
     let table = format!("{seen}\nlayout(set = 1, binding = 0) uniform sampler2D textures[];");
     replace_line(shaders.path(), file, seen, &table);

@@ -33,20 +33,20 @@ fn run_by(shaders: &Path, more: &[&str]) -> (Picture, f64) {
     (Picture::open_exr(&out).unwrap(), milliseconds)
 }
 
-/// The bound of `above.glsl`, and the line of `shade.rchit` after which a hit has its place.
-const BOUND: &str = "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);";
-const PLACED: &str = "    place(hit, instance, triangle, weights);\n";
+/// The bound of `ray_offset.glsl`, and the line of `shade.rchit` after which a hit has its place.
+const BOUND: &str = "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);";
+const PLACED: &str = "    hit.lift = at.lift;\n";
 
 /// Pixels that become dark by mistake where the origin is nearer to the surface than the bound says.
 #[test]
 fn specks_come_where_the_bound_is_not_kept() {
     let shadow = |file, from, to: &str| patched(file, from, to, &["--set", "show=shadow"]).0;
-    let right = shadow("common/above.glsl", BOUND, BOUND);
+    let right = shadow("common/ray_offset.glsl", BOUND, BOUND);
     let lit = right.pixels.iter().filter(|pixel| is_lit(pixel)).count();
     let mut scaled = Map::new();
     for factor in ["1.0", "0.3", "0.1", "0.03", "0.01", "0.0"] {
         let picture = shadow(
-            "common/above.glsl",
+            "common/ray_offset.glsl",
             BOUND,
             &BOUND.replace("ROUNDING", &format!("{factor} * ROUNDING")),
         );
@@ -75,7 +75,7 @@ fn the_hit_s_own_point_is_no_start() {
     let right = shadow();
     let from_t = format!(
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
-         hit.height = 0.0;\n"
+         hit.offset = 0.0;\n"
     );
     replace_line(shaders.path(), "05_shadow_miss/shade.rchit", PLACED, &from_t);
     let lit = right.pixels.iter().filter(|pixel| is_lit(pixel)).count();
@@ -91,7 +91,7 @@ fn the_hit_s_own_point_is_no_start() {
 fn the_bound_in_time() {
     let by_eye = format!(
         "{PLACED}    hit.position = gl_WorldRayOriginEXT + gl_HitTEXT * gl_WorldRayDirectionEXT;\n    \
-         hit.height = 0.001;\n"
+         hit.offset = 0.001;\n"
     );
     let time = |to: &str| patched("05_shadow_miss/shade.rchit", PLACED, to, &["--frames", "5"]).1;
     expected::give_timed("05_shadow_miss/bound", ratio(|| time(PLACED) / time(&by_eye)));

@@ -17,15 +17,15 @@ const PARTS: [(&str, &str, &str, &str); 6] = [
     ),
     (
         "height",
-        "common/above.glsl",
-        "hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);",
-        "hit.height = 1e-4;",
+        "common/ray_offset.glsl",
+        "at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);",
+        "at.offset = 1e-4;",
     ),
     (
         "lift",
-        "common/above.glsl",
-        "hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);",
-        "hit.lift = vec3(0.0);",
+        "common/ray_offset.glsl",
+        "at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);",
+        "at.lift = vec3(0.0);",
     ),
     ("texture", "05_shadow_miss/shade.rchit", "if (material.base_texture >= 0) {", "if (false) {"),
     (

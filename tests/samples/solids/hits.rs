@@ -138,7 +138,7 @@ fn hits_agree_where_the_solid_is_turned_scaled_and_far_away() {
             let hits = stub.hits(OUTSIDE, name, &sets);
             for (ray, hit) in rays(&camera, &directions).zip(&hits.pixels) {
                 let stray = to_world.stray(ray.origin, DVec3::ZERO).length();
-                let turned = (to_world.straying * ray.direction.abs() * U).length();
+                let turned = (to_world.error_bound * ray.direction.abs() * U).length();
                 let stray = Stray { origin: stray * scale, direction: turned * scale };
                 let own = Ray {
                     origin: to_world.inverse * (ray.origin - to_world.translation),

@@ -1,18 +1,16 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "push.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
-hitAttributeEXT vec2 weights;
+hitAttributeEXT vec2 barycentrics;
 
 // ANCHOR: main
 // A triangle of the scene: its colour is its material's, and its normal is turned to the eye.
 void main() {
     InstanceRecord instance = push.scene.instances.at[gl_InstanceCustomIndexEXT];
-    Surface surface = surface_at(instance, instance.original.at[gl_PrimitiveID], weights);
+    Surface surface = surface_at(instance, instance.original.at[gl_PrimitiveID], barycentrics);
     vec3 normal = normalize(vec3(surface.normal * gl_WorldToObjectEXT));
     hit.color = push.scene.materials.at[instance.material].base_color;
     hit.normal = faceforward(normal, gl_WorldRayDirectionEXT, normal);

@@ -1,10 +1,9 @@
 #version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
+// Taught by 05_shadow_miss.
 #extension GL_GOOGLE_include_directive : require
-#include "push.glsl"
+#include "common/extensions.glsl"
 #include "common/hit.glsl"
+#include "common/shade.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit hit;
 

@@ -11,7 +11,7 @@
 // entry's absolute value. Four things are rounded:
 //
 // 1. The point in the mesh's space, a + (w1·e1 + w2·e2): three roundings of the edges' part, one of
-//    the sum. Wrong weights only shift the point within the plane. u·(|p| + 3·(|e1| + |e2|)), times |L|.
+//    the sum. Wrong barycentrics only shift the point within the plane. u·(|p| + 3·(|e1| + |e2|)), times |L|.
 // 2. The point in the world, L·p + T: a sum of four terms. 4u·(|L||p| + |T|); and u·|L·p + T| when the
 //    offset is added.
 // 3. The next ray, which the device takes back into the mesh's space by an inverse of its own. If that
@@ -36,10 +36,10 @@ mat3 absolute(mat3 m) {
 // projections onto the planes through the corners, across their normals, where those lie above it.
 // A shadow ray from there does not show the triangles where light turns into shade (Hanika, "Hacking
 // the Shadow Terminator", Ray Tracing Gems II, chapter 4). Zero on flat and on hollow surfaces.
-vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weights,
+vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 barycentrics,
         const mat4x3 to_world) {
     uvec3 corner = instance.triangles.at[triangle];
-    vec3 w = vec3(1.0 - weights.x - weights.y, weights);
+    vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     Vertex corners[3];
     vec3 point = vec3(0.0);
     for (uint k = 0; k < 3; k++) {
@@ -56,22 +56,30 @@ vec3 lift_to_smooth(vec3 face, InstanceRecord instance, uint triangle, vec2 weig
     return mat3(to_world) * lift;
 }
 
-// Fills position, face, height and lift of a hit: of a ray in direction `ray`, on a triangle of an instance that
-// `to_world` places. What is `const` needs no copy, which could cost registers.
-void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, const mat4x3 to_world,
+// The part of a hit that says where rays may leave; common/hit.glsl explains its fields.
+struct HitPoint {
+    vec3 position;
+    float offset;
+    vec3 face;
+    vec3 lift;
+};
+
+// Where a ray in direction `ray` meets a triangle of an instance that `to_world` places. What is `const` needs no
+// copy, which could cost registers.
+HitPoint hit_point(InstanceRecord instance, uint triangle, vec2 barycentrics, const mat4x3 to_world,
         const mat4x3 to_object, const vec3 ray) {
     uvec3 corner = instance.triangles.at[triangle];
     vec3 a = instance.vertices.at[corner.x].position;
     vec3 e1 = instance.vertices.at[corner.y].position - a;
     vec3 e2 = instance.vertices.at[corner.z].position - a;
-    precise vec3 point = a + (weights.x * e1 + weights.y * e2);
+    precise vec3 point = a + (barycentrics.x * e1 + barycentrics.y * e2);
     precise vec3 world = vec3(to_world * vec4(point, 1.0));
 
     mat3 linear = absolute(mat3(to_world));
     mat3 inverse = absolute(mat3(to_object));
     vec3 shift = abs(to_world[3]);
     vec3 reach = linear * abs(point);
-    vec3 straying = linear * (abs(point) + 3.0 * (abs(e1) + abs(e2)))
+    vec3 error_bound = linear * (abs(point) + 3.0 * (abs(e1) + abs(e2)))
         + 4.0 * (reach + shift) + abs(world)
         + linear * (inverse * (18.0 * reach + 7.0 * (abs(world) + shift)));
 
@@ -82,11 +90,13 @@ void place(inout Hit hit, InstanceRecord instance, uint triangle, vec2 weights, 
     area = max(max(area, 2.0 * ROUNDING * longest * longest), 1e-30);
     float test = longest * (37.0 + 2.0 * longest * longest / area);
 
-    hit.position = world;
+    HitPoint at;
+    at.position = world;
     vec3 face = vec3(cross(e1, e2) * to_object);
     // Without an area there is no normal: then the side that the ray came from is up.
-    hit.face = normalize(dot(face, face) > 1e-37 ? face : ray);
-    hit.face = faceforward(hit.face, ray, hit.face);
-    hit.height = ROUNDING * (dot(abs(hit.face), straying) + test);
-    hit.lift = lift_to_smooth(hit.face, instance, triangle, weights, to_world);
+    at.face = normalize(dot(face, face) > 1e-37 ? face : ray);
+    at.face = faceforward(at.face, ray, at.face);
+    at.offset = ROUNDING * (dot(abs(at.face), error_bound) + test);
+    at.lift = lift_to_smooth(at.face, instance, triangle, barycentrics, to_world);
+    return at;
 }

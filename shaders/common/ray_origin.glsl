@@ -1,7 +1,7 @@
 // Taught by 26_leaving_a_surface.
 
 // Where a ray starts.
-struct Start {
+struct RayOrigin {
     vec3 origin;
     float tmin;      // a length, however long the direction is
 };
