@@ -17,9 +17,6 @@ struct Losing {
     _layer: Layer,
 }
 
-/// The way to open a sample: with arguments and environment.
-type Open = fn(&str, &[&str], &[(&str, &Path)]) -> Desk;
-
 impl Losing {
     fn open(name: &str, more: &[&str], function: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
