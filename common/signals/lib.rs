@@ -12,8 +12,8 @@ impl Signal {
     }
 }
 
-/// From now on `heed` is given each signal that comes, in a thread of its own, for as long as the process lives.
-/// Where that cannot be done, and elsewhere than on Unix, they end it, as ever.
+/// From now on, `heed` is called with each signal, in a separate thread, for as long as the process lives. If that
+/// is impossible, and on systems other than Unix, signals end the process as usual.
 #[cfg(unix)]
 pub fn watch(heed: impl FnMut(Signal) + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

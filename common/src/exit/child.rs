@@ -9,27 +9,28 @@ use anyhow::{Context, Result, bail};
 /// The end of a child that has given neither an answer nor a reason.
 #[derive(Debug)]
 pub struct Crashed {
-    /// How it ended.
+    /// Its exit status.
     pub status: ExitStatus,
-    /// What it, or a library in it, said on standard error.
+    /// Its standard error, including that of its libraries.
     pub said: String,
 }
 
 impl Display for Crashed {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match is_late(self.status) {
-            true => write!(f, "the compiler takes more than {SECONDS} s"),
-            false => write!(f, "the compiler crashed ({})", self.status),
+        if is_late(self.status) {
+            write!(f, "the compiler takes more than {SECONDS} s")
+        } else {
+            write!(f, "the compiler crashed ({})", self.status)
         }
     }
 }
 
 impl std::error::Error for Crashed {}
 
-/// How long a child may take on the clock: far longer than what is asked of one.
+/// Time limit for a child, on the clock: far longer than it should need.
 const SECONDS: u32 = 600;
 
-/// What a child does first: from now on it ends with its parent, and once its time is over.
+/// The first step of a child: from now on it ends with its parent, and when its time is over.
 pub fn bind() {
     // SAFETY: the call has no preconditions, and nothing else here sets the clock.
     #[cfg(unix)]

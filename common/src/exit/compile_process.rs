@@ -16,7 +16,7 @@ const SECONDS: u64 = 30;
 #[cfg(unix)]
 const BYTES: u64 = 4 << 30;
 
-/// What the child is asked to compile.
+/// The child's input: the shader to compile.
 #[derive(Serialize, Deserialize)]
 struct Question {
     path: String,
@@ -29,7 +29,7 @@ pub fn want() {
     shader::compile_by(compile);
 }
 
-/// Whether this process is such a child.
+/// True if this process is such a child.
 pub fn is_asked() -> bool {
     std::env::args_os().nth(1).is_some_and(|argument| argument == ASKED)
 }
@@ -86,7 +86,7 @@ fn bound() {
     }
 }
 
-/// Whether a child's time was over.
+/// True if a child exceeded its time limit.
 #[cfg(unix)]
 fn is_late(status: std::process::ExitStatus) -> bool {
     use std::os::unix::process::ExitStatusExt;

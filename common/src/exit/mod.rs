@@ -1,10 +1,10 @@
-//! How a program ends: in one line whatever ends it, with no half-written file, and without taking others along.
+//! The end of a program: always in one line, with no half-written file, and without affecting other processes.
 //!
-//! - [`signals`]: Ctrl-C, a closed terminal, what a batch system sends
-//! - [`panic_hook`]: panics, crashes of the driver, no memory left
+//! - [`signals`]: Ctrl-C, a closed terminal, the signals of batch systems
+//! - [`panic_hook`]: panics, crashes of the driver, lack of memory
 //! - [`open_files`]: too few of them
 //! - [`compile_process`]: the shader compiler in a process of its own, with bounds
-//! - [`child`]: this program started again, to be asked one question
+//! - [`child`]: this program started again for a single task
 
 pub mod child;
 pub mod compile_process;

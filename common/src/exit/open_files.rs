@@ -1,5 +1,5 @@
-//! How many files a process may have open at once. With too few, driver, window and files fail each in words of
-//! their own, and none says why.
+//! The limit on open files of a process. If it is too low, driver, window and files each fail with an error of
+//! their own, and none names the reason.
 
 use anyhow::Result;
 

@@ -1,11 +1,11 @@
-//! What a program says when it cannot go on: one line, and exit code 1, as with any other error.
+//! The message of a program that cannot go on: one line, and exit code 1, as with any other error.
 
 use std::panic::PanicHookInfo;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output;
 
-/// Whether it was said why the process ends. What crashes on the way to its end has nothing to add.
+/// True if the reason for the end was reported. A crash during the shutdown after it adds nothing.
 static SAID: AtomicBool = AtomicBool::new(false);
 
 /// Says why the process ends.
@@ -34,9 +34,10 @@ fn line(info: &PanicHookInfo) -> String {
     let said = info.payload_as_str().unwrap_or("no reason given").replace('\n', " ");
     let (file, line) = info.location().map_or(("", 0), |place| (place.file(), place.line()));
     // winit takes its server's answers for granted.
-    match ["winit", "x11"].iter().any(|part| file.contains(part)) {
-        true => format!("error: the window system failed: {said}"),
-        false => format!("error: this is a mistake of the program, at {file}:{line}: {said}"),
+    if ["winit", "x11"].iter().any(|part| file.contains(part)) {
+        format!("error: the window system failed: {said}")
+    } else {
+        format!("error: this is a mistake of the program, at {file}:{line}: {said}")
     }
 }
 
@@ -47,7 +48,7 @@ pub fn for_crashes() {}
 #[cfg(target_os = "linux")]
 pub use crashes::for_crashes;
 
-/// What C and C++ do where memory is short, or where they are wrong: the driver and the shader compiler.
+/// Crashes of C and C++ code, from lack of memory or bugs: the driver and the shader compiler.
 #[cfg(target_os = "linux")]
 mod crashes {
     use std::mem::MaybeUninit;
@@ -112,10 +113,11 @@ mod crashes {
         let said = SAID.swap(true, Ordering::Relaxed);
         // SAFETY: a signal's handler may call these three; the line is as long as it says.
         unsafe {
-            match said {
-                // Another thread may be at it.
-                true => std::thread::sleep(Duration::from_millis(200)),
-                false => _ = libc::write(2, line.as_ptr().cast(), line.len()),
+            if said {
+                // Another thread may be about to end the process.
+                std::thread::sleep(Duration::from_millis(200));
+            } else {
+                libc::write(2, line.as_ptr().cast(), line.len());
             }
             libc::_exit(1)
         }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::files;
 
-/// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
+/// State of [`Interrupt::came`]: true if somebody waits for it, and true if a signal has come since.
 static LISTENING: AtomicBool = AtomicBool::new(false);
 static CAME: AtomicBool = AtomicBool::new(false);
 
@@ -20,7 +20,7 @@ impl Interrupt {
         Self(())
     }
 
-    /// Whether a signal has come.
+    /// True if a signal has come.
     pub fn came(&self) -> bool {
         CAME.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! Where caches lie: in the book's `target/`, which `cargo clean` removes, or in the user's own folder.
+//! The place of caches: the book's `target/`, which `cargo clean` removes, or the user's own folder.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

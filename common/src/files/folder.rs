@@ -63,7 +63,7 @@ impl NewFolder {
         Ok(Self { path, is_kept: false })
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }

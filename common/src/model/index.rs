@@ -16,7 +16,7 @@ pub(crate) fn position(index: i64, count: usize) -> Option<usize> {
     usize::try_from(position).ok().filter(|position| (1..=count).contains(position))
 }
 
-/// What to say of an index that is out of range.
+/// The message for an index that is out of range.
 pub(crate) fn out_of_range(index: i64, of: &str, count: usize, what: &str) -> String {
     match index {
         0 => format!("{of} index 0 is out of range: indices start at 1, or at -1 backwards"),

@@ -1,6 +1,6 @@
-//! How much of a model's files is read.
+//! Limits for reading a model's files.
 
-/// What a model may take. Without bounds a small file can ask for all the memory there is.
+/// Limits of a model. Without them, a small file could demand all available memory.
 #[derive(Clone, Copy)]
 pub(crate) struct Limits {
     /// Bytes of the OBJ file.

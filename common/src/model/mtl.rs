@@ -28,7 +28,7 @@ pub(crate) struct MaterialLibrary {
     pub materials: Vec<Material>,
     /// The textures they name.
     textures: TextureFiles,
-    /// Where each was defined first.
+    /// The place of each material's first definition.
     found: HashMap<String, String>,
     read: HashSet<PathBuf>,
     /// Bytes of the files that were read.
@@ -38,7 +38,7 @@ pub(crate) struct MaterialLibrary {
     given: Given,
 }
 
-/// What the current material has said, where one statement overrules or completes another.
+/// Statements about the current material so far, for those that override or complete another.
 #[derive(Default)]
 struct Given {
     any: bool,
@@ -48,12 +48,12 @@ struct Given {
 }
 
 impl MaterialLibrary {
-    /// Whether a file has defined the material.
+    /// True if a file has defined the material.
     pub fn defines(&self, material: &str) -> bool {
         self.found.contains_key(material)
     }
 
-    /// What to say of a material that no file defines.
+    /// The message for a material that no file defines.
     pub fn undefined(&self, material: &str) -> String {
         let known: Vec<_> = self.materials.iter().take(5).map(|m| quoted(&m.name)).collect();
         let known = match self.materials.len() {

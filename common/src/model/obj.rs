@@ -35,8 +35,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// The textures that materials index.
     pub textures: Vec<Texture>,
-    /// What is wrong with the files and what stands for it, a line for each kind, with file and line of
-    /// the first and the count of all.
+    /// Warnings about the files and the replacements used, one line per kind, with file and line of the first and
+    /// the count of all.
     pub warnings: Vec<String>,
 }
 

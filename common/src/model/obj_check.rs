@@ -96,7 +96,7 @@ pub(crate) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
 /// The uses of a material that was not defined when it was met.
 struct Undefined {
     count: usize,
-    /// How many others were met before it.
+    /// Number of others found before it.
     order: usize,
     place: String,
 }
@@ -107,7 +107,7 @@ pub(crate) struct Check<'a> {
     pub plain: String,
     /// The materials of the MTL files that were met.
     pub library: MaterialLibrary,
-    /// What is wrong, but not so wrong that the model cannot be shown.
+    /// Faults that do not prevent the model from being shown.
     pub warnings: Warnings,
     /// The materials that were used before any MTL file defined them, each with how often and where first.
     undefined: HashMap<String, Undefined>,
@@ -362,7 +362,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Whether a file is not there: a model may do without, but not name materials outside its folder.
+/// True if a file is missing: a model may do without it, but must not name materials outside its folder.
 fn is_missing(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }

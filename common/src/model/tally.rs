@@ -1,4 +1,4 @@
-//! What an OBJ file has, counted before it is parsed, and the memory that it takes.
+//! The contents of an OBJ file, counted before it is parsed, and the memory they will need.
 
 use anyhow::{Result, ensure};
 

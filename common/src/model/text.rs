@@ -44,7 +44,7 @@ impl Text {
         Ok(Self { shown, bytes })
     }
 
-    /// How many bytes it has.
+    /// Its size in bytes.
     pub fn size(&self) -> usize {
         self.bytes.len()
     }
@@ -187,7 +187,7 @@ impl Statement<'_> {
     }
 }
 
-/// What stands before a comment. Names may hold a `#` ("Material #25"), numbers never do.
+/// The part before a comment. Names may contain a `#` ("Material #25"), numbers never do.
 pub fn uncommented(rest: &str) -> &str {
     rest.split('#').next().unwrap_or_default()
 }

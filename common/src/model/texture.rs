@@ -13,8 +13,8 @@ use super::limits::Limits;
 use super::text::{Named, note_opened, open};
 use super::warnings::{Kind, Warnings};
 
-/// What decoding may take beside the texels: a few rows, and profiles and texts, which nothing here reads. A
-/// small file can hold a profile that unpacks to gigabytes; one that is larger is passed over.
+/// Limit on memory for decoding besides the texels: a few rows, and profiles and texts, which are not used here. A
+/// small file may contain a profile that unpacks to gigabytes; one that is larger is skipped.
 const BESIDE_BYTES: u64 = 16 << 20;
 
 /// An image of 8 bits a channel.
@@ -29,8 +29,8 @@ pub struct Texture {
     /// Four bytes a texel, rows from the top. Alpha is the file's; without an alpha channel it is the
     /// luminance where a material takes its opacity from the file, and 255 elsewhere.
     pub rgba: Vec<u8>,
-    /// Whether RGB is sRGB encoded: so for colours, not for a file that only holds opacity. Alpha is
-    /// linear always.
+    /// True if RGB is sRGB encoded: for colours, but not for a file that is used only for opacity. Alpha is always
+    /// linear.
     pub srgb: bool,
 }
 
@@ -47,7 +47,7 @@ impl Texture {
     }
 }
 
-/// What a material reads from a texture.
+/// The use of a texture in a material.
 pub(crate) enum Role {
     /// RGB.
     Color,

@@ -1,4 +1,4 @@
-//! What is wrong with a model, but not so wrong that it cannot be shown: a line for each kind.
+//! Faults of a model that do not prevent it from being shown: one line per kind.
 
 use std::fmt::Display;
 
@@ -26,7 +26,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// What stands for what is missing.
+    /// The replacement for the missing part.
     fn instead(self) -> &'static str {
         match self {
             Self::Library => "its materials are not known",

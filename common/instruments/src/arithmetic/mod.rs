@@ -1,5 +1,5 @@
-//! `--arithmetic`: whose arithmetic a run is done in, the driver's or the worst that the specification lets any
-//! driver have; and traversal that offers more than it must.
+//! `--arithmetic`: the arithmetic of a run, the driver's own or the worst-case rounding allowed by Vulkan; the latter
+//! also makes traversal report more candidates than necessary.
 
 mod operations;
 mod rewrite;
@@ -15,31 +15,31 @@ use common::gpu::shader::StageText;
 use common::gpu::{DriverShim, Requirements, contraction};
 use glam::Vec3;
 
-/// The name of a shader's own `main` while another calls it.
+/// The new name of a shader's own `main`, called by the added one.
 const MAIN: &str = "shader_main";
 
-/// How shaders compute.
+/// The arithmetic of shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Arithmetic {
-    /// As the driver does.
+    /// The driver's own
     #[default]
     Driver,
-    /// As inexactly as Vulkan allows: the same operation on the same operands gives the same result.
+    /// Worst-case rounding allowed by Vulkan; the same operation on the same operands gives the same result
     Worst,
-    /// The same, but the result also depends on the place of the operation in the code
-    // If there is a `seed`, on the pipeline, too.
+    /// The same, but the result also depends on the position of the operation in the code
+    // With a `seed`, it also depends on the pipeline.
     WorstByPlace,
 }
 
-/// The number that `ARITHMETIC_SEED` gives tests: every pipeline is then another compiler's work, and every
-/// build in another order. Vulkan promises equal results of *identical* pipelines alone (appendix Invariance,
-/// rules 4 and 7).
+/// The number in the environment variable `ARITHMETIC_SEED`, for tests: every pipeline then behaves as if built by
+/// another compiler, and every build has another order. Vulkan guarantees equal results only for *identical* pipelines
+/// (appendix Invariance, rules 4 and 7).
 pub fn seed() -> Option<u64> {
     std::env::var("ARITHMETIC_SEED").ok()?.parse().ok()
 }
 
 impl Arithmetic {
-    /// This, or `worst-by-place` where nothing else is asked for and there is a [`seed`].
+    /// This, or `worst-by-place` if it is the default and there is a [`seed`].
     pub fn or_seeded(self) -> Self {
         match self {
             Self::Driver if seed().is_some() => Self::WorstByPlace,
@@ -47,7 +47,7 @@ impl Arithmetic {
         }
     }
 
-    /// Whether shaders are rewritten.
+    /// True if shaders are rewritten.
     pub fn is_worst(self) -> bool {
         self != Self::Driver
     }

@@ -1,4 +1,4 @@
-//! Which instruction of SPIR-V is which function of worst.glsl.
+//! The mapping from SPIR-V instructions to functions of worst.glsl.
 
 use anyhow::{Context, Result, bail};
 use rspirv::dr::{Instruction, Operand};

@@ -15,16 +15,16 @@ use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, Stor
 use super::operations::{ids, operation};
 use super::signature::{glsl_call, type_name};
 
-/// What the names of worst.glsl's functions begin with.
+/// Prefix of worst.glsl's functions.
 const PREFIX: &str = "worst_";
 
-/// What worst.glsl needs to know of a module.
+/// Properties of a module that worst.glsl depends on.
 pub struct Needs {
     /// The functions that it will call, each as a call in GLSL.
     pub calls: Vec<String>,
-    /// What its entry point declares: a macro and whether it does.
+    /// Declarations of its entry point: a macro, and true if it is declared.
     pub declared: [(&'static str, bool); 3],
-    /// Whether it is told of the device's own triangles.
+    /// True if it receives the device's own triangle hits.
     pub meets_triangles: bool,
 }
 
@@ -69,7 +69,7 @@ pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
     Ok(module.assemble())
 }
 
-/// What is known of a module while it is rewritten.
+/// State of a module while it is rewritten.
 struct Rewriter {
     /// The functions of worst.glsl, by name and parameters.
     own: HashMap<String, Word>,
@@ -229,8 +229,8 @@ impl Rewriter {
         Ok(())
     }
 
-    /// What a sum may become with another that it is of, or with a product: not where NoContraction says
-    /// that either stays as it is.
+    /// The rearranged form of a sum together with a sum or a product among its terms; none where NoContraction
+    /// forbids changing either.
     fn rearranged(
         &mut self,
         sum: &Instruction,
@@ -271,7 +271,7 @@ impl Rewriter {
         None
     }
 
-    /// Whether an operation rounds to the nearest float anyway, as RoundingModeRTE is declared.
+    /// True if an operation rounds to the nearest float anyway, because RoundingModeRTE is declared.
     fn is_flushed_only(&self, instruction: &Instruction) -> bool {
         let op = instruction.class.opcode;
         let of = instruction.result_type.and_then(|of| self.names.get(&of));
@@ -390,7 +390,7 @@ impl Rewriter {
         self.moved(load, name, out)
     }
 
-    /// What an instruction reads, and then a call that moves it.
+    /// The operands an instruction reads, followed by a call that perturbs the result.
     fn moved(
         &mut self,
         mut read: Instruction,
@@ -468,13 +468,13 @@ impl Rewriter {
     }
 }
 
-/// Whether the entry point declares a mode for 32-bit floats.
+/// True if the entry point declares a mode for 32-bit floats.
 fn declares(module: &Module, mode: ExecutionMode) -> bool {
     let wanted = [Operand::ExecutionMode(mode), Operand::LiteralBit32(32)];
     module.execution_modes.iter().any(|i| i.operands[1..] == wanted)
 }
 
-/// Whether the module is of a stage that is told of the device's own triangles.
+/// True if the module's stage receives the device's own triangle hits.
 fn meets_triangles(module: &Module) -> bool {
     let model = module.entry_points.first().and_then(|entry| entry.operands.first());
     let stages = [ExecutionModel::ClosestHitKHR, ExecutionModel::AnyHitKHR];

@@ -19,21 +19,21 @@ use common::app::{Bands, Progress, Run, controls};
 use common::gpu::Image;
 use serde::Serialize;
 
-/// Milliseconds that a launch has to take to be worth timing.
+/// The shortest launch worth timing, in milliseconds; the picture is enlarged until it takes as long.
 const LEAST: f64 = 5.0;
-/// How many times as wide and as high as asked for a picture is made for that, at most.
+/// The largest factor by which width and height of a picture are enlarged for that.
 const WIDEST: u32 = 16;
-/// How many pixels it has for that, at most: a gigabyte of four 32-bit floats.
+/// The most pixels of a picture enlarged for that: a gigabyte of four 32-bit floats.
 const MOST_PIXELS: u64 = 1 << 26;
-/// How many frames warm up a value, at most, and how much less than the least before is less.
+/// The most warm-up frames of a value, and the ratio to the shortest time so far below which times still fall.
 const WARMING: u32 = 20;
 const FALLING: f64 = 0.97;
 
-/// What is to be compared.
+/// The options of `--compare`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Time a control's values in turns, --frames rounds, and print a table
+    /// Time a control's values in turn for --frames rounds, and print a table
     #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "animate"])]
     pub compare: Option<String>,
 }
@@ -43,9 +43,9 @@ pub struct Options {
 pub struct Comparison {
     /// The control.
     pub control: String,
-    /// How many rounds were timed, after some frames to warm up.
+    /// Number of rounds that were timed, after some frames of warm-up.
     pub rounds: u32,
-    /// How many frames were rendered, those that warm up among them.
+    /// Number of frames rendered, including the warm-up.
     pub frames: u32,
     /// The size of the picture, where a device is too fast for the one asked for.
     pub widened: Option<[u32; 2]>,
@@ -150,7 +150,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     Ok(comparison)
 }
 
-/// Whether a picture may be made twice as wide and as high again; `asked` is the first one, if it was made larger.
+/// True if a picture may be doubled again in width and height; `asked` is the first one, if it was enlarged.
 fn has_room(run: &Run, asked: Option<&Image>) -> bool {
     let [width, height] = twice(run.image.extent);
     let first = asked.map_or(run.image.extent, |image| image.extent);

@@ -13,7 +13,7 @@ use common::gpu::{
     Executable, Gpu, GpuOptions, PipelineDesc, Requirements, TextureTable, Vulkan, device,
 };
 
-/// What an absent card's driver has to say.
+/// The result from the driver of a card that is not installed.
 #[derive(Serialize, Deserialize)]
 pub struct Answer {
     /// The driver's name and version.
@@ -22,13 +22,13 @@ pub struct Answer {
     pub pipelines: Vec<Vec<Executable>>,
 }
 
-/// What RADV makes of each pipeline for a family, by RADV's name for it; `None` if there is no such card.
+/// RADV's statistics for each pipeline, for a family by RADV's name; `None` if there is no such card.
 ///
-/// To be called in a process of its own, whose environment brings the card: it may crash, and may hide the
-/// cards that are there. Mesa keeps what it has compiled, with its figures, for the next time.
+/// Call it in a separate process whose environment provides the card: it may crash, and may hide the installed
+/// cards. Mesa caches compiled pipelines with their statistics for the next time.
 ///
 /// # Errors
-/// If the card lacks what the sample needs, or if its compiler refuses.
+/// If the card lacks something the sample needs, or its compiler refuses.
 pub fn compile(
     requirements: &Requirements,
     family: &str,

@@ -22,20 +22,20 @@ use common::output;
 
 use common::exit::child::{self, Crashed};
 
-/// What is asked of compilers.
+/// The options of `--compile-for`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
+    /// Also compile the pipelines with Mesa's compiler for AMD GPUs and print its statistics; no such GPU is needed
     #[arg(long, value_name = "FAMILY", value_enum)]
     pub compile_for: Option<Family>,
 
-    /// Make the pipelines on standard input for the family there: the child of --compile-for
+    /// Compile the pipelines on standard input for the family given there: the child process of --compile-for
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,
 }
 
-/// A family of GPUs that RADV compiles ray tracing pipelines for.
+/// A GPU family for which RADV compiles ray tracing pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Family {
     /// RDNA2
@@ -49,7 +49,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// The families that are meant, by RADV's names.
+    /// RADV's names of the selected families.
     fn names(self) -> &'static [&'static str] {
         match self {
             Self::Navi21 => &["navi21"],
@@ -60,8 +60,8 @@ impl Family {
     }
 }
 
-/// What RADV says of one program of a pipeline. All figures are its compiler's: comparable between programs
-/// of one shape, and no times.
+/// RADV's statistics for one program of a pipeline. All numbers are its compiler's: comparable between similar
+/// programs, but they are not times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CompiledFor {
     /// RADV's name for the family.
@@ -94,10 +94,10 @@ pub struct CompiledFor {
     pub inverse_throughput: u64,
 }
 
-/// What the compiler of each family makes of these pipelines, each counted once: the rows of [`table`].
+/// The statistics of each family's compiler for these pipelines, each counted once: the rows of [`table`].
 ///
 /// # Errors
-/// If there is no RADV, with what to install, or if it refuses a pipeline.
+/// If there is no RADV (says what to install), or if it refuses a pipeline.
 pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<CompiledFor>> {
     let mut different: Vec<&PipelineDesc> = Vec::new();
     for desc in descs {
@@ -119,8 +119,8 @@ pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<Co
     Ok(all)
 }
 
-/// What the compiler of each family makes of each pipeline: the programs of the first, of the second, and
-/// so on. However many pipelines there are, each family has one child process.
+/// The statistics of each family's compiler for each pipeline: the programs of the first, of the second, and so
+/// on. Each family has one child process, however many pipelines there are.
 ///
 /// # Errors
 /// As [`compile_for`].
@@ -155,8 +155,8 @@ pub fn answer(requirements: &Requirements) -> Result<()> {
     output::print(&serde_json::to_string(&answer)?)
 }
 
-/// What brings a card of this family into a child's environment, the best way first: Mesa's drm-shim, which
-/// the system's own linker finds wherever it is installed, and RADV's own null hardware.
+/// Environment variables that provide a card of this family to a child process, the best first: Mesa's drm-shim,
+/// which the system's linker finds wherever it is installed, and RADV's own null hardware.
 pub fn ways(family: &str) -> [Vec<(&'static str, OsString)>; 2] {
     let mut preloaded = OsString::from("libamdgpu_noop_drm_shim.so");
     if let Some(others) = std::env::var_os("LD_PRELOAD") {

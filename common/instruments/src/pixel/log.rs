@@ -1,4 +1,4 @@
-//! What shaders have written down of a pixel's rays, as text.
+//! The rays of a pixel as text, from the log that shaders write.
 
 use std::fmt::Write;
 
@@ -27,16 +27,16 @@ const DEEPEST: usize = 31;
 
 /// A ray that is under way.
 struct Open {
-    /// Whether a closest hit or miss shader was called.
+    /// True if a closest hit or miss shader was called.
     ended: bool,
     flags: u32,
 }
 
-/// What was written down.
+/// The words that shaders logged.
 pub struct Log<'a> {
     words: &'a [u32],
     known: &'a [Known],
-    /// What the layer has printed, if that is a line for each `PRINT`.
+    /// The lines printed by the layer, if there is one for each `PRINT`.
     printed: std::slice::Iter<'a, String>,
     open: Vec<Open>,
     rays: usize,
@@ -69,7 +69,7 @@ impl<'a> Log<'a> {
         (log.text, log.rays)
     }
 
-    /// Whether several pixels were traced.
+    /// True if several pixels were traced.
     pub fn is_of_many(words: &'a [u32]) -> bool {
         words.iter().take(1).any(|head| head & 0xff == MANY)
     }

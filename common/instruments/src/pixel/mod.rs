@@ -19,12 +19,12 @@ use common::output;
 use self::log::{Log, WORDS};
 use self::stages::Stages;
 
-/// What is asked of a pixel.
+/// The options of `--pixel`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Print the rays of this pixel, and what shaders PRINT there, instead of a picture; `click`: of each pixel
-    /// that is clicked in the window with Ctrl held
+    /// Print the rays of this pixel, and the output of PRINT in its shaders, instead of a picture; `click`: of each
+    /// pixel clicked in the window with Ctrl held
     #[arg(
         long,
         value_name = "X,Y|click",
@@ -37,12 +37,12 @@ pub struct Options {
     pub pixel: Option<Which>,
 }
 
-/// Which pixels are asked for.
+/// The selected pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// The one in this column and row.
+    /// The pixel in this column and row.
     At([u32; 2]),
-    /// Those that are clicked.
+    /// The pixels clicked in the window.
     Clicked,
 }
 
@@ -78,7 +78,7 @@ impl Options {
     }
 }
 
-/// What watches a pixel.
+/// Logs the rays of a pixel.
 #[derive(Default)]
 pub struct Probe {
     stages: Arc<Stages>,
@@ -131,7 +131,7 @@ impl Probe {
         })
     }
 
-    /// What shaders write down while `trace` traces a pixel.
+    /// The text of the shaders' log while `trace` traces a pixel.
     fn told(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<String> {
         let opened = self.stages.opened();
         let Some((gpu, log)) = &*opened else { bail!("no device was opened") };

@@ -10,10 +10,10 @@ use common::gpu::{Buffer, DriverShim, Gpu, contraction};
 
 use super::log::{ANY_HIT, BACK, HIT, MANY, MISS, PRINT, RAY, WORDS};
 
-/// What the shaders call.
+/// The logging functions that shaders call.
 const LOG: &str = include_str!("log.glsl");
 
-/// What [`LOG`] asks of the compiler, for the line after `#version`.
+/// The extensions [`LOG`] needs, inserted after `#version`.
 const EXTENSIONS: [&str; 4] = [
     "GL_EXT_buffer_reference",
     "GL_EXT_buffer_reference_uvec2",
@@ -28,14 +28,14 @@ pub struct Known {
     pub path: String,
     /// The variables of its payloads, by location.
     pub payloads: Vec<(u32, String)>,
-    /// Whether it prints.
+    /// True if it prints.
     pub prints: bool,
 }
 
 /// The driver that there is, with every shader changed.
 #[derive(Default)]
 pub struct Stages {
-    /// Where the log lies on the device.
+    /// Address of the log on the device.
     address: AtomicU64,
     known: Mutex<Vec<Known>>,
     /// The log and its device, which holds this: [`Stages::close`] parts them.
@@ -151,7 +151,7 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     new.join("\n") + "\n"
 }
 
-/// Whether a line calls `PRINT`.
+/// True if a line calls `PRINT`.
 fn prints(line: &str) -> bool {
     let code = line.split("//").next().unwrap_or_default();
     let before = code.split("PRINT(").next().filter(|before| before.len() < code.len());

@@ -12,24 +12,24 @@ use serde::{Deserialize, Serialize};
 pub struct Limits {
     /// The version of Vulkan that the device has: major, minor, patch.
     pub vulkan: [u32; 3],
-    /// Who made the device, by its number at PCI-SIG or Khronos, and its maker's number for it.
+    /// The device's maker, by its PCI-SIG or Khronos number, and the maker's number for the device.
     pub vendor_and_device: [u32; 2],
     /// Bytes of an opaque shader group handle (32 on every known device); this and what else is of ray tracing is 0
     /// on a device without.
     pub shader_group_handle_size: u64,
-    /// What the stride of a shader binding table's region is a multiple of.
+    /// Alignment of the stride of a shader binding table's region.
     pub shader_group_handle_alignment: u64,
-    /// What each region's address is a multiple of.
+    /// Alignment of each region's address.
     pub shader_group_base_alignment: u64,
     /// The largest stride of a region.
     pub max_shader_group_stride: u64,
-    /// How deep `traceRayEXT` may nest; the pipeline declares how deep it does.
+    /// The maximum nesting of `traceRayEXT`; the pipeline declares its own depth.
     pub max_ray_recursion_depth: u32,
     /// The most rays of one `vkCmdTraceRaysKHR`.
     pub max_ray_dispatch_invocation_count: u32,
     /// The most invocations of a compute shader's workgroup.
     pub max_compute_work_group_invocations: u32,
-    /// What the scratch address of an acceleration structure build is a multiple of.
+    /// Alignment of the scratch address of an acceleration structure build.
     pub min_scratch_offset_alignment: u64,
     /// The most instances of a top level.
     pub max_instance_count: u64,
@@ -54,13 +54,13 @@ pub struct Limits {
     pub timestamp_period: f32,
     /// The bits of a timestamp that count; none where the queue has no timestamps.
     pub timestamp_mask: u64,
-    /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
+    /// True if shaders may use 64-bit floats, if the sample requests them.
     pub float64: bool,
-    /// Whether rays may skip all triangles or all boxes, if the sample asks for it.
+    /// True if rays may skip all triangles or all boxes, if the sample requests it.
     pub primitive_culling: bool,
-    /// Whether a shader may demand that 32-bit floats are rounded to nearest even.
+    /// True if a shader may require 32-bit floats to be rounded to nearest even.
     pub rounding_to_nearest_even: bool,
-    /// Whether a shader may demand that signs of zeros, infinities and NaN are kept.
+    /// True if a shader may require signs of zeros, infinities and NaN to be preserved.
     pub signed_zero_inf_nan: bool,
 }
 

@@ -18,7 +18,7 @@ mod limits;
 
 pub use limits::Limits;
 
-/// What is to be told.
+/// The options of `--report`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
@@ -26,18 +26,18 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 
-    /// Ask the device's own compiler about the pipelines, for the report, where it tells
+    /// Add statistics from the device's own compiler to the report, if the driver offers them
     #[arg(long, hide = true)]
     pub compiler_figures: bool,
 }
 
 impl Options {
-    /// The file that is to be written, if it is one.
+    /// The output file; `None` for standard output.
     pub fn file(&self) -> Option<&Path> {
         self.report.as_deref().filter(|path| *path != Path::new("-"))
     }
 
-    /// Whether standard output is the report's.
+    /// True if the report goes to standard output.
     pub fn takes_output(&self) -> bool {
         self.report.as_deref() == Some(Path::new("-"))
     }
@@ -68,15 +68,15 @@ pub struct Report {
     pub device: String,
     /// Its driver, in its maker's words.
     pub driver: String,
-    /// What it has, and how much of it.
+    /// The device's features and limits.
     pub limits: Limits,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of shaders: the value of `--arithmetic`.
     pub arithmetic: String,
     /// Pixels a row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// How many frames were rendered.
+    /// Number of frames rendered.
     pub frames: u32,
     /// The device's time for a frame.
     pub gpu_milliseconds: Milliseconds,
@@ -100,15 +100,15 @@ pub struct Report {
     pub groups: usize,
     /// Device memory in use after the last frame.
     pub bytes_allocated: u64,
-    /// What validation said; empty where it is off.
+    /// Validation messages; empty if validation is off.
     pub validation_messages: Vec<String>,
-    /// What `--compare` measured.
+    /// Measurements of `--compare`.
     pub comparison: Option<Comparison>,
-    /// What `--compile-for` found out, a row a program.
+    /// Results of `--compile-for`, one row per program.
     pub compiled_for: Vec<CompiledFor>,
-    /// What the device's own compiler says of the last pipeline, where it was asked and tells.
+    /// Statistics from the device's own compiler for the last pipeline, if requested and supported.
     pub executables: Vec<Executable>,
-    /// What the chapter itself has to tell.
+    /// The chapter's own report.
     pub chapter: serde_json::Value,
 }
 

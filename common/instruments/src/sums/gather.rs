@@ -24,19 +24,19 @@ use common::gpu::{
 use common::model::text::{opened, shown};
 use common::{files, output};
 
-/// Which samples are rendered, and where their sums are kept.
+/// The samples to render, and the file for their sums.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
+    /// Without a window, render the samples A to B-1 of a picture that is the mean of many; the output is their exact mean
     #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare", "animate"])]
     pub samples: Option<Range<u32>>,
 
-    /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
+    /// With --samples, store their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
 
-    /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
+    /// With --samples, start from the sums in this file and render the missing samples; with --save of the same name, it need not exist yet
     #[arg(long, value_name = "FILE", requires = "samples")]
     pub resume: Option<PathBuf>,
 
@@ -86,7 +86,7 @@ impl Options {
 const WORKGROUP: [u32; 2] = [8, 8];
 
 common::shader_struct! {
-    /// What the shader that adds up is told.
+    /// Push constants of the shader that adds samples.
     struct Push {
         sums: Address,
         size: UVec2,
@@ -96,7 +96,7 @@ common::shader_struct! {
 /// Sums on the device, and what is to become of them.
 pub struct Gather {
     header: Header,
-    /// What is still to be rendered.
+    /// The samples still to be rendered.
     missing: SampleSet,
     sums: Buffer,
     pipeline: ComputePipeline,
@@ -104,9 +104,9 @@ pub struct Gather {
     save: Option<(PathBuf, Duration)>,
     saved: Instant,
     interrupt: Option<Arc<Interrupt>>,
-    /// What is gone on with, for messages.
+    /// The name of the resumed file, for messages.
     resumed: String,
-    /// Whether this run has added a sample; the shaders are checked then.
+    /// True if this run has added a sample; the shaders are checked then.
     has_added: Arc<AtomicBool>,
 }
 
@@ -121,12 +121,10 @@ pub fn resumed(options: &Options) -> Result<Option<Sums>> {
         save.filter(|save| !resume.is_some_and(|it| files::same(it, save)) && is_there(save))
     {
         let name = shown(save);
-        match Sums::begins(save) {
-            true => bail!("'{name}' is there already: --resume '{name}' goes on with it"),
-            false => {
-                bail!("'{name}' is there already, and is no file of sums: choose another name")
-            }
+        if Sums::begins(save) {
+            bail!("'{name}' is there already: --resume '{name}' goes on with it");
         }
+        bail!("'{name}' is there already, and is no file of sums: choose another name");
     }
     // The command that goes on is that which begins: a batch system repeats it as it stands.
     let resume = resume.filter(|resume| save != Some(resume) || is_there(resume));
@@ -181,7 +179,7 @@ impl Gather {
         })
     }
 
-    /// What is still to be rendered.
+    /// The samples still to be rendered.
     pub fn missing(&self) -> &SampleSet {
         &self.missing
     }

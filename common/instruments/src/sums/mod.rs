@@ -27,7 +27,7 @@ pub use gather::{Gather, Options, resumed};
 pub use origin::{Difference, Origin};
 pub use sample_set::{SampleSet, range};
 
-/// What a file begins with.
+/// The first bytes of a file.
 const MAGIC: &[u8; 6] = b"RTSUMS";
 /// The form that this program reads and writes.
 const FORM: u16 = 1;
@@ -48,14 +48,14 @@ const COLOR: i32 = 31;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spoiled {
-    /// How many.
+    /// Number of them.
     pub count: u64,
     /// The first pixel that has one, counted row by row.
     pub first: Option<u32>,
 }
 
 impl Spoiled {
-    /// What is to be told of a picture of this width, if there is anything.
+    /// A warning about a picture of this width, if there is one.
     pub fn warning(&self, width: u32) -> Option<String> {
         let (first, count) = (self.first?, self.count);
         let (x, y) = (first % width, first / width);
@@ -64,13 +64,13 @@ impl Spoiled {
     }
 }
 
-/// What stands before the sums.
+/// The part of a file before the sums.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
-    /// What the samples have in common.
+    /// The common origin of the samples.
     pub origin: Origin,
-    /// Which they are.
+    /// The samples.
     pub samples: SampleSet,
     /// Those that could not be added.
     pub spoiled: Spoiled,
@@ -86,7 +86,7 @@ pub struct Sums {
 }
 
 impl Header {
-    /// How many sums follow it.
+    /// Number of sums that follow it.
     fn len(&self) -> usize {
         let [width, height] = self.origin.size;
         4 * width as usize * height as usize
@@ -151,7 +151,7 @@ impl Sums {
         Self::parse(&bytes, &name)
     }
 
-    /// Whether a file begins as one of sums.
+    /// True if a file begins like a file of sums.
     pub fn begins(path: &Path) -> bool {
         Header::open(path).is_ok()
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// What samples must have in common to be added: all that a picture depends on.
+/// Everything a picture depends on, which samples must have in common to be added.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
@@ -18,7 +18,7 @@ pub struct Origin {
     pub settings: BTreeMap<String, String>,
     /// The files of the scene, by name, each with a CRC-32 of its bytes.
     pub scene: BTreeMap<String, u32>,
-    /// Whether acceleration structures are built in the model's order.
+    /// True if acceleration structures are built in the model's order.
     pub unordered: bool,
     /// A CRC-32 of the SPIR-V of all shaders, once they are compiled.
     pub shaders: Option<u32>,
@@ -26,11 +26,11 @@ pub struct Origin {
     pub device: String,
     /// Its driver and that driver's version.
     pub driver: String,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of shaders: the value of `--arithmetic`.
     pub arithmetic: String,
 }
 
-/// What two origins do not have in common.
+/// A difference between two origins.
 pub struct Difference {
     what: String,
     values: [String; 2],

@@ -1,4 +1,4 @@
-//! Which samples of a picture there are: numbers, as ranges.
+//! A set of a picture's samples: numbers, as ranges.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +14,7 @@ pub struct SampleSet {
 }
 
 impl SampleSet {
-    /// How many there are.
+    /// Number of samples.
     pub fn count(&self) -> u64 {
         self.ranges.iter().map(|range| u64::from(range.end - range.start)).sum()
     }
@@ -24,7 +24,7 @@ impl SampleSet {
         &self.ranges
     }
 
-    /// What is in both.
+    /// The intersection of both.
     pub fn overlap(&self, other: &Self) -> Self {
         let mut both = Self::default();
         let (mut mine, mut others) =
@@ -40,7 +40,7 @@ impl SampleSet {
         both
     }
 
-    /// What of `whole` is not there.
+    /// The part of `whole` that is missing.
     pub fn missing(&self, whole: Range<u32>) -> Self {
         let mut missing = Self::default();
         let mut next = whole.start;
@@ -52,7 +52,7 @@ impl SampleSet {
         missing
     }
 
-    /// What is not there between the first and the last.
+    /// The samples missing between the first and the last.
     pub fn gaps(&self) -> Self {
         match &self.ranges[..] {
             [] => Self::default(),
@@ -61,7 +61,7 @@ impl SampleSet {
         }
     }
 
-    /// Whether all of `other` is there.
+    /// True if it contains all of `other`.
     pub fn contain(&self, other: &Self) -> bool {
         self.overlap(other).count() == other.count()
     }

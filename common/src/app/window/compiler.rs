@@ -1,4 +1,4 @@
-//! What the device's own compiler says of the pipeline, in its maker's words: folded away until asked for.
+//! Statistics from the device's own compiler, in its maker's words: folded until opened.
 
 use egui::{CollapsingHeader, RichText, Ui};
 

@@ -1,15 +1,15 @@
-//! What the panel and the title tell of the run.
+//! Facts about the run, shown in the panel and the title.
 
 use crate::gpu::Executable;
 
-/// What the panel tells of the run.
+/// Facts about the run, shown in the panel.
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
     /// The sample's name.
     pub name: String,
     /// The device's name.
     pub device: String,
-    /// Whether it is a driver that runs on the CPU.
+    /// True for a driver that runs on the CPU.
     pub software: bool,
     /// Whose arithmetic it computes with.
     pub arithmetic: &'static str,
@@ -19,11 +19,11 @@ pub struct Facts {
     pub rendered: [u32; 2],
     /// The window's.
     pub full: [u32; 2],
-    /// How many pictures have been accumulated, if the sample does that.
+    /// Number of accumulated pictures, if the sample accumulates.
     pub accumulated: Option<u32>,
-    /// What is no error and seldom meant about what is shown.
+    /// Warnings about likely mistakes in the current picture.
     pub warnings: Vec<String>,
-    /// What the driver says of the programs of the pipeline made last, if it does.
+    /// The driver's statistics for the programs of the newest pipeline, if it offers them.
     pub programs: Vec<Executable>,
 }
 

@@ -6,7 +6,7 @@ use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Ui, pos2, vec2};
 
 use super::style;
 
-/// How many times are kept; one bar each.
+/// Number of stored times, one bar each.
 const LENGTH: usize = 96;
 const HEIGHT: f32 = 44.0;
 

@@ -4,7 +4,7 @@ use egui::{Align2, Area, Context, Grid, Id, Key, RichText};
 
 use super::style;
 
-/// What a key asks of the window.
+/// A command that a key gives the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ask {
     /// Show or hide the help overlay.
@@ -54,7 +54,7 @@ const WINDOW: [(&str, &str); 8] = [
     ("Esc", "quit"),
 ];
 
-/// What the keys pressed since the last frame ask; a key pressed twice asks twice.
+/// The commands of all keys pressed since the last frame; a key pressed twice gives two.
 pub fn asked(context: &Context) -> Vec<Ask> {
     context.input(|input| {
         let presses = |&(key, ask)| std::iter::repeat_n(ask, input.num_presses(key));

@@ -1,4 +1,4 @@
-//! How long someone waits for the frame that answers their input.
+//! The delay between an input and the frame that shows its effect.
 
 use std::time::{Duration, Instant};
 

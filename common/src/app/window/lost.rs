@@ -17,7 +17,7 @@ use crate::output;
 /// The width of the lines, in points.
 const WIDTH: f32 = 400.0;
 
-/// What of a session outlives its device.
+/// The part of a session that survives the loss of its device.
 pub struct Kept {
     /// The program's arguments, with the scene that was opened last.
     pub args: Args,
@@ -29,7 +29,7 @@ pub struct Kept {
     pub presented: u32,
 }
 
-/// What is to be done next.
+/// The user's choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// Nothing was chosen yet.
@@ -45,14 +45,14 @@ pub enum Choice {
 pub struct Lost {
     /// The window, and the new device.
     pub on_gpu: WindowOnGpu,
-    /// What the sample is to get back.
+    /// State to restore in the sample.
     pub kept: Kept,
-    /// What has happened.
+    /// The error that ended the session.
     pub error: Error,
     redraw_at: Option<Instant>,
 }
 
-/// Whether an error means that the device is gone, and all that was made from it.
+/// True if an error means that the device is lost, and everything created from it.
 pub fn is_loss(error: &Error) -> bool {
     let lost = vk::Result::ERROR_DEVICE_LOST;
     error.chain().any(|cause| cause.downcast_ref::<vk::Result>() == Some(&lost))
@@ -108,7 +108,7 @@ impl Lost {
     }
 }
 
-/// What has happened and two buttons, in the middle of the window.
+/// The error and two buttons, in the middle of the window.
 fn sheet(context: &Context, device: &str, error: &str) -> Choice {
     let area = Area::new(Id::new("lost")).anchor(Align2::CENTER_CENTER, [0.0, 0.0]);
     let clicked = area.show(context, |ui| {
@@ -154,7 +154,7 @@ mod tests {
 
     use super::*;
 
-    /// What is chosen by something that is done to the sheet.
+    /// The choice after an interaction with the sheet.
     fn chosen(by: impl FnOnce(&mut Harness<Choice>)) -> Choice {
         let mut harness = Harness::builder().with_size(vec2(640.0, 420.0)).build_ui_state(
             |ui, chosen: &mut Choice| match sheet(ui.ctx(), "a device", "an error") {

@@ -40,7 +40,7 @@ use crate::exit::compile_process;
 /// Pixels of a window's side: X11 counts in signed 16 bits.
 const MOST_SIDE: u32 = 32_767;
 
-/// What reaches the event loop from other threads.
+/// Events sent to the event loop by other threads.
 enum Wake {
     /// A file below `shaders/` was written.
     Saved(String),
@@ -75,7 +75,7 @@ pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> 
     shows.outcome
 }
 
-/// What is wrong with the display, and what to do.
+/// The error for a missing or unusable display, and its remedy.
 fn no_display() -> Error {
     let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked = value("WAYLAND_DISPLAY").or_else(|| value("DISPLAY"));
@@ -97,7 +97,7 @@ fn log_if_asked() {
     let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();
 }
 
-/// What a window shows.
+/// The contents of a window.
 enum Shown {
     /// There is no window yet, or no more.
     Nothing,
@@ -107,7 +107,7 @@ enum Shown {
     Lost(Box<Lost>),
 }
 
-/// What a window is opened for.
+/// Arguments for opening a window.
 #[derive(Clone, Copy)]
 struct Of<'a> {
     program: &'a Program,

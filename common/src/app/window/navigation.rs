@@ -7,13 +7,13 @@ use super::bookmarks::Bookmarks;
 use super::transport::Transport;
 use crate::scene::Camera;
 
-/// How far a drag over the whole height of the window turns: half a circle.
+/// Rotation by a drag over the whole height of the window: half a circle.
 const TURN: f64 = std::f64::consts::PI;
-/// How near the orbit comes to the pole, in radians.
+/// The closest the orbit comes to the pole, in radians.
 const POLE: f64 = 0.02;
 /// Distances to the target that a second of flight covers.
 const SPEED: f64 = 0.6;
-/// How much Shift speeds up flight.
+/// Factor by which Shift speeds up flight.
 const HURRY: f64 = 4.0;
 /// The digits that store and recall places.
 const DIGITS: [Key; 9] = [
@@ -28,7 +28,7 @@ const DIGITS: [Key; 9] = [
     Key::Num9,
 ];
 
-/// What the hand asked of the camera since the last frame; drags in heights of the window.
+/// Camera input since the last frame; drags in heights of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Turn around the target.

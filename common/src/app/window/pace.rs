@@ -1,9 +1,9 @@
-//! How large the next picture may be, so that the window stays responsive on any device.
+//! The size of the next picture, chosen to keep the window responsive on any device.
 //!
-//! While something changes, pictures are as large as sixty of them a second allow, or fifteen on a software
-//! driver. Once nothing has changed for a moment, the picture sharpens: to full size at once if that is quick,
-//! else to the largest size that is quick, and then in steps of four times the pixels. A change gives up a slow
-//! picture that is being traced. A device that traces full size within the budget never sees any of this.
+//! While something changes, pictures are as large as a rate of 60 per second allows, or 15 on a software driver.
+//! Once nothing has changed for a moment, the picture sharpens: to full size at once if that is fast, otherwise to
+//! the largest size that is fast, and then in steps of four times the pixels. A change abandons a slow picture
+//! that is being traced. A device that traces full size within the budget is not affected.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,7 @@ const MOVING: f64 = 14.0;
 const MOVING_IN_SOFTWARE: f64 = 40.0;
 /// Milliseconds for a first still picture.
 const QUICK: f64 = 120.0;
-/// How long nothing must change before the picture sharpens.
+/// Time without changes before the picture sharpens.
 const STILL: Duration = Duration::from_millis(150);
 /// The level that a software driver starts at, before its speed is known.
 const UNKNOWN: u32 = 9;
@@ -24,7 +24,7 @@ const STEP: u32 = 4;
 /// The smallest picture: a sixteenth of the width and the height.
 const LAST: u32 = 16;
 
-/// What to do for the next frame of the window.
+/// The action for the next frame of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// Render a picture of this size.
@@ -101,7 +101,7 @@ impl Pace {
         Step::Render(size(full, level))
     }
 
-    /// Whether nothing has changed for a moment.
+    /// True if nothing has changed for a moment.
     pub fn is_still(&self, now: Instant) -> bool {
         now >= self.changed + STILL
     }
@@ -112,7 +112,7 @@ impl Pace {
         Step::Render(full)
     }
 
-    /// Whether the last picture was full size and shows how things stand.
+    /// True if the last picture had full size and is up to date.
     pub fn is_sharp(&self) -> bool {
         self.shown == Some(0)
     }

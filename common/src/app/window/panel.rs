@@ -21,17 +21,17 @@ const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
 /// Windows at least so wide, in points, have the panel beside the picture; in others it lies over it.
 const WIDE: f32 = 900.0;
-/// How long a note stands.
+/// Time for which a note is shown.
 const MOMENT: Duration = Duration::from_secs(4);
 
-/// What a frame of the panel found out.
+/// The result of a frame of the panel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// A control has changed or the camera has moved.
     pub changed: bool,
     /// Keys that ask something of the window, in order.
     pub asked: Vec<Ask>,
-    /// Where the picture was clicked with Ctrl held, in parts of its width and height.
+    /// The position at which the picture was clicked with Ctrl held, as fractions of its width and height.
     pub clicked: Option<[f32; 2]>,
 }
 
@@ -50,13 +50,13 @@ pub struct Panel {
     pub navigation: Navigation,
     /// The last device times.
     pub history: History,
-    /// What is wrong with the shaders, until it is mended.
+    /// The shader error, until it is fixed.
     pub error: Option<String>,
     note: Option<(String, Instant)>,
     shown: bool,
     help: bool,
     width: f32,
-    /// Where the sheet ended in the last frame, with the margin behind it, in points.
+    /// The bottom of the panel in the last frame, including its margin, in points.
     end: f32,
 }
 
@@ -75,7 +75,7 @@ impl Panel {
         }
     }
 
-    /// How many points of a window the panel has for itself: the picture stands to the right of them.
+    /// Width of the strip that belongs to the panel, in points: the picture is to the right of it.
     pub fn strip(&self, window: f32) -> f32 {
         if self.shown && window >= WIDE { self.end } else { 0.0 }
     }
@@ -176,9 +176,10 @@ impl Panel {
         ui.add_space(2.0);
         let [width, height] = facts.rendered;
         let percent = 100.0 * f64::from(width) / f64::from(facts.full[0].max(1));
-        let size = match facts.rendered == facts.full {
-            true => format!("{width} × {height}"),
-            false => format!("{width} × {height}   {percent:.0} %"),
+        let size = if facts.rendered == facts.full {
+            format!("{width} × {height}")
+        } else {
+            format!("{width} × {height}   {percent:.0} %")
         };
         let mut lines = vec![
             ("GPU time", format!("{:.1} ms", facts.milliseconds)),
@@ -247,7 +248,7 @@ impl Panel {
     }
 }
 
-/// Where the picture is clicked with Ctrl held, in parts of its width and height.
+/// The position at which the picture is clicked with Ctrl held, as fractions of its width and height.
 fn clicked(picture: &Response, input: &InputState) -> Option<[f32; 2]> {
     // The key may be up again by the end of the frame.
     let released = |event: &Event| match event {

@@ -18,7 +18,7 @@ const DEBOUNCE: Duration = Duration::from_millis(60);
 /// Watches the files that a sample's shaders are made of.
 pub struct Reload {
     stages: BTreeSet<String>,
-    /// Whether the stages may include other files by now.
+    /// True if the set of included files may have changed.
     stale: bool,
     files: Vec<String>,
     bound: Vec<Bound>,

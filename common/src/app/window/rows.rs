@@ -25,11 +25,11 @@ const SMALLEST: f64 = 1e-3;
 
 /// Shows each control as a row and moves the camera; used inside a grid of two columns.
 pub struct Rows<'a> {
-    /// Where the rows go.
+    /// The place for the rows.
     pub ui: &'a mut Ui,
-    /// What the hand asks of the camera.
+    /// The camera input.
     pub navigation: &'a mut Navigation,
-    /// Whether any value has changed.
+    /// True if any value has changed.
     pub changed: bool,
 }
 
@@ -86,9 +86,9 @@ impl Visit for Rows<'_> {
 
 /// Moves the camera while the panel is hidden.
 pub struct Hidden<'a> {
-    /// What the hand asks of the camera.
+    /// The camera input.
     pub navigation: &'a mut Navigation,
-    /// Whether the camera has moved.
+    /// True if the camera has moved.
     pub changed: bool,
 }
 
@@ -185,8 +185,8 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
     }
 }
 
-/// How many decimals a number is shown with: three digits of the range's width, and two of the number's
-/// own, or a small one would read as 0.
+/// Number of decimals for a number: three digits of the range's width, and at least two significant digits of the
+/// number, because a small one would otherwise be shown as 0.
 fn decimals(number: f32, width: f32) -> usize {
     let exponent = |value: f32| value.abs().log10().floor();
     let own = if number == 0.0 { 0.0 } else { 1.0 - exponent(number) };

@@ -1,4 +1,4 @@
-//! What lives as long as the window.
+//! The state that lives as long as the window.
 
 mod frame;
 

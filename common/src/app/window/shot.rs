@@ -11,7 +11,7 @@ use crate::gpu::Image;
 /// The picture that is to be written.
 #[derive(Default)]
 pub struct Shot {
-    /// Whether one was asked for, and is not written yet.
+    /// True if a screenshot was requested and is not written yet.
     pub is_due: bool,
 }
 

@@ -5,16 +5,16 @@ use egui::{
     vec2,
 };
 
-/// What stands behind the panel where it has a strip of the window for itself: linear red, green, blue, alpha.
+/// Background of the panel's own strip of the window: linear red, green, blue, alpha.
 pub const BEHIND: [f32; 4] = [0.009, 0.009, 0.011, 1.0];
 
-/// What is set, and what is measured.
+/// Colour of settings and measurements.
 pub const ACCENT: Color32 = Color32::from_rgb(214, 168, 92);
 /// Text that explains.
 pub const DIM: Color32 = Color32::from_rgb(146, 150, 158);
 /// Text that is read.
 pub const TEXT: Color32 = Color32::from_rgb(222, 224, 228);
-/// What is wrong.
+/// Colour of errors.
 pub const ERROR: Color32 = Color32::from_rgb(240, 110, 100);
 /// Behind sliders and plots.
 pub const WELL: Color32 = Color32::from_rgb(40, 43, 49);

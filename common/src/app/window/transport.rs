@@ -4,7 +4,7 @@ use egui::{Button, InputState, Key, Modifiers, Ui};
 
 use crate::app::Playback;
 
-/// What the hand asked of the animation since the last frame of the window.
+/// Animation input since the last frame of the window.
 #[derive(Default)]
 pub struct Transport {
     toggles: bool,

@@ -35,15 +35,15 @@ pub struct View {
     /// The next one, which is traced in bands.
     next: Image,
     bands: Bands,
-    /// What its bands have taken until now.
+    /// Milliseconds of its bands so far.
     spent: f64,
-    /// Whether a change began it: then it is small.
+    /// True if a change began it: then it is small.
     is_preview: bool,
     pace: Pace,
     clock: Clock,
     timer: Timer,
     index: u32,
-    /// How many pictures were whole.
+    /// Number of complete pictures.
     pub pictures: u32,
     changed: bool,
     milliseconds: f64,
@@ -222,7 +222,7 @@ impl View {
         Ok(Stepped::Part)
     }
 
-    /// Whether the next picture is due because time goes on.
+    /// True if the next picture is due because the animation advances.
     pub fn plays(&mut self) -> bool {
         self.sample.playback().is_some_and(|playback| playback.playing)
     }

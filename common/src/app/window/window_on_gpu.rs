@@ -13,7 +13,7 @@ use super::style;
 use crate::app::check_validation;
 use crate::gpu::{Gpu, Image, Swapchain, WindowHandles};
 
-/// What draws to a window. It is dropped in this order, the window last.
+/// The resources for drawing to a window. Dropped in this order, the window last.
 pub struct WindowOnGpu {
     painter: Painter,
     swapchain: Swapchain,
@@ -24,7 +24,7 @@ pub struct WindowOnGpu {
     pub window: Window,
 }
 
-/// What came of an image for the window.
+/// The result of presenting an image in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presented {
     /// The window shows it.
@@ -79,7 +79,7 @@ impl WindowOnGpu {
         self.egui.on_window_event(&self.window, event).repaint
     }
 
-    /// How large a drawing has to be; `None` while there is nothing to draw to.
+    /// The required size of a drawing; `None` while there is nothing to draw to.
     ///
     /// # Errors
     /// If the window system or the device fails.

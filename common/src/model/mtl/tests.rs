@@ -1,4 +1,4 @@
-//! What is read of an MTL file, and what is refused.
+//! MTL files: the statements read, and those refused.
 
 use super::super::obj::tests::{TRIANGLE, load_files, load_text};
 use super::*;

@@ -1,4 +1,4 @@
-//! What is refused of an OBJ file, and what is only warned of.
+//! OBJ files: faults that are refused, and those that cause only a warning.
 
 use super::super::obj::load;
 use super::super::obj::tests::{load_files, load_text};

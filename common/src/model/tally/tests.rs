@@ -1,4 +1,4 @@
-//! What reading takes, held against what was counted: each file by a process of its own.
+//! The memory that reading needs, compared with the estimate: each file in a process of its own.
 
 #![cfg(target_os = "linux")]
 

@@ -1,4 +1,4 @@
-//! What materials are warned of, and what stands for what is not there.
+//! Warnings about materials, and the replacements for missing parts.
 
 use super::super::limits::Limits;
 use super::super::obj::tests::{TRIANGLE, load_files, load_text, warnings};

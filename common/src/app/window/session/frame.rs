@@ -13,10 +13,10 @@ use crate::app::window::panel::Outcome;
 use crate::app::window::stepped::Stepped;
 use crate::app::window::window_on_gpu::Presented;
 
-/// How often the title is written anew while pictures come.
+/// Update interval of the title while pictures are rendered.
 const TITLE: Duration = Duration::from_millis(500);
 
-/// How often a frame is drawn for a window that changes all the while.
+/// Number of attempts to draw a frame while the window keeps changing.
 const TRIES: u32 = 3;
 
 impl Session {
