@@ -1,4 +1,4 @@
-//! This program started again, to answer one question: what it does may crash, and its parent must not.
+//! This program started again for a single task that may crash, while its parent must not.
 
 use std::fmt::{Display, Formatter};
 use std::io::Write;
@@ -6,7 +6,7 @@ use std::process::{Command, ExitStatus, Stdio};
 
 use anyhow::{Context, Result, bail};
 
-/// The end of a child that has given neither an answer nor a reason.
+/// The end of a child that returned neither a result nor an error.
 #[derive(Debug)]
 pub struct Crashed {
     /// Its exit status.
@@ -55,18 +55,18 @@ fn is_late(_: ExitStatus) -> bool {
     false
 }
 
-/// This program, to be asked with [`ask`].
+/// This program, to be started by [`ask`].
 ///
 /// # Errors
-/// If it cannot tell where it lies.
+/// If it cannot find its own path.
 pub fn command() -> Result<Command> {
     Ok(Command::new(std::env::current_exe().context("cannot tell where this program lies")?))
 }
 
-/// Writes a question to a child's standard input, and returns what it has said on standard output.
+/// Writes a child's standard input, and returns its standard output.
 ///
 /// # Errors
-/// If it does not start, refuses, with its own line, or crashes: [`Crashed`].
+/// If it does not start, if it fails, with its own line, or if it crashes: [`Crashed`].
 pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     let mut child = command
         .stdin(Stdio::piped())
@@ -75,7 +75,7 @@ pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
         .spawn()
         .context("cannot start this program again")?;
     let mut stdin = child.stdin.take().context("a child without standard input")?;
-    // A child that has failed reads no further; its own words say why.
+    // A child that has failed stops reading; its own error line gives the reason.
     let _ = stdin.write_all(question);
     drop(stdin);
     let output = child.wait_with_output()?;

@@ -3,11 +3,11 @@
 
 use anyhow::Result;
 
-/// So many are enough for all that a program opens.
+/// Enough for everything a program opens.
 #[cfg(unix)]
 const ENOUGH: libc::rlim_t = 64;
 
-/// Holds that the system allows enough.
+/// Checks that the system allows enough.
 ///
 /// # Errors
 /// If it does not.
@@ -24,7 +24,7 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// Elsewhere the system has no such limit.
+/// Other systems have no such limit.
 #[cfg(not(unix))]
 pub fn check() -> Result<()> {
     Ok(())

@@ -1,4 +1,4 @@
-//! The indices by which a face of an OBJ file names positions, normals and texture coordinates.
+//! The indices of positions, normals and texture coordinates in the faces of an OBJ file.
 
 use anyhow::{Context, Result};
 
@@ -10,7 +10,7 @@ pub(crate) fn index(word: &str, of: &str) -> Result<i64> {
     index.with_context(|| format!("{of} index {} is not a whole number", quoted(word)))
 }
 
-/// An index as a position from 1, if it is in range. Negative ones count back from the last of `count`.
+/// The index as a position from 1, if it is in range. Negative indices count back from the last of `count`.
 pub(crate) fn position(index: i64, count: usize) -> Option<usize> {
     let position = if index > 0 { index } else { index.saturating_add(count as i64 + 1) };
     usize::try_from(position).ok().filter(|position| (1..=count).contains(position))

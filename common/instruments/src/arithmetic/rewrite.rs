@@ -1,9 +1,9 @@
-//! Every operation of a module becomes a call of the function of worst.glsl that bears its name.
+//! Replaces every operation of a module by a call of the corresponding function of worst.glsl.
 //!
-//! glslang compiles those functions together with the shader, so nothing needs to be linked: an
-//! instruction keeps its result's id and turns into `OpFunctionCall`. Which overload it calls, its operands'
-//! types say, in the names that glslang gives functions: `worst_add(vf3;vf3;u1;`. As glslang leaves out
-//! what nothing calls, a first look at the module finds which functions it will need.
+//! glslang compiles those functions together with the shader, so no linking is needed: an instruction keeps its
+//! result's id and turns into `OpFunctionCall`. The types of its operands select the overload, by the names that
+//! glslang gives functions: `worst_add(vf3;vf3;u1;`. Because glslang removes unused functions, a first pass over
+//! the module collects the functions it will need.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -20,7 +20,7 @@ const PREFIX: &str = "worst_";
 
 /// Properties of a module that worst.glsl depends on.
 pub struct Needs {
-    /// The functions that it will call, each as a call in GLSL.
+    /// The functions it will call, each as a call in GLSL.
     pub calls: Vec<String>,
     /// Declarations of its entry point: a macro, and true if it is declared.
     pub declared: [(&'static str, bool); 3],
@@ -28,7 +28,7 @@ pub struct Needs {
     pub meets_triangles: bool,
 }
 
-/// Looks at a module before it is compiled with worst.glsl.
+/// Examines a module before it is compiled with worst.glsl.
 ///
 /// # Errors
 /// As [`worst`].
@@ -49,10 +49,10 @@ pub fn needs(words: &[u32]) -> Result<Needs> {
     Ok(Needs { calls, declared, meets_triangles })
 }
 
-/// The words of a module, rewritten. With a `seed`, the place of an operation changes its errors, too.
+/// Rewrites a module. With a `seed`, the errors also depend on the position of an operation.
 ///
 /// # Errors
-/// If the words are no SPIR-V, or an operation is not among worst.glsl's.
+/// If the words are not SPIR-V, or an operation is missing in worst.glsl.
 pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
     let mut module = rspirv::dr::load_words(words).ok().context("not a SPIR-V module")?;
     let mut rewriter = Rewriter::new(&module, seed)?;
@@ -73,15 +73,15 @@ pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
 struct Rewriter {
     /// The functions of worst.glsl, by name and parameters.
     own: HashMap<String, Word>,
-    /// Those that are called, or may be.
+    /// The called functions, or those that may be called.
     needed: BTreeSet<String>,
     /// The types of ids.
     types: HashMap<Word, Word>,
-    /// A type as glslang names it.
+    /// A type in glslang's notation.
     names: HashMap<Word, String>,
-    /// The instructions that may not be rearranged.
+    /// The instructions that must not be rearranged.
     precise: HashSet<Word>,
-    /// The variables that hold a hit's distance, and the weights of its triangle's corners.
+    /// The variables with a hit's distance, and the barycentrics of a triangle.
     distances: HashSet<Word>,
     weights: HashSet<Word>,
     /// RoundingModeRTE and DenormPreserve.
@@ -115,7 +115,7 @@ impl Rewriter {
                 names.insert(id, name);
             }
         }
-        // A module without operations may be without numbers, too.
+        // A module without operations may have no number types either.
         let uint = names.iter().find(|(_, name)| *name == "u1").map_or(0, |(id, _)| *id);
         let decorated = |wanted: Decoration, builtin: Option<BuiltIn>| -> HashSet<Word> {
             let found = module.annotations.iter().filter_map(|i| match i.operands[..] {
@@ -135,7 +135,7 @@ impl Rewriter {
             .filter(|i| i.class.opcode == Op::TypePointer)
             .filter_map(|i| Some((i.result_id?, names.get(ids(&i.operands).first()?)?)))
             .collect();
-        // The attributes of a procedural hit are no weights.
+        // The attributes of a procedural hit are not barycentrics.
         let attributes = module.types_global_values.iter().filter(|i| {
             let of = i.result_type.and_then(|of| pointees.get(&of));
             i.class.opcode == Op::Variable
@@ -193,7 +193,7 @@ impl Rewriter {
         if op == Op::Load || op == Op::AccessChain {
             return self.load(instruction, out);
         }
-        // A query of boxes would have to be asked which of the two it has met.
+        // For a query of boxes, the shader would have to determine which of the two it hit.
         match op {
             Op::RayQueryGetIntersectionTKHR => {
                 return self.moved(instruction, "worst_query_t", out);
@@ -279,8 +279,8 @@ impl Rewriter {
         is_single && matches!(op, Op::FAdd | Op::FSub | Op::FMul)
     }
 
-    /// The operation itself, and where its result is denormalized, zero: a two-float has hundreds of
-    /// operations, and a call for each would take the driver's compiler a minute.
+    /// The operation itself, and zero if its result is denormalized: a two-float has hundreds of operations, and a
+    /// call for each would take the driver's compiler a minute.
     fn flushed(&mut self, mut exact: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
         let (of, result) = (exact.result_type, exact.result_id);
         if self.declares_denormals || self.skips_a_place() {
@@ -314,13 +314,13 @@ impl Rewriter {
         Ok(())
     }
 
-    /// Every other place keeps denormalized results, where places differ.
+    /// With differences by place, every other position keeps denormalized results.
     fn skips_a_place(&mut self) -> bool {
         self.place += 1;
         self.seed.is_some_and(|seed| (seed ^ self.place.wrapping_mul(0x9e37_79b9)) & 1 == 1)
     }
 
-    /// A type by the name that glslang gives it, which the module may not have yet.
+    /// A type by its name in glslang's notation; it may still be missing in the module.
     fn type_named(&mut self, wanted: &str) -> Result<Word> {
         if let Some((id, _)) = self.names.iter().find(|(_, name)| *name == wanted) {
             return Ok(*id);
@@ -341,7 +341,7 @@ impl Rewriter {
         Ok(id)
     }
 
-    /// A constant of whole numbers, the same in all components of a vector.
+    /// An integer constant, the same in all components of a vector.
     fn splat(&mut self, of: Word, size: Option<u32>, value: u32) -> Result<Word> {
         if let Some(known) = self.splats.get(&(of, value)) {
             return Ok(*known);
@@ -371,7 +371,7 @@ impl Rewriter {
         result
     }
 
-    /// A hit's distance and the weights of a triangle's corners, as inexact as they may be.
+    /// A hit's distance and barycentrics, as inexact as allowed.
     fn load(&mut self, load: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
         let Some(Operand::IdRef(variable)) = load.operands.first().cloned() else {
             bail!("a load of nothing");
@@ -406,7 +406,7 @@ impl Rewriter {
         Ok(())
     }
 
-    /// The call that takes an instruction's place, and its result's id.
+    /// The call that replaces an instruction, and its result's id.
     fn call(
         &mut self,
         replaced: &Instruction,
@@ -429,7 +429,7 @@ impl Rewriter {
         Ok(Instruction::new(Op::FunctionCall, result_type, result, arguments))
     }
 
-    /// The constant that tells the next operation how it is done.
+    /// The constant with the mode of the next operation.
     fn how(&mut self) -> Word {
         let how = match self.seed {
             None => 0,
@@ -453,7 +453,7 @@ impl Rewriter {
         self.bound - 1
     }
 
-    /// Adds the new constants, and takes off calls what decorated the instructions before.
+    /// Adds the new constants, and removes decorations of instructions that became calls.
     fn finish(self, module: &mut Module) {
         module.types_global_values.extend(self.constants);
         module.annotations.retain(|annotation| match annotation.operands[..] {

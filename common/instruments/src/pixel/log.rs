@@ -5,27 +5,27 @@ use std::fmt::Write;
 use super::float::both;
 use super::stages::Known;
 
-/// Words that the log has room for.
+/// Capacity of the log, in words.
 pub const WORDS: u64 = 1 << 18;
 
-/// An entry's kind: a ray begins, its trace has returned, a closest hit, any-hit or miss shader is called, a shader
-/// prints.
+/// Kinds of entries: the start of a ray, the return of its trace, the call of a closest hit, any-hit or miss shader,
+/// the output of a shader.
 pub const RAY: u32 = 1;
 pub const BACK: u32 = 2;
 pub const HIT: u32 = 3;
 pub const ANY_HIT: u32 = 4;
 pub const MISS: u32 = 5;
 pub const PRINT: u32 = 6;
-/// A ray begins, of one pixel among several.
+/// The start of a ray, with several pixels.
 pub const MANY: u32 = 7;
 
 /// `gl_RayFlagsSkipClosestHitShaderEXT`.
 const SKIPS_CLOSEST_HIT: u32 = 8;
 
-/// The deepest indentation. No device lets more rays nest than 31, but words may be anything.
+/// The deepest indentation. No device allows more than 31 nested rays, but the words are untrusted.
 const DEEPEST: usize = 31;
 
-/// A ray that is under way.
+/// An unfinished ray.
 struct Open {
     /// True if a closest hit or miss shader was called.
     ended: bool,
@@ -44,7 +44,7 @@ pub struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// The text of a log's words, with what was printed in its place; and how many rays it has.
+    /// The text of a log, including the printed lines; and the number of rays.
     pub fn text(words: &'a [u32], known: &'a [Known], printed: &'a [String]) -> (String, usize) {
         let (open, text) = (Vec::new(), String::new());
         let mut log = Self { words, known, printed: [].iter(), open, rays: 0, text };
@@ -74,7 +74,7 @@ impl<'a> Log<'a> {
         words.iter().take(1).any(|head| head & 0xff == MANY)
     }
 
-    /// Each entry: its kind, its shader, the words after them.
+    /// The entries: kind, shader, and the words after them.
     fn entries(&self) -> impl Iterator<Item = (u32, &'a str, &'a [u32])> + use<'a> {
         let (mut rest, known) = (self.words, self.known);
         std::iter::from_fn(move || {
@@ -180,7 +180,7 @@ mod tests {
         };
         let any: Vec<u32> = (0..WORDS).map(|_| next()).collect();
         let kinds = any.iter().map(|word| word % 8).collect();
-        // Zeros, the same word over and over, and rays that begin and never come back.
+        // Zeros, the same word repeated, and rays that begin but never return.
         for words in [vec![0; WORDS as usize], vec![RAY; WORDS as usize], any, kinds] {
             let (text, _) = Log::text(&words, &[], &[]);
             assert!(text.len() < 100 * words.len(), "{} bytes", text.len());

@@ -1,7 +1,7 @@
-//! `--pixel`: the rays of one pixel as text, with the numbers that shaders saw, and what shaders print there.
+//! `--pixel`: the rays of one pixel as text, with the values in shaders, and the output of `PRINT`.
 //!
-//! The pixel is traced alone, so no shader has to ask which pixel is meant. Each shader is compiled with lines of
-//! [`stages`] around it, which write down what it does; files of shaders stay as they are.
+//! The pixel is traced alone, so shaders need not compare pixels. Each shader is compiled with additional lines from
+//! [`stages`], which log its work; the files of shaders are not changed.
 
 mod float;
 mod log;
@@ -57,10 +57,10 @@ fn which(text: &str) -> Result<Which, String> {
 }
 
 impl Options {
-    /// Refuses a pixel that there is not.
+    /// Refuses a pixel outside the picture.
     ///
     /// # Errors
-    /// With what is wrong.
+    /// States the mistake.
     pub fn check(&self, args: &Args) -> Result<(), UsageError> {
         let (width, height) = (args.size.width, args.size.height);
         match self.pixel {
@@ -91,7 +91,7 @@ impl Drop for Probe {
 }
 
 impl Probe {
-    /// Changes what a device is opened with.
+    /// Changes the options for opening the device.
     pub fn device(&self, options: &mut GpuOptions) {
         options.prints = true;
         options.driver_shim = self.stages.clone();
@@ -117,7 +117,7 @@ impl Probe {
         Ok(())
     }
 
-    /// Prints the rays of a pixel that was clicked, and says so.
+    /// Prints the rays of a clicked pixel, and returns a message.
     ///
     /// # Errors
     /// If the sample or the device fails.

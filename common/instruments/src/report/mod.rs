@@ -1,4 +1,4 @@
-//! `--report`: what a run found out about itself, as JSON: for scripts, tests and the tables on the pages.
+//! `--report`: a run's facts and measurements as JSON, for scripts, tests and the tables on the pages.
 
 use std::path::{Path, PathBuf};
 
@@ -42,10 +42,10 @@ impl Options {
         self.report.as_deref() == Some(Path::new("-"))
     }
 
-    /// Refuses a file that is no JSON by its name.
+    /// Refuses a file whose name does not end in .json.
     ///
     /// # Errors
-    /// [`UsageError`], with what would be right.
+    /// [`UsageError`], with the correct form.
     pub fn check(&self) -> Result<(), UsageError> {
         let is_json =
             |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
@@ -72,27 +72,27 @@ pub struct Report {
     pub limits: Limits,
     /// The arithmetic of shaders: the value of `--arithmetic`.
     pub arithmetic: String,
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
     /// Number of frames rendered.
     pub frames: u32,
-    /// The device's time for a frame.
+    /// The device time of a frame.
     pub gpu_milliseconds: Milliseconds,
-    /// Bands of rows that the last frame was traced in.
+    /// Number of bands in the last frame.
     pub bands: usize,
-    /// The device's time for a band, of all frames.
+    /// The device time of a band, over all frames.
     pub band_milliseconds: Milliseconds,
-    /// Primary rays a second: pixels over the median time.
+    /// Primary rays per second: pixels over the median time.
     pub primary_rays_per_second: f64,
     /// From the start of the process to the end of the first frame.
     pub first_frame_milliseconds: f64,
-    /// Host time to build all acceleration structures, uploads left out.
+    /// Host time to build all acceleration structures, without uploads.
     pub acceleration_structure_milliseconds: f64,
-    /// Bytes of all acceleration structures that are there after the last frame.
+    /// Bytes of all acceleration structures after the last frame.
     pub acceleration_structure_bytes: u64,
-    /// Host time to compile shaders and make pipelines.
+    /// Host time to compile shaders and create pipelines.
     pub pipeline_milliseconds: f64,
     /// Shader stages compiled, by path below `shaders/`.
     pub stages: Vec<String>,
@@ -134,10 +134,10 @@ impl Milliseconds {
 }
 
 impl Report {
-    /// The report of a run that is done, but for what other instruments have found.
+    /// The report of a completed run, without the results of other instruments.
     ///
     /// # Errors
-    /// If the sample cannot tell.
+    /// If the sample's own report fails.
     pub fn of(run: &Run) -> Result<Self> {
         let Run { gpu, args, .. } = run;
         let (width, height) = (args.size.width, args.size.height);

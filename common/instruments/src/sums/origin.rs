@@ -1,4 +1,4 @@
-//! Of what a file keeps sums, and what two files do not have in common.
+//! The origin of a file's sums, and the differences between two origins.
 
 use std::collections::BTreeMap;
 
@@ -37,14 +37,14 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// One line, given where each of the two comes from, such as "in a.sums" and "here".
+    /// One line with both sources, such as "in a.sums" and "here".
     pub fn line(&self, [a, b]: [&str; 2]) -> String {
         format!("{} is {} {a} and {} {b}", self.what, self.values[0], self.values[1])
     }
 }
 
 impl Origin {
-    /// All of it, as names and values.
+    /// Everything, as names and values.
     fn facts(&self) -> Vec<(String, String)> {
         let Self { chapter, version, size: [width, height], device, driver, .. } = self;
         let named = |(name, value): (&str, &str)| (name.to_owned(), format!("'{value}'"));
@@ -52,7 +52,7 @@ impl Origin {
             .map(|(name, value)| named((name, value)))
             .into();
         facts.push(("the size".to_owned(), format!("{width}x{height}")));
-        // A scene brings settings of its own, and is named before them.
+        // A scene changes other settings, so it is compared before them.
         let (scene, others): (Vec<_>, Vec<_>) =
             self.settings.iter().partition(|(name, _)| *name == "scene");
         let set = |(name, value): (&String, &String)| (format!("'{name}'"), format!("'{value}'"));
@@ -69,7 +69,7 @@ impl Origin {
         facts
     }
 
-    /// The first thing that is not the same in `other`. Shaders that are not compiled yet fit any.
+    /// The first difference from `other`. Shaders that are not compiled yet match any.
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         let mut values = BTreeMap::<_, [Option<String>; 2]>::new();
         let (mine, others) = (self.facts(), other.facts());

@@ -5,7 +5,7 @@ use egui::{CollapsingHeader, RichText, Ui};
 use super::{rows, style};
 use crate::gpu::Executable;
 
-/// A line that unfolds to a table for each program; nothing where the driver tells nothing.
+/// A line that unfolds to a table for each program; nothing if the driver reports nothing.
 pub fn show(ui: &mut Ui, programs: &[Executable]) {
     if programs.is_empty() {
         return;

@@ -11,9 +11,9 @@ pub struct Facts {
     pub device: String,
     /// True for a driver that runs on the CPU.
     pub software: bool,
-    /// Whose arithmetic it computes with.
+    /// The name of its arithmetic.
     pub arithmetic: &'static str,
-    /// Milliseconds of the last picture on the device.
+    /// Device time of the last picture, in milliseconds.
     pub milliseconds: f64,
     /// The last picture's width and height.
     pub rendered: [u32; 2],
@@ -28,7 +28,7 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// Primary rays a second.
+    /// Primary rays per second.
     pub fn rays(&self) -> f64 {
         let [width, height] = self.rendered.map(f64::from);
         if self.milliseconds > 0.0 { width * height / self.milliseconds * 1e3 } else { 0.0 }

@@ -1,4 +1,4 @@
-//! Every key and gesture of the window: one table, shown by the help overlay.
+//! Every key and gesture of the window in one table, which the help overlay shows.
 
 use egui::{Align2, Area, Context, Grid, Id, Key, RichText};
 
@@ -19,7 +19,7 @@ pub enum Ask {
     Leave,
 }
 
-/// The keys that ask something of the window.
+/// The keys with a command for the window.
 const ASKS: [(Key, Ask); 8] = [
     (Key::F1, Ask::Help),
     (Key::H, Ask::Help),

@@ -1,4 +1,4 @@
-//! A window whose device was lost: it says so on a new device, and offers to go on with it.
+//! A window whose device was lost: it reports the loss on a new device, and offers to continue with it.
 
 use std::time::{Duration, Instant};
 
@@ -21,23 +21,23 @@ const WIDTH: f32 = 400.0;
 pub struct Kept {
     /// The program's arguments, with the scene that was opened last.
     pub args: Args,
-    /// Camera and places.
+    /// Camera and bookmarks.
     pub panel: Panel,
-    /// The values of all controls, the camera's too.
+    /// The values of all controls, including the camera.
     pub values: Vec<Listed>,
-    /// Frames that were shown.
+    /// Number of frames shown.
     pub presented: u32,
 }
 
 /// The user's choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// Nothing was chosen yet.
+    /// No choice yet.
     #[default]
     None,
-    /// The sample is to be made again.
+    /// Create the sample again.
     GoOn,
-    /// The window is to be closed.
+    /// Close the window.
     Leave,
 }
 
@@ -59,24 +59,24 @@ pub fn is_loss(error: &Error) -> bool {
 }
 
 impl Lost {
-    /// Says what has happened, on the terminal and in the window, which it shows.
+    /// Reports the loss, on the terminal and in the window, which it shows.
     pub fn new(on_gpu: WindowOnGpu, name: &str, kept: Kept, error: Error) -> Self {
         output::complain(&format!("warning: {error:#}; Enter in the window goes on, Esc leaves"));
         on_gpu.window.set_title(&format!("{name} · the device was lost"));
-        // It is not, if the device was lost before the first picture.
+        // It is still hidden if the device was lost before the first picture.
         on_gpu.window.set_visible(true);
         on_gpu.window.request_redraw();
         Self { on_gpu, kept, error, redraw_at: None }
     }
 
-    /// Takes an event other than a redraw.
+    /// Handles an event other than a redraw.
     pub fn take(&mut self, event: &WindowEvent) {
         if self.on_gpu.take(event) {
             self.on_gpu.window.request_redraw();
         }
     }
 
-    /// Asks for a redraw that is due, and returns when the next is.
+    /// Requests a redraw if one is due, and returns the time of the next.
     pub fn sleep(&mut self) -> Option<Instant> {
         if self.redraw_at.is_some_and(|at| at <= Instant::now()) {
             self.redraw_at = None;
@@ -85,10 +85,10 @@ impl Lost {
         self.redraw_at
     }
 
-    /// Shows what has happened, and what can be done.
+    /// Shows the error and the choices.
     ///
     /// # Errors
-    /// If the new device fails, too.
+    /// If the new device also fails.
     pub fn draw(&mut self) -> Result<Choice> {
         let Some(extent) = self.on_gpu.fit()? else { return Ok(Choice::None) };
         let (device, error) = (self.on_gpu.gpu.name.clone(), format!("{:#}", self.error));

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 /// The result of a step of the view.
 pub enum Stepped {
-    /// A new picture, and what the device took for it.
+    /// A new picture, and its device time.
     New {
         /// Device time.
         milliseconds: f64,
@@ -13,8 +13,8 @@ pub enum Stepped {
         /// True if the time is that of tracing alone: the first picture also includes compilation.
         telling: bool,
     },
-    /// Bands of the next picture; the last one stays until it is whole.
+    /// Bands of the next picture; the last one is shown until it is complete.
     Part,
-    /// The last picture still shows how things stand; something may be due then.
+    /// The last picture is up to date; the next step may be due then.
     Kept(Option<Instant>),
 }

@@ -111,10 +111,10 @@ impl Deref for Gpu {
 }
 
 impl Gpu {
-    /// Creates an instance, chooses a device and opens it with just what is asked for.
+    /// Creates an instance, chooses a device and opens it with only the required features and extensions.
     ///
     /// # Errors
-    /// If there is no loader, no suitable device, or no validation layer where one is asked for.
+    /// If there is no loader, no suitable device, or no validation layer although one is required.
     pub fn new(options: &GpuOptions) -> Result<Self> {
         let mut options = options.clone();
         options.requirements = options.driver_shim.requirements(options.requirements);
@@ -135,16 +135,16 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Opens a device that was chosen.
+    /// Opens the chosen device.
     ///
     /// # Errors
-    /// If memory or threads are short, or the device is gone.
+    /// If memory or threads are short, or the device is lost.
     pub fn open(vulkan: Vulkan, chosen: Candidate, options: GpuOptions) -> Result<Self> {
         if chosen.software {
             threads::ensure_threads()?;
         }
-        // A loader that runs out of memory here keeps its lock (1.3.239), and would wait for it for ever: an instance
-        // whose device cannot be opened goes with the process.
+        // A loader that runs out of memory here keeps its lock (1.3.239) and would later wait for it for ever, so an
+        // instance whose device cannot be opened is left to the end of the process.
         let vulkan = ManuallyDrop::new(vulkan);
         let device = device::create(&vulkan.instance, &chosen)?;
         let instance = &vulkan.instance;
@@ -195,17 +195,17 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Gives an object a name that validation messages and debuggers show.
+    /// Gives an object a name for validation messages and debuggers.
     pub fn name_object<T: vk::Handle + Copy>(&self, handle: T, name: &str) {
-        // What could be done without was not made.
+        // Optional objects may be null.
         if handle.is_null() {
             return;
         }
         let name = CString::new(name).unwrap_or_default();
         let info =
             vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
-        // SAFETY: the handle is alive and belongs to this device. A name that cannot be set is no
-        // reason to stop.
+        // SAFETY: the handle is alive and belongs to this device. Failing to set a
+        // name is not an error.
         let _ = unsafe { self.names.set_debug_utils_object_name(&info) };
     }
 

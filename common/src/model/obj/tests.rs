@@ -1,4 +1,4 @@
-//! Models that load, and files that are random.
+//! Models that load, and random files.
 
 use super::*;
 use crate::model::limits::Limits;

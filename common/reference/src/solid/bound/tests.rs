@@ -1,4 +1,4 @@
-//! The bounds held to solids traced in f32.
+//! The bounds compared with solids traced in f32.
 
 use glam::Vec3;
 
