@@ -1,6 +1,6 @@
-//! The signals that ask a program to end: Ctrl-C, a closed terminal, or what a batch system sends before it kills.
+//! Signals that ask a program to end: Ctrl-C, a closed terminal, or the warning of a batch system before it kills.
 
-/// A signal that has come.
+/// A received signal.
 #[cfg_attr(not(unix), allow(dead_code))]
 pub struct Signal(i32);
 
@@ -12,15 +12,15 @@ impl Signal {
     }
 }
 
-/// From now on `heed` is given each signal that comes, in a thread of its own, for as long as the process lives.
-/// Where that cannot be done, and elsewhere than on Unix, they end it, as ever.
+/// From now on, `heed` is called with each signal, in a separate thread, for as long as the process lives. If that
+/// is impossible, and on systems other than Unix, signals end the process as usual.
 #[cfg(unix)]
 pub fn watch(heed: impl FnMut(Signal) + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
-    // What started this process may have asked it to live on: `nohup`, or a shell's `&`.
+    // The parent may have requested that the process ignore it: `nohup`, or a shell's `&`.
     let heeded = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-    // Here, not in the thread, which may begin only after the first file has.
+    // Here, not in the thread, which may start only after the first file has been written.
     let Ok(mut signals) = Signals::new(heeded) else { return };
     let watch = move || signals.forever().map(Signal).for_each(heed);
     let _ = std::thread::Builder::new().name("signals".to_owned()).spawn(watch);
@@ -36,6 +36,6 @@ fn is_ignored(signal: i32) -> bool {
     }
 }
 
-/// Elsewhere the system ends a process as ever.
+/// On other systems, signals end a process as usual.
 #[cfg(not(unix))]
 pub fn watch(_: impl FnMut(Signal) + Send + 'static) {}

@@ -20,16 +20,16 @@ pub use self::several::write_all;
 
 /// Writes `bytes` to `path`: into a temporary file beside it, then renamed.
 ///
-/// A link is followed, and a file that was there keeps its permissions.
+/// A link is followed, and an existing file keeps its permissions.
 ///
 /// # Errors
-/// As [`check_writable`], or if the disk is full. A file that was there is left as it was.
+/// As [`check_writable`], or if the disk is full. An existing file is then left unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let failed = || format!("cannot write '{}'", path.display());
     Unfinished::new(path, bytes).and_then(|mut file| file.finish()).with_context(failed)
 }
 
-/// What is unfinished at a path.
+/// The kind of unfinished output at a path.
 #[derive(Clone, Copy)]
 enum Made {
     File,
@@ -38,57 +38,57 @@ enum Made {
 }
 
 impl Made {
-    /// Removes it. What cannot be removed stays: nobody is there to be told.
+    /// Removes it, ignoring errors: nobody could receive them.
     fn remove(self, path: &Path) {
         let _ = match self {
             Self::File => fs::remove_file(path),
             Self::Folder => fs::remove_dir_all(path),
             Self::FilesOfFolder => {
                 let entries = fs::read_dir(path).into_iter().flatten().flatten();
-                entries.map(|entry| entry.path()).for_each(|path| match path.is_dir() {
-                    true => Self::Folder.remove(&path),
-                    false => Self::File.remove(&path),
-                });
+                for path in entries.map(|entry| entry.path()) {
+                    let made = if path.is_dir() { Self::Folder } else { Self::File };
+                    made.remove(&path);
+                }
                 Ok(())
             }
         };
     }
 }
 
-/// The temporary files that are being written, and the folders that are being made.
+/// The temporary files being written, and the folders being created.
 static UNFINISHED: Mutex<BTreeMap<PathBuf, Made>> = Mutex::new(BTreeMap::new());
 
 fn unfinished() -> MutexGuard<'static, BTreeMap<PathBuf, Made>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is being written: the process is about to end. Who would write on waits for that.
+/// Removes unfinished output because the process is about to end. Any thread that wants to write waits until then.
 pub fn abandon() {
     let paths = unfinished();
     paths.iter().for_each(|(path, made)| made.remove(path));
     std::mem::forget(paths);
 }
 
-/// The most bytes that a cache's file has: a larger one is not ours.
+/// The most bytes of a cache's file: a larger one is not ours.
 const CACHED_BYTES: u64 = 256 << 20;
 
-/// A cache's file; `None` if there is none, or something that could deliver without end, as a pipe could.
+/// A cache's file; `None` if there is none, or something that may never end, such as a pipe.
 pub fn read_cached(path: &Path) -> Option<Vec<u8>> {
     let metadata = fs::metadata(path).ok()?;
     let fits = metadata.is_file() && metadata.len() <= CACHED_BYTES;
     fits.then(|| fs::read(path).ok()).flatten()
 }
 
-/// What [`write_sealed`] has left in a cache's file; `None` if there is none, or it is damaged: by a full disk, or
-/// by another program.
+/// The contents that [`write_sealed`] left in a cache's file; `None` if there is none, or if it is damaged by a
+/// full disk or by another program.
 pub fn read_sealed(path: &Path) -> Option<Vec<u8>> {
     let mut bytes = read_cached(path)?;
     let end = bytes.split_off(bytes.len().checked_sub(8)?);
     (end == seal(&bytes)).then_some(bytes)
 }
 
-/// Writes a cache's file, and makes its folder: the bytes, then a hash of them, by which damage is noticed. A
-/// cache that cannot be written costs time at the next start, nothing else.
+/// Writes a cache's file, and makes its folder: the bytes, then a hash of them, to detect damage.
+/// Failing to write it only makes the next start slower.
 pub fn write_sealed(path: &Path, bytes: &[u8]) {
     let _ = path.parent().map(fs::create_dir_all);
     let _ = write_whole(path, &[bytes, &seal(bytes)].concat());
@@ -100,21 +100,21 @@ fn seal(bytes: &[u8]) -> [u8; 8] {
     hasher.finish().to_le_bytes()
 }
 
-/// Fails if [`write_whole`] could not write `path`, so that it can be said before the work.
+/// Fails if [`write_whole`] could not write `path`, so that the error comes before the work.
 ///
 /// # Errors
-/// If the folder is missing or cannot be written, or something that is no file bears the name.
+/// If the folder is missing or cannot be written, or the name belongs to something other than a file.
 pub fn check_writable(path: &Path) -> Result<()> {
     let failed = || format!("cannot write '{}'", path.display());
     Unfinished::new(path, b"").map(drop).with_context(failed)
 }
 
-/// Whether two paths lead to the same file, be it there or not.
+/// True if two paths lead to the same file, whether or not it exists.
 pub fn same(a: &Path, b: &Path) -> bool {
     a == b || matches!((target(a), target(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// A file that is being written, under another name beside its own.
+/// A file being written, under a temporary name in the same folder.
 struct Unfinished {
     target: PathBuf,
     file: Option<NamedTempFile>,
@@ -122,7 +122,7 @@ struct Unfinished {
 }
 
 impl Unfinished {
-    /// Bytes in a temporary file beside where a path leads.
+    /// Bytes in a temporary file beside the path's target.
     fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
         let target = target(path)?;
         let existing = fs::metadata(&target).ok();
@@ -139,7 +139,7 @@ impl Unfinished {
         let mut unfinished = unfinished();
         let file = builder.tempfile_in(folder).map_err(failed)?;
         if let Some(metadata) = existing {
-            // Where a file system knows no permissions, there are none to keep.
+            // A file system without permissions has none to keep.
             let _ = file.as_file().set_permissions(metadata.permissions());
         }
         let temporary = file.path().to_owned();
@@ -152,7 +152,7 @@ impl Unfinished {
         Ok(new)
     }
 
-    /// Puts it in its place.
+    /// Renames it to its final name.
     fn finish(&mut self) -> Result<()> {
         let file = self.file.take().context("it was written before")?;
         file.persist(&self.target).map_err(|error| anyhow!("{}", error.error.kind()))?;
@@ -169,9 +169,9 @@ impl Drop for Unfinished {
     }
 }
 
-/// Fails if a file must not be replaced: a rename asks for fewer rights than writing does.
+/// Fails if a file must not be replaced: a rename needs fewer rights than writing.
 fn check_replaceable(target: &Path, folder: &Path, metadata: &Metadata) -> Result<()> {
-    // Renaming would put a file in the place of a device, `/dev/null` for one.
+    // Renaming would replace a device, for example `/dev/null`, by a file.
     ensure!(!metadata.is_dir(), "it is a folder");
     ensure!(metadata.is_file(), "it is a device or a pipe, not a file");
     ensure!(!metadata.permissions().readonly(), "it is read-only");
@@ -180,8 +180,8 @@ fn check_replaceable(target: &Path, folder: &Path, metadata: &Metadata) -> Resul
     Ok(())
 }
 
-/// Whether this process may replace a file in a folder that it can write to: in one with the sticky bit, as
-/// `/tmp` has it, only the file's owner and the folder's may.
+/// True if this process may replace a file in a folder it can write to: in one with the sticky bit, such as
+/// `/tmp`, only the owner of the file or of the folder may.
 #[cfg(unix)]
 fn may_rename(folder: &Path, file: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -197,15 +197,15 @@ fn may_rename(_: &Path, _: &Metadata) -> bool {
     true
 }
 
-/// How many links may lead from one to the next, as in Linux.
+/// The maximum length of a chain of links, as in Linux.
 const MOST_LINKS: usize = 40;
 
-/// The path with links resolved; its last part need not be there.
+/// The path with links resolved; its last part need not exist.
 fn target(path: &Path) -> Result<PathBuf> {
     if let Ok(existing) = path.canonicalize() {
         return Ok(existing);
     }
-    // A link to what is not there yet is followed, too.
+    // A link whose target does not exist yet is also followed.
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         let Ok(next) = fs::read_link(&path) else { break };
@@ -351,7 +351,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn devices_are_refused() {
-        // A link to one: were it not refused, the link would be lost and not the device.
+        // A link to one: if it were not refused, the link would be replaced, not the device.
         let folder = tempfile::tempdir().unwrap();
         let link = folder.path().join("null");
         std::os::unix::fs::symlink("/dev/null", &link).unwrap();

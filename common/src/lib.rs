@@ -1,22 +1,22 @@
-//! The framework of the book *Ray Tracing in Vulkan*. The book's own programs call it `common`; a program of
-//! one's own begins with [`prelude`], and `cargo chapters start` makes one. What lives where:
+//! The framework of the book *Ray Tracing in Vulkan*. The book's own programs call it `common`; other
+//! programs begin with [`prelude`], and `cargo chapters start` creates one. The modules:
 //!
 //! - [`app`]: a program: arguments, controls, window, headless run, picture
 //! - [`gpu`]: thin Vulkan: context, buffer, image, acceleration structure, pipeline, SBT, shader, timing
 //! - [`model`]: OBJ, MTL and PNG files, read within limits and with warnings
-//! - [`scene`]: what is rendered: camera, light, mesh, material, chess, upload
-//! - [`exit`]: how a program ends
-//! - [`files`], [`output`], [`UsageError`]: files written whole; what a program says; the error that means "wrong
-//!   arguments"
-//! - [`paths`]: the crate that a program belongs to
-//! - [`workers`]: work that is shared among the processors
+//! - [`scene`]: the scene to render: camera, light, mesh, material, chess, upload
+//! - [`exit`]: the end of a program
+//! - [`files`], [`output`], [`UsageError`]: files written whole; standard output and error; the error for wrong
+//!   arguments
+//! - [`paths`]: the folder of the program's crate
+//! - [`workers`]: work shared among the processors
 //!
-//! Arrows point one way: samples → instruments → app → gpu; `model` → `scene`; `scene` uses `gpu` only to upload. The crate
-//! `instruments` watches runs, and nothing here knows it: it meets a run in [`app::RunHooks`], and a device in
-//! [`gpu::DriverShim`]. The crate `reference`, what the GPU is held to, knows none of them.
-//! A helper enters only once a chapter has shown it raw.
+//! Dependencies point one way: samples → instruments → app → gpu; `model` → `scene`; `scene` uses `gpu` only to upload.
+//! The crate `instruments` observes runs, and nothing here depends on it: it connects to a run by [`app::RunHooks`], and
+//! to a device by [`gpu::DriverShim`]. The crate `reference`, with which the GPU is compared, depends on none of them.
+//! A helper is added only after a chapter has shown the code itself.
 
-// The code here says `common`, as the samples do.
+// The code here uses the name `common`, as the samples do.
 extern crate self as common;
 // The tests below run on the software driver.
 #[cfg(test)]
@@ -36,5 +36,5 @@ pub mod workers;
 
 pub use app::{Controls, Frame, Lighting, Playback, Sample, Setup, Variant, Variants, run};
 pub use usage_error::UsageError;
-// The crates whose types are in the signatures of this one: a program needs no versions of its own.
+// The crates whose types are in the signatures of this one, so that a program need not choose versions.
 pub use {anyhow, ash, bytemuck, glam};

@@ -1,25 +1,25 @@
-//! What a program says on standard output and standard error, also where nobody reads it.
+//! A program's standard output and standard error, safe even if nobody reads them.
 
 use std::io::{ErrorKind, Write, stderr, stdout};
 
 use anyhow::{Context, Result};
 
-/// Writes to standard output. A reader that has closed it, as `head` does, has read enough.
+/// Writes to standard output. It is not an error if the reader has closed it, as `head` does.
 ///
 /// # Errors
-/// If it cannot be written for another reason, a full disk for one.
+/// If it cannot be written for another reason, for example a full disk.
 pub fn print(text: &str) -> Result<()> {
     write(text.as_bytes())
 }
 
-/// Prints what was asked for instead of a run, such as the help, and ends the process.
+/// Prints a text, such as the help, and ends the process.
 pub fn print_and_exit(text: &str) -> ! {
     let Err(error) = print(text) else { std::process::exit(0) };
     complain(&format!("error: {error:#}"));
     std::process::exit(1)
 }
 
-/// As [`print()`], for what is no text.
+/// As [`print()`], for bytes.
 ///
 /// # Errors
 /// As [`print()`].
@@ -31,13 +31,13 @@ pub fn write(bytes: &[u8]) -> Result<()> {
     }
 }
 
-/// The most letters of a line on standard error: a file's name or key may be as long as the file.
+/// The most characters of a line on standard error: a name or key in a file may be as long as the file.
 const MOST: usize = 2000;
 
-/// Writes a line to standard error; if that is closed, the exit code alone tells of the error.
+/// Writes a line to standard error; if that is closed, only the exit code reports the error.
 ///
-/// A line may hold what a file says. What is no plain letter in it, a terminal's commands for one, is
-/// written as `\u{1b}`, and a line that is too long is cut.
+/// A line may quote a file. Special characters in it, for example the start of a terminal's commands, are written
+/// as `\u{1b}`, and a line that is too long is cut.
 pub fn complain(line: &str) {
     let _ = writeln!(stderr(), "{}", short(line));
 }
@@ -51,30 +51,32 @@ fn short(line: &str) -> String {
     text
 }
 
-/// A text as a terminal may show it: what is no plain letter is escaped.
+/// A text that is safe for a terminal: special characters are escaped.
 pub fn plain(text: &str) -> String {
     let mut plain = String::new();
     for letter in text.chars() {
-        match is_plain(letter) {
-            true => plain.push(letter),
-            false => plain.extend(letter.escape_default()),
+        if is_plain(letter) {
+            plain.push(letter);
+        } else {
+            plain.extend(letter.escape_default());
         }
     }
     plain
 }
 
-/// Whether a terminal shows a letter as a letter: no control, and nothing that turns the direction of text.
+/// True if a terminal can show a character as it is: not a control character, and none that changes the direction
+/// of text.
 fn is_plain(letter: char) -> bool {
     let turns = matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     !letter.is_control() && !turns
 }
 
-/// The line of an error: what went wrong, and why.
+/// The line of an error with its causes.
 pub fn line_of(error: &anyhow::Error) -> String {
     format!("error: {error:#}").replace('\n', " ")
 }
 
-/// Writes what is wrong with an input that is used all the same to standard error, a line each.
+/// Writes warnings about an input to standard error, one line each.
 pub fn warn(warnings: &[String]) {
     for warning in warnings {
         complain(&format!("warning: {warning}"));

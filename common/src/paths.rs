@@ -1,13 +1,13 @@
 //! The crate that a program belongs to: the book, unless the program names another.
 //!
-//! A program of another crate has its shaders beside its own manifest, and its caches in the user's folder.
+//! A program of another crate has its shaders beside its manifest, and its caches in the user's folder.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 static HOME: OnceLock<PathBuf> = OnceLock::new();
 
-/// Names the folder of the program's crate, its `CARGO_MANIFEST_DIR`. The first call counts; [`run!`](crate::run)
+/// Sets the folder of the program's crate, its `CARGO_MANIFEST_DIR`. Only the first call counts; [`run!`](crate::run)
 /// makes it.
 pub fn set(folder: &str) {
     let _ = HOME.set(folder.into());

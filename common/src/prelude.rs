@@ -1,4 +1,4 @@
-//! What a program needs: `use raybook::prelude::*;`.
+//! The names a program needs: `use raybook::prelude::*;`.
 
 pub use crate::app::{Controls, Frame, Sample, Setup, Variant, Variants};
 pub use crate::gpu::{

@@ -1,8 +1,8 @@
-//! The error that means "wrong arguments": a program ends with exit code 2 instead of 1.
+//! The error for wrong arguments: the exit code is 2 instead of 1.
 
 use std::fmt;
 
-/// A wrong argument, in one line that says what would be right.
+/// A wrong argument, in one line with the correct form.
 #[derive(Debug)]
 pub struct UsageError(pub String);
 

@@ -1,11 +1,11 @@
-//! Work that is shared among as many threads as there are processors, this one among them.
+//! Work shared among as many threads as there are processors, including the current one.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Builder};
 
-/// What `work` makes of each item, in the order of the items.
+/// The results of `work` for each item, in the order of the items.
 pub fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let found = Mutex::new(BTreeMap::new());
@@ -19,7 +19,7 @@ pub fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec
     };
     let workers = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
-        // Where the system starts no more threads, there are fewer.
+        // If the system refuses to start more threads, there are fewer.
         for _ in 1..workers.min(items.len()) {
             let _ = Builder::new().spawn_scoped(scope, worker);
         }

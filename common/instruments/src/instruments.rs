@@ -1,4 +1,4 @@
-//! Every instrument on one run.
+//! All instruments on one run.
 
 use std::sync::Arc;
 
@@ -15,10 +15,10 @@ use crate::report::Report;
 use crate::sums::{Gather, Sums, resumed};
 use crate::{Options, compile_for};
 
-/// Every instrument, and what each has found so far.
+/// All instruments, and their results so far.
 pub struct Instruments {
     options: Options,
-    /// The control that is compared, and its values.
+    /// The compared control, and its values.
     compared: Option<(String, Vec<String>)>,
     /// Sums of an earlier run.
     resumed: Option<Sums>,
@@ -27,22 +27,22 @@ pub struct Instruments {
     probe: Option<Probe>,
 }
 
-/// Every instrument, for a program to run with.
+/// All instruments, for a program to run with.
 pub fn all() -> Instruments {
     Instruments::new(Options::default())
 }
 
 impl Instruments {
-    /// Instruments that have seen nothing yet.
+    /// Instruments without results yet.
     pub fn new(options: Options) -> Self {
         let probe = options.pixel.pixel.map(|_| Probe::default());
         Self { options, probe, compared: None, resumed: None, gather: None, comparison: None }
     }
 
-    /// Does what can be done before a device is opened; `false` if that was all.
+    /// Does the work that needs no device; `false` if nothing else is left.
     ///
     /// # Errors
-    /// With what is wrong.
+    /// States the mistake.
     pub fn prepare(&mut self, program: &Program, args: &mut Args) -> Result<bool> {
         if args.list_devices {
             return Ok(true);
@@ -65,16 +65,16 @@ impl Instruments {
         Ok(true)
     }
 
-    /// Prints a table, unless standard output is the report's.
+    /// Prints a table, unless the report goes to standard output.
     fn print(&self, table: &str) -> Result<()> {
         if self.options.report.takes_output() { Ok(()) } else { output::print(table) }
     }
 }
 
-/// Refuses before the work what would be refused after it; for a program that renders by itself.
+/// Refuses early, before the work, options that would fail after it; for a program that renders by itself.
 ///
 /// # Errors
-/// If a file cannot be written, or is named twice; if a pixel's rays or frames that follow are asked for.
+/// If a file cannot be written, or is named twice; if a pixel's rays or long renders are requested.
 pub fn check_files(args: &Args, options: &Options) -> Result<()> {
     if options.pixel.pixel.is_some() {
         let why = "this program makes its pipeline by itself: --pixel is for 02 and on";
@@ -122,7 +122,7 @@ impl RunHooks for Instruments {
         if let Some(samples) = self.options.sums.samples.clone() {
             let gather = Gather::begin(&self.options.sums, samples, run, self.resumed.take())?;
             run.between_bands = gather.stop();
-            // Samples are pictures alone: their mean is the sums'.
+            // Samples are separate pictures: the sums have their mean.
             (run.frames, run.apart) = (gather.missing().ranges().to_vec(), true);
             self.gather = Some(gather);
         }
@@ -144,7 +144,7 @@ impl RunHooks for Instruments {
             compiled_for = compile_for::compile_for(family, &run.gpu.statistics().descs)?;
             self.print(&compile_for::table(&compiled_for))?;
         }
-        // Its buffer goes before the device.
+        // Its buffer must be freed before the device.
         self.probe = None;
         if let Some(path) = &self.options.report.report {
             let comparison = self.comparison.take();

@@ -1,15 +1,17 @@
-//! What watches a run of a sample, a folder a subject. The framework, [`common`], knows none of it.
+//! Instruments that observe a run of a sample, one folder per subject. The framework, [`common`], does not depend
+//! on them.
 //!
-//! - [`report`]: `--report`, what a run found out about itself
-//! - [`compare`]: `--compare`, what a choice costs
-//! - [`sums`]: `--samples`, long renders that can be cut, stopped and merged
-//! - [`compile_for`]: `--compile-for`, what a GPU's compiler makes of a sample's pipelines
-//! - [`arithmetic`]: `--arithmetic worst`, as inexact as Vulkan lets any driver be
+//! - [`report`]: `--report`, a run's facts and measurements
+//! - [`compare`]: `--compare`, the cost of a choice
+//! - [`sums`]: `--samples`, long renders that can be split, stopped and merged
+//! - [`compile_for`]: `--compile-for`, a GPU compiler's statistics for a sample's pipelines
+//! - [`arithmetic`]: `--arithmetic worst`, the worst-case rounding allowed by Vulkan
 //! - [`pixel`]: `--pixel`, the rays of one pixel as text
 //!
-//! They meet the framework in two places. [`Instruments`] is a [`RunHooks`](common::app::RunHooks): it sees each frame
-//! and the end. [`Arithmetic`](arithmetic::Arithmetic) is an [`DriverShim`](common::gpu::DriverShim): it changes
-//! shaders' words and what builds are given; [`pixel`] has another.
+//! They connect to the framework in two places. [`Instruments`] is a [`RunHooks`](common::app::RunHooks): it is
+//! called after each frame and at the end. [`Arithmetic`](arithmetic::Arithmetic) is a
+//! [`DriverShim`](common::gpu::DriverShim): it changes the SPIR-V of shaders and the input of builds; [`pixel`]
+//! has another.
 
 // The tests below run on the software driver.
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The options of all instruments, beside those of every sample.
+//! The options of all instruments, in addition to those of every sample.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use common::app::{Args, Files, usage_error};
 use crate::arithmetic::Arithmetic;
 use crate::{compare, compile_for, pixel, report, sums};
 
-/// What instruments are asked to do.
+/// The options of all instruments.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 #[command(next_help_heading = "Instruments")]
@@ -34,13 +34,13 @@ pub struct Options {
     #[command(flatten)]
     pub pixel: pixel::Options,
 
-    /// Compute as the driver does, or as badly as Vulkan lets any driver: what must hold everywhere holds here
-    #[arg(long, value_name = "WHOSE", value_enum, default_value = "driver")]
+    /// Arithmetic of shaders: the driver's own, or the worst-case rounding allowed by Vulkan
+    #[arg(long, value_name = "MODE", value_enum, default_value = "driver")]
     pub arithmetic: Arithmetic,
 }
 
 impl Options {
-    /// Whether nothing is asked of any instrument.
+    /// True if no instrument is used.
     pub fn are_none(&self) -> bool {
         let Self { report, compare, sums, compile_for, pixel, arithmetic } = self;
         let told = report.report.is_some() || report.compiler_figures;
@@ -50,10 +50,10 @@ impl Options {
         !(told || rendered || compiled || printed) && arithmetic.or_seeded() == Arithmetic::Driver
     }
 
-    /// Reads them from a command line, and names the files that they read and write.
+    /// Reads the options from a command line, and names the files they read and write.
     ///
-    /// # Errors
-    /// If they do not go together.
+    /// Reads the options from a command line, and names the files they read and write.
+    /// If options contradict each other.
     pub fn read(matches: &ArgMatches, args: &mut Args) -> Result<Self, UsageError> {
         let options = Self::from_arg_matches(matches).map_err(|error| usage_error(&error))?;
         if !options.are_none() {
@@ -63,14 +63,14 @@ impl Options {
         let (save, resume) = (sums.save.clone(), sums.resume.clone());
         let outputs = [("--report", report.file().map(Path::to_owned)), ("--save", save)];
         let outputs = outputs.into_iter().filter_map(|(name, file)| Some((name, file?)));
-        // Sums alone are written into the file that they come from.
+        // Only sums may be written into the file they come from.
         let updated = Some(("--resume", "--save"));
         let inputs = resume.map(|file| ("--resume", file)).into_iter().collect();
         args.files = Files { inputs, outputs: outputs.collect(), updated };
         Ok(options)
     }
 
-    /// Refuses options that do not go together.
+    /// Refuses options that contradict each other.
     fn check(&self, args: &Args) -> Result<(), UsageError> {
         let asked = args.list_controls || self.compile_for.compile_for.is_some();
         self.pixel.check(args)?;
@@ -78,15 +78,15 @@ impl Options {
     }
 }
 
-/// The command line of every sample.
+/// The command line of every sample, including the instruments.
 pub fn command() -> clap::Command {
     <Options as clap::Args>::augment_args(<Args as clap::CommandFactory>::command())
 }
 
-/// The process's arguments: those of every sample, and the instruments'.
-///
+/// The process's arguments: the sample's and the instruments'.
+/// The process's arguments: the sample's and the instruments'.
 /// # Errors
-/// One line that says what is wrong and where to look.
+/// One line with the mistake and where to look.
 pub fn parse(name: &'static str) -> Result<(Args, Options), UsageError> {
     let (args, options, NoMore {}) = parse_with(name)?;
     Ok((args, options))

@@ -20,7 +20,7 @@ pub struct Aabb {
     pub high: DVec3,
 }
 
-/// Where a ray meets a box, exactly.
+/// The hit of a ray with a box, exactly.
 #[derive(Clone, Debug)]
 pub struct ExactBoxHit {
     /// Ray parameter of the hit, in lengths of the ray's direction.
@@ -112,7 +112,7 @@ impl Aabb {
         Some(ExactBoxHit { t, faces })
     }
 
-    /// Whether a point lies in the closed box, exactly.
+    /// True if a point is in the closed box, exactly.
     ///
     /// # Panics
     /// If a coordinate of the box is not finite.

@@ -1,12 +1,11 @@
-//! How far a triangle test in f32 may be off: where a renderer is free, and by how much.
+//! Error bounds of a triangle test in f32: the cases in which a renderer is free, and by how much.
 //!
 //! # The question
 //! The reference knows the margins of a ray: its distances, seen along the ray, to the three edges of
 //! a triangle ([`Crossing::margins`]). A GPU computes in f32, so near an edge it may decide either way.
-//! How near? Below is a bound for each edge: where the margin is larger, the answer is not free. The
-//! same is done for t. Everything is to first order in u = 2^-24, the relative error of one rounding;
-//! a hundredth is added for the higher orders and for the reference's own f64. Overflow, underflow
-//! and flushed denormals are left out.
+//! Below is a bound on how near, for each edge: if the margin is larger, only one answer is right. The same is done
+//! for t. Everything is to first order in u = 2^-24, the relative error of one rounding; a hundredth is added for the
+//! higher orders and for the reference's own f64. Overflow, underflow and flushed denormals are left out.
 //!
 //! # What is assumed
 //! The ray goes to object space by an f32 inverse as in [`Transform`]; there the triangle's f32
@@ -67,10 +66,10 @@ use super::ray::Ray;
 use super::transform::{Transform, U};
 use super::triangle::Triangle;
 
-/// What higher orders in u and the f64 of this computation may add.
+/// Allowance for higher orders in u and the f64 of this computation.
 const HIGHER_ORDERS: f64 = 1.01;
 
-/// How far an f32 test of one ray with one triangle may be off; the module derives it.
+/// Error bounds of an f32 test of one ray with one triangle; derived in the module's comment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// For each edge, in the units of [`Crossing::margins`]; infinite where an edge is seen end-on.
@@ -89,12 +88,12 @@ pub struct Graze {
 }
 
 impl Graze {
-    /// Whether an f32 test may find a hit.
+    /// True if an f32 test may find a hit.
     pub fn may_hit(&self) -> bool {
         self.margin >= -self.bound
     }
 
-    /// Whether an f32 test may find a miss.
+    /// True if an f32 test may find a miss.
     pub fn may_miss(&self) -> bool {
         self.margin <= self.bound
     }
@@ -175,10 +174,11 @@ mod tests {
     use super::super::simulated::{Test, apply, invert, moller_trumbore, woop};
     use super::*;
 
-    /// What a sweep of rays close to edges has found.
+    /// The result of a sweep of rays close to edges.
     #[derive(Debug, Default)]
     struct Sweep {
-        /// How often f32 decided otherwise than f64, and the largest margin in units of the bound there.
+        /// Number of cases in which f32 decides differently from f64, and the largest margin among them in units
+        /// of the bound.
         flips: usize,
         worst_flip: f64,
         /// The largest error of t in units of its bound.

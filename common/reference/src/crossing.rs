@@ -1,4 +1,4 @@
-//! Where the line of a ray crosses the plane of a triangle, and how near to the border, in f64.
+//! Intersection of a ray's line with the plane of a triangle, and its distance to the edges, in f64.
 
 use glam::{DVec2, DVec3};
 
@@ -7,23 +7,23 @@ use super::ray::Ray;
 /// Three vertices in world space.
 pub type Triangle = [DVec3; 3];
 
-/// Where the line of a ray meets the plane of a triangle, inside it or not, in f64.
+/// Intersection of a ray's line with the plane of a triangle, inside it or not, in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Ray parameter, in lengths of the ray's direction; NaN where the triangle is seen edge-on.
     pub t: f64,
     /// Weights of the three vertices; they sum to 1 and are negative outside.
     pub weights: [f64; 3],
-    /// How far inside each edge the ray passes; element k belongs to the edge opposite vertex k.
+    /// Distance of the ray inside each edge; element k belongs to the edge opposite vertex k.
     ///
     /// The distance, in world units, between the line of the ray and the line of the edge, that is
     /// the distance seen when looking along the ray; negative outside. Seen edge-on, a triangle has
     /// no inside, and no margin is positive. An edge that is seen end-on has margin 0.
     pub margins: [f64; 3],
-    /// Whether the vertices turn counterclockwise as seen from the ray's origin, in the world's
-    /// right-handed axes; false where the triangle is seen edge-on.
+    /// True if the vertices turn counterclockwise as seen from the ray's origin, in the world's right-handed axes;
+    /// false if the triangle is seen edge-on.
     pub counterclockwise: bool,
-    /// Whether the line passes through the closed triangle.
+    /// True if the line passes through the closed triangle.
     pub inside: bool,
 }
 
@@ -34,7 +34,7 @@ impl Crossing {
     }
 }
 
-/// What all tests of one ray share: the shear that turns its direction into an axis.
+/// Data shared by all tests of one ray: the shear that turns its direction into an axis.
 ///
 /// Woop, Benthin and Wald, *Watertight Ray/Triangle Intersection* (JCGT 2:1, 2013). The edge function
 /// of an edge that two triangles share is the same product difference with the opposite sign, so no
@@ -68,7 +68,7 @@ impl Shear {
         (edges, relative.map(|v| v[z]))
     }
 
-    /// Whether the line passes through the closed triangle: [`Crossing::inside`] at less cost.
+    /// True if the line passes through the closed triangle: [`Crossing::inside`] at less cost.
     #[inline]
     pub fn is_inside(&self, triangle: &Triangle) -> bool {
         let [u, v, w] = self.edges(triangle).0;

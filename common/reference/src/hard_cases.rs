@@ -40,7 +40,7 @@ fn ray(value: &Value) -> Ray {
     }
 }
 
-/// What the two ways say: (exact, f64), and the faces of a box.
+/// The results of both methods: (exact, f64), and the faces of a box.
 struct Found {
     exact: Option<Surface>,
     plain: Option<Surface>,

@@ -14,15 +14,15 @@ pub struct Heightfield {
     pub k: f64,
     /// Height of the hills.
     pub a: f64,
-    /// How many hills a unit of x.
+    /// Number of hills per unit of x.
     pub fx: f64,
-    /// How many hills a unit of z.
+    /// Number of hills per unit of z.
     pub fz: f64,
     /// Height of the ridges.
     pub b: f64,
-    /// How many ridges a unit of x.
+    /// Number of ridges per unit of x.
     pub gx: f64,
-    /// How many ridges a unit of z.
+    /// Number of ridges per unit of z.
     pub gz: f64,
     /// A bound for the length of the gradient.
     pub lipschitz: f64,

@@ -17,9 +17,9 @@ pub struct Hit {
     pub t: f64,
     /// Weights of the second and third vertex: GLSL's hit attributes.
     pub barycentrics: DVec2,
-    /// Whether the vertices turn counterclockwise as seen from the ray's origin, in the object's
-    /// right-handed axes. Mesa's drivers call this the front, unless the instance flips it; a
-    /// mirroring transform changes nothing, for the object does not see it.
+    /// True if the vertices turn counterclockwise as seen from the ray's origin, in the object's right-handed
+    /// axes. Mesa's drivers call this the front, unless the instance flips it. A mirroring transform has no
+    /// effect, because facing is determined in object space.
     pub counterclockwise: bool,
     /// The crossing in world space, with its margins.
     pub crossing: Crossing,
@@ -28,16 +28,16 @@ pub struct Hit {
 /// A triangle that an f32 renderer may find hit: a true hit or a near miss.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
-    /// Where the ray meets the plane of the triangle.
+    /// Intersection of the ray with the plane of the triangle.
     pub hit: Hit,
     /// The edge that decides, with the bound on its margin.
     pub graze: Graze,
-    /// How far t may be off.
+    /// Error bound of t.
     pub t_bound: f64,
 }
 
 impl Candidate {
-    /// Whether an f32 renderer may take it for a hit: near enough, and not out of the interval.
+    /// True if an f32 renderer may report it as a hit: near enough, and not outside the interval.
     pub fn may_hit(&self, ray: &Ray) -> bool {
         let (t, bound) = (self.hit.t, self.t_bound);
         // Edge-on t is not a number, and then nothing is known of it.
@@ -45,7 +45,7 @@ impl Candidate {
         self.graze.may_hit() && !outside
     }
 
-    /// Whether an f32 renderer must take it for a hit.
+    /// True if an f32 renderer must report it as a hit.
     pub fn must_hit(&self, ray: &Ray) -> bool {
         let (t, bound) = (self.hit.t, self.t_bound);
         !self.graze.may_miss() && t - bound > ray.tmin && t + bound < ray.tmax

@@ -14,7 +14,7 @@ use super::vector::Vector;
 pub struct Ellipsoid {
     /// Any matrix that can be inverted: turned, scaled, sheared, mirrored.
     pub linear: DMat3,
-    /// Where the centre is.
+    /// Position of the centre.
     pub translation: DVec3,
 }
 

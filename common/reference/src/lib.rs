@@ -1,4 +1,4 @@
-//! f64 and exact intersections on the CPU: what the GPU is held to.
+//! Intersections in f64 and exact arithmetic on the CPU, with which the GPU is compared.
 //!
 //! | file | what it holds |
 //! |---|---|

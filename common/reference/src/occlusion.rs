@@ -1,4 +1,4 @@
-//! How much of the sky something hides from a point on the ground, in closed form: form factors.
+//! The part of the sky that an object hides from a point on the ground, in closed form: form factors.
 //!
 //! The sky's part behind a polygon is weighted by the cosine of its direction, as a surface weighs what it
 //! receives; the whole sky counts 1. Lambert's formula (Photometria, 1760; Baum, Rushmeier and Winget,
@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-/// What part of the sky above `normal`, a unit vector, a polygon hides from a point. None of its corners may
-/// lie below the point's ground, nor at the point.
+/// The part of the sky above `normal`, a unit vector, that a polygon hides from a point. None of its corners may
+/// be below the point's ground, nor at the point.
 pub fn polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let ends = corners.iter().zip(corners.iter().cycle().skip(1));
     let edges = ends.map(|(&a, &b)| {
@@ -22,8 +22,8 @@ pub fn polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     edges.sum::<f64>().abs() / (2.0 * PI)
 }
 
-/// What part of the sky a box that stands on the ground, y = 0, hides from a point of the ground beside it:
-/// that of its upright faces which look at the point. The top is not seen from there.
+/// The part of the sky that a box standing on the ground, y = 0, hides from a point of the ground beside it: that
+/// of its upright faces that face the point. The top is not visible from there.
 pub fn standing_box(point: DVec3, low: DVec3, high: DVec3) -> f64 {
     let upright = |a: DVec3, b: DVec3| [a, b, b.with_y(high.y), a.with_y(high.y)];
     let corner = |x, z| DVec3::new(x, 0.0, z);

@@ -21,7 +21,7 @@ pub fn to_f64(x: &RBig) -> f64 {
     x.to_f64().value()
 }
 
-/// How a rational compares with zero: its sign.
+/// The sign of a rational: its comparison with zero.
 pub fn sign(x: &RBig) -> Ordering {
     x.cmp(&RBig::ZERO)
 }

@@ -7,9 +7,9 @@ use glam::{DVec3, Vec3};
 /// Every f32 is an f64, so a ray made from the bits that the GPU wrote is the very ray it traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where t is 0.
+    /// The point at t = 0.
     pub origin: DVec3,
-    /// What t multiplies; any length but 0.
+    /// The vector multiplied by t; any length but 0.
     pub direction: DVec3,
     /// Lower end of the interval, itself excluded.
     pub tmin: f64,
@@ -33,7 +33,7 @@ impl Ray {
         self.origin + t * self.direction
     }
 
-    /// Whether `tmin < t <= tmax`; false for NaN.
+    /// True if `tmin < t <= tmax`; false for NaN.
     pub fn contains(&self, t: f64) -> bool {
         self.tmin < t && t <= self.tmax
     }

@@ -68,7 +68,7 @@ impl Scene {
         self.items.len()
     }
 
-    /// Whether there are no triangles.
+    /// True if there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
@@ -117,9 +117,9 @@ impl Scene {
         })
     }
 
-    /// All triangles that an f32 renderer may take for hits, by t, then by instance and primitive.
+    /// All triangles that an f32 renderer may report as hits, by t, then by instance and primitive.
     ///
-    /// Where there is one that is no hit, or that need not be one, the renderer has a choice.
+    /// If one of them is not a hit, or need not be one, the renderer has a choice.
     pub fn near_candidates(&self, ray: &Ray) -> Vec<Candidate> {
         let hits = self.collect(ray, |shear, item| Some(self.hit(shear, item)));
         let candidates = hits.into_iter().map(|hit| self.candidate(ray, hit));
@@ -173,8 +173,7 @@ impl Scene {
         }
     }
 
-    /// How much an instance's boxes grow, so that no triangle is left out whose moved copy the ray
-    /// touches.
+    /// The padding of an instance's boxes, large enough to keep every triangle whose moved copy the ray touches.
     ///
     /// The module [`bound`](super::bound) lets a ray stray by u·H·(..) and vertices move by 13u·R',
     /// in the world `13u·‖L‖‖L^-1‖·R`; twice that leaves room for the rounded products.

@@ -1,4 +1,4 @@
-//! A GPU's way through a triangle test in f32, for the tests of this room to be held to the bounds.
+//! A triangle test in f32 as a GPU computes it, to test the bounds of this crate.
 
 use glam::Vec3;
 

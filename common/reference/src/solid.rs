@@ -18,7 +18,7 @@ use super::ray::Ray;
 use super::sphere::Sphere;
 use super::vector::Vector;
 
-/// What a solid is made of.
+/// The construction of a solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
     /// All points p with `normal·p <= offset`; the normal has any length but 0.
@@ -30,15 +30,15 @@ pub enum Solid {
     },
     /// A ball.
     Ball(Sphere),
-    /// What lies in any of these; nothing, if there are none.
+    /// The union of these; empty if there are none.
     Union(Vec<Solid>),
-    /// What lies in all of these; everything, if there are none.
+    /// The intersection of these; all of space if there are none.
     Intersection(Vec<Solid>),
-    /// What does not lie in it.
+    /// The complement.
     Inverse(Box<Solid>),
 }
 
-/// Where a ray goes through a solid's surface.
+/// A crossing of a ray and a solid's surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary<T> {
     /// Ray parameter, in lengths of the ray's direction.
@@ -46,7 +46,7 @@ pub struct Boundary<T> {
     /// The half-spaces and balls whose surfaces the ray goes through there, numbered in the order in
     /// which the solid names them.
     pub through: Vec<usize>,
-    /// Whether the ray comes into the solid there; otherwise it leaves.
+    /// True if the ray enters the solid there; otherwise it leaves.
     pub enters: bool,
 }
 
@@ -62,7 +62,7 @@ impl Solid {
         Self::Intersection(vec![from, Self::Inverse(Box::new(what))])
     }
 
-    /// Whether a point lies in it, in f64; on a surface it counts as inside, before any inverse.
+    /// True if a point is in it, in f64; on a surface it counts as inside, before any inverse.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::HalfSpace { normal: n, offset } => {
@@ -111,7 +111,7 @@ impl Solid {
         (!has_ball).then(|| self.walk(line, RBig::cmp))
     }
 
-    /// Where the ray first goes through the surface within its interval, exactly rounded if it can be.
+    /// The first crossing of the ray and the surface within its interval, exactly rounded if possible.
     pub fn intersect(&self, ray: &Ray) -> Option<Boundary<f64>> {
         self.intersect_within(&Self::Intersection(vec![]), ray)
     }
@@ -166,7 +166,7 @@ impl Solid {
         }
     }
 
-    /// What the rule makes of who is in: the members in the order of [`Solid::each`].
+    /// The rule applied to the members' states, in the order of [`Solid::each`].
     fn holds(&self, members: &mut impl Iterator<Item = bool>) -> bool {
         // No shortcut: every operand takes its members off the list.
         match self {
@@ -235,7 +235,7 @@ fn half_space<T>(
     Line { begins_in, changes: if slope.is_eq() { vec![] } else { vec![t()] } }
 }
 
-/// Where a ray's line comes into a ball and leaves it; nowhere, where it only touches.
+/// The values of t at which a ray's line enters and leaves a ball; none if it only touches.
 fn ball_changes(ball: &Sphere, ray: &Ray) -> Vec<f64> {
     let (f, d, r) = (ray.origin - ball.center, ray.direction, ball.radius);
     let (a, b) = (d.length_squared(), vector_dot2(f, d));

@@ -142,9 +142,10 @@ mod tests {
             let side = axis.any_orthonormal_vector();
             let impact = 1.0 + f64::from(step) * 1e-7;
             let origin = side * impact - axis * 10.0;
-            match agree(&unit(DVec3::ZERO), &towards(origin, side * impact)) {
-                true => hits += 1,
-                false => misses += 1,
+            if agree(&unit(DVec3::ZERO), &towards(origin, side * impact)) {
+                hits += 1;
+            } else {
+                misses += 1;
             }
         }
         assert!(hits > 20 && misses > 20, "{hits} {misses}");

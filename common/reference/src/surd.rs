@@ -46,7 +46,7 @@ impl Surd {
         }
     }
 
-    /// How the number compares with zero.
+    /// The sign of the number: its comparison with zero.
     pub fn sign(&self) -> Ordering {
         let left = sign(&self.rational);
         let right = if self.radicand.is_zero() { Ordering::Equal } else { sign(&self.factor) };
@@ -62,12 +62,12 @@ impl Surd {
         }
     }
 
-    /// How the number compares with a rational.
+    /// Compares the number with a rational.
     pub fn compare(&self, other: &RBig) -> Ordering {
         self.affine(&RBig::ONE, &-other).sign()
     }
 
-    /// How the number compares with a float, which may be infinite.
+    /// Compares the number with a float, which may be infinite.
     ///
     /// # Panics
     /// If `other` is NaN.
@@ -79,7 +79,7 @@ impl Surd {
         }
     }
 
-    /// Whether `tmin < self <= tmax` for this ray.
+    /// True if `tmin < self <= tmax` for this ray.
     pub fn within(&self, ray: &Ray) -> bool {
         self.compare_f64(ray.tmin).is_gt() && self.compare_f64(ray.tmax).is_le()
     }

@@ -1,10 +1,10 @@
-//! Where a ray meets a surface: t and the normal, in f64 and exactly.
+//! Intersection of a ray with a surface: t and the normal, in f64 and exactly.
 
 use glam::DVec3;
 
 use super::surd::Surd;
 
-/// Where a ray meets a surface, in f64.
+/// Intersection of a ray with a surface, in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Ray parameter of the hit, in lengths of the ray's direction.
@@ -13,7 +13,7 @@ pub struct Surface {
     pub normal: DVec3,
 }
 
-/// Where a ray meets a surface, exactly.
+/// Intersection of a ray with a surface, exactly.
 #[derive(Clone, Debug)]
 pub struct ExactSurface {
     /// Ray parameter of the hit, in lengths of the ray's direction.

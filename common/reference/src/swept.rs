@@ -114,7 +114,7 @@ mod tests {
     use super::super::sphere::Sphere;
     use super::*;
 
-    /// How far a point is from the surface: the least of |p - c(s)| - r(s), sought among many s.
+    /// The distance of a point from the surface: the least of |p - c(s)| - r(s), sought among many s.
     fn distance(swept: &Swept, point: DVec3) -> f64 {
         let at = |s: f64| {
             let center = swept.ends[0].lerp(swept.ends[1], s);

@@ -28,8 +28,8 @@ pub const U: f64 = 1.0 / (1 << 24) as f64;
 ///    `u·H·(|o| + |T|)`, the direction by `u·H·|d|`, so the ray at a point s·d from its origin by
 ///    `u·H·(|o| + |T| + s|d|)`.
 ///
-/// Where L only permutes and mirrors the axes and scales them by powers of two, the identity being
-/// the usual case, all this is exact but the one sum `W_L·o + W_T`, and H is the identity.
+/// If L only permutes and mirrors the axes and scales them by powers of two, the usual case being the identity,
+/// all this is exact except the one sum `W_L·o + W_T`, and H is the identity.
 #[derive(Clone, Debug)]
 pub struct Transform {
     /// L: the object's axes in the world.
@@ -59,7 +59,7 @@ fn permanent_cofactors(m: DMat3) -> DMat3 {
     DMat3::from_cols(cross(b, c), cross(c, a), cross(a, b)).transpose()
 }
 
-/// Whether every entry is 0 or ± a power of two, with one that is not 0 in each row and column.
+/// True if every entry is 0 or ± a power of two, with exactly one nonzero in each row and column.
 fn is_scaled_permutation(m: DMat3) -> bool {
     let power_of_two = |x: f64| x.is_normal() && x.to_bits() << 12 == 0;
     let sparse = |v: DVec3| {
@@ -116,9 +116,9 @@ impl Transform {
         self.linear * v + self.translation
     }
 
-    /// How far, along each axis of the world, a ray from `origin` may have strayed `reach` away.
+    /// Bound on the deviation of a ray from `origin`, along each axis of the world, at distance `reach`.
     ///
-    /// `reach` is a vector: the farthest that the ray goes along each axis. In world units.
+    /// `reach` is a vector: the farthest the ray goes along each axis. In world units.
     pub fn stray(&self, origin: DVec3, reach: DVec3) -> DVec3 {
         self.error_bound * (origin.abs() + self.translation.abs() + reach.abs()) * U
     }

@@ -11,7 +11,7 @@ use super::vector::Vector;
 
 pub use super::crossing::Triangle;
 
-/// Where a ray hits a triangle, exactly.
+/// The hit of a ray with a triangle, exactly.
 #[derive(Clone, Debug)]
 pub struct ExactTriangleHit {
     /// t, which is rational, and the normal that faces the ray's origin.
@@ -26,7 +26,7 @@ pub fn intersect(ray: &Ray, triangle: &Triangle) -> Option<Crossing> {
     (crossing.inside && ray.contains(crossing.t)).then_some(crossing)
 }
 
-/// How far inside each edge the line of a ray passes: [`Crossing::margins`].
+/// Distance of the ray's line inside each edge: [`Crossing::margins`].
 pub fn edge_margins(ray: &Ray, triangle: &Triangle) -> [f64; 3] {
     Shear::new(ray).cross(triangle).margins
 }

@@ -14,7 +14,7 @@ use super::hit::{Candidate, Hit};
 use super::ray::Ray;
 use super::scene::Scene;
 
-/// What the GPU wrote for a ray that hit.
+/// The GPU's answer for a ray that hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// `gl_InstanceID`.
@@ -32,7 +32,7 @@ pub enum Verdict {
     Agrees,
     /// Another triangle that the ray truly hits, as near as the bounds on t can tell.
     Tie {
-        /// How much farther than the exact closest hit it is, in t.
+        /// Its distance beyond the exact closest hit, in t.
         distance: f64,
         /// The two bounds on t together.
         bound: f64,
@@ -55,13 +55,13 @@ pub enum Verdict {
     Wrong {
         /// The exact answer.
         expected: Option<Hit>,
-        /// What is wrong with the GPU's.
+        /// The fault in the GPU's answer.
         fault: Fault,
     },
 }
 
 impl Verdict {
-    /// Whether the answer is right or excused.
+    /// True if the answer is right or excused.
     pub fn is_allowed(&self) -> bool {
         !matches!(self, Self::Wrong { .. })
     }

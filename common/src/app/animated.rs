@@ -1,6 +1,6 @@
-//! Frames as one picture that moves: an animated PNG, which has each frame's difference from the one before.
+//! An animated PNG of a run's frames, each stored as its difference from the one before.
 //!
-//! A viewer that knows no animation shows the first frame (PNG specification, third edition, *APNG*).
+//! A viewer without animation support shows the first frame (PNG specification, third edition, *APNG*).
 
 use std::cell::RefCell;
 use std::io::{self, Write};
@@ -14,10 +14,10 @@ use super::{Args, Format, Picture, Playback, Run};
 use crate::UsageError;
 use crate::files::write_whole;
 
-/// The most frames: a minute of them, for all are kept until the last is there.
+/// The most frames, a minute's worth: all are held in memory until the last one arrives.
 const MOST: u32 = 60 * Playback::RATE;
 
-/// An animated PNG that is being made. The same frames give the same bytes.
+/// An animated PNG under construction. The same frames give the same bytes.
 pub struct Animated {
     writer: Writer<Sink>,
     sink: Sink,
@@ -25,7 +25,7 @@ pub struct Animated {
     last: Option<(u32, u32, Vec<[u8; 3]>)>,
 }
 
-/// Where the encoder writes to: bytes that are still there when it has ended.
+/// The encoder's output. The bytes outlive the encoder.
 #[derive(Clone, Default)]
 struct Sink(Rc<RefCell<Vec<u8>>>);
 
@@ -39,7 +39,7 @@ impl Write for Sink {
     }
 }
 
-/// Refuses `--animate` where no file of frames could come of it.
+/// Refuses `--animate` where the options would produce no file of frames.
 ///
 /// # Errors
 /// [`UsageError`], with what would be right.
@@ -73,7 +73,7 @@ impl Animated {
     /// Begins the animation that a run is to write.
     ///
     /// # Errors
-    /// [`UsageError`] if the sample shows nothing that moves.
+    /// [`UsageError`] if the sample has nothing that moves.
     pub fn begin(run: &mut Run) -> Result<Self> {
         let Some(playback) = run.sample.playback() else {
             let what = "--animate is for chapters that play frames, such as 14_animation";
@@ -91,7 +91,7 @@ impl Animated {
         let mut encoder = Encoder::new(sink.clone(), width, height);
         encoder.set_color(ColorType::Rgba);
         encoder.set_compression(Compression::High);
-        // It begins again for ever.
+        // Zero plays: repeat for ever.
         encoder.set_animated(count, 0)?;
         encoder.set_frame_delay(1, Playback::RATE as u16)?;
         encoder.set_blend_op(BlendOp::Over)?;
@@ -102,7 +102,7 @@ impl Animated {
     /// Adds a frame.
     ///
     /// # Errors
-    /// If it is one more than announced, or differs in size.
+    /// If there are more frames than announced, or one differs in size.
     pub fn add(&mut self, picture: &Picture) -> Result<()> {
         let (width, height) = (picture.width, picture.height);
         let pixels: Vec<[u8; 3]> = picture.srgb().as_chunks().0.to_vec();
@@ -116,7 +116,7 @@ impl Animated {
         let mut bytes = Vec::new();
         for at in (top..bottom).flat_map(|y| (left..right).map(move |x| (y * width + x) as usize)) {
             let same = self.last.as_ref().is_some_and(|(.., before)| before[at] == pixels[at]);
-            // What is as before is transparent; zeros pack best.
+            // Unchanged pixels are transparent; zeros compress best.
             bytes.extend(if same {
                 [0; 4]
             } else {
@@ -131,7 +131,7 @@ impl Animated {
         Ok(())
     }
 
-    /// Writes it, whole or not at all.
+    /// Writes the file, whole or not at all.
     ///
     /// # Errors
     /// If frames are missing, or the file cannot be written.
@@ -146,8 +146,8 @@ impl Animated {
     }
 }
 
-/// Left, top, right and bottom of what differs between two frames; one pixel where nothing does, for a frame
-/// cannot be empty.
+/// Left, top, right and bottom of the region that differs between two frames; one pixel if nothing does, because a
+/// frame cannot be empty.
 fn changed(before: &[[u8; 3]], now: &[[u8; 3]], width: u32) -> [u32; 4] {
     let places = (0u32..).zip(before.iter().zip(now)).filter(|(_, (before, now))| before != now);
     let places = places.map(|(at, _)| (at % width, at / width));

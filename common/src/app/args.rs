@@ -13,11 +13,11 @@ use crate::UsageError;
 use crate::gpu::{GpuOptions, Requirements, named_device};
 use crate::output;
 
-/// What a sample was asked to do.
+/// The command line of a sample, parsed.
 #[derive(Clone, Debug, Parser)]
 #[command(disable_version_flag = true, about = "Shows its scene in a window, or renders a picture")]
 pub struct Args {
-    /// Render without a window, write what is asked for, and exit
+    /// Render without a window, write the requested files, and exit
     #[arg(long)]
     pub headless: bool,
 
@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x600", value_parser = size, allow_hyphen_values = true)]
     pub size: vk::Extent2D,
 
-    /// Frames to render; the last one is the picture. A window closes after so many, if given
+    /// Frames to render; the last one is the picture. If given, a window closes after that many
     #[arg(long, value_name = "N", default_value = "1", value_parser = frames, allow_hyphen_values = true)]
     pub frames: u32,
 
@@ -33,7 +33,7 @@ pub struct Args {
     #[arg(skip)]
     pub frames_given: bool,
 
-    /// Files that are read and written besides --scene and --out
+    /// Input and output files besides --scene and --out
     #[arg(skip)]
     pub files: Files,
 
@@ -41,12 +41,12 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// With --headless, --frames and --out FILE.png: write all frames, as a picture that moves
+    /// With --headless, --frames and --out FILE.png: write all frames as an animated PNG
     #[arg(long, requires = "headless")]
     pub animate: bool,
 
-    /// Set a control, as its name and a value; repeatable. Settings act in the order of --list-controls,
-    /// whatever theirs; a name given again acts after all before it
+    /// Set a control, as its name and a value; repeatable. Settings apply in the order of --list-controls, not in
+    /// the order given; a repeated name applies after everything before it
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 
@@ -54,35 +54,35 @@ pub struct Args {
     #[arg(long, conflicts_with = "list_devices")]
     pub list_controls: bool,
 
-    /// Use this device: a number of --list-devices or a part of its name
+    /// Use this device: its number in --list-devices or a part of its name
     #[arg(long, value_name = "N|NAME", value_parser = NonEmptyStringValueParser::new(), allow_negative_numbers = true)]
     pub device: Option<String>,
 
-    /// Print the devices and what each lacks
+    /// Print the devices and the features each one lacks
     #[arg(long)]
     pub list_devices: bool,
 
-    /// Run under validation and synchronization validation; a message fails the run
+    /// Run with validation and synchronization validation; any message fails the run
     #[arg(long)]
     pub validate: bool,
 
-    /// Open this model (.obj) instead of the chapter's own; 14 and 23 take legs of pieces instead (.legs), 25 also scene files (.toml)
+    /// Open this model (.obj) instead of the chapter's own; 14 and 23 instead read the moves of pieces (.legs), 25 also scene files (.toml)
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
 
-    /// Build acceleration structures in the model's order instead of a spatial one
+    /// Build acceleration structures in the model's order instead of sorting in space
     #[arg(long)]
     pub unordered: bool,
 }
 
 impl Args {
-    /// The device that is asked for, with these features.
+    /// Options for opening the chosen device with these features.
     pub fn device(&self, requirements: Requirements) -> GpuOptions<'_> {
         let (device, validate) = (self.device.as_deref(), self.validate);
         GpuOptions { requirements, device, validate, ..GpuOptions::default() }
     }
 
-    /// Fails if a file and a control both name the scene: one of them would be passed over.
+    /// Fails if a file and a control both name the scene: one of them would be ignored.
     fn one_scene(&self) -> Result<(), UsageError> {
         let set = self.sets.iter().find(|(name, value)| name == "scene" && value != "file");
         match (&self.scene, set) {
@@ -96,16 +96,16 @@ impl Args {
 
     /// Parses the process's arguments, with the options that `more` adds.
     ///
-    /// Prints the help and ends the process if that is asked for.
+    /// Prints the help and ends the process if the user asked for it.
     ///
     /// # Errors
-    /// One line that says what is wrong and where to look.
+    /// One line with the mistake and where to look.
     pub fn parse(
         name: &'static str,
         more: impl FnOnce(Command) -> Command,
     ) -> Result<(Self, ArgMatches), UsageError> {
         let command = Self::command().name(name);
-        // Options that are added would bring their own first line of the help.
+        // Added options would replace the first line of the help with their own.
         let about = command.get_about().cloned().unwrap_or_default();
         let matches = more(command).about(about).try_get_matches();
         let parsed = matches.and_then(|matches| {
@@ -120,12 +120,12 @@ impl Args {
     }
 }
 
-/// An error of the command line in one line; prints the help and ends the process if that is asked for.
+/// Reduces a command-line error to one line. Prints the help and ends the process if the user asked for it.
 pub fn usage_error(error: &clap::Error) -> UsageError {
     if !error.use_stderr() {
         output::print_and_exit(&error.to_string());
     }
-    // clap spreads an error over a paragraph; its first block says it all.
+    // clap spreads an error over a paragraph; its first block contains everything.
     let text = error.to_string();
     let block: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
     let line = block.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");

@@ -1,8 +1,8 @@
-//! A picture in bands of rows: no device works for long without an answer.
+//! Tracing in bands of rows, so that the device never works for long without responding.
 //!
-//! Systems take a device that does not answer for a second or two for lost, and a window that waits for
-//! a picture answers nobody. So a picture is traced in bands, each submitted and waited for alone. How
-//! many rows a band has follows what the rows before have cost.
+//! Systems consider a device lost if it does not respond for a second or two, and a window that waits for a
+//! picture cannot respond either. So a picture is traced in bands, each submitted and waited for separately. The
+//! number of rows in a band follows from the cost of the rows before.
 
 use std::sync::Arc;
 
@@ -13,31 +13,30 @@ use super::variants::Background;
 use super::{Frame, Sample};
 use crate::gpu::{Gpu, Image, Timer, barrier};
 
-/// Milliseconds for the first band after a change, which may have made every pixel a hundred times as
-/// dear.
+/// Milliseconds for the first band after a change, which may have made every pixel a hundred times as expensive.
 const FIRST: f64 = 1.0;
-/// Milliseconds for the next ones: below a cheap sky lies what no band has met yet.
+/// Milliseconds for the next ones: below a cheap sky there may be rows far more expensive than any so far.
 const UNSEEN: f64 = 4.0;
 /// Milliseconds for a band of a picture that was traced before and has not changed.
 const SEEN: f64 = 50.0;
 
-/// Which rows are traced, which are next, and what they are likely to take.
+/// Progress through a picture's rows, and the estimated cost of the next ones.
 #[derive(Clone, Debug, Default)]
 pub struct Bands {
     extent: vk::Extent2D,
     row: u32,
-    /// Milliseconds a pixel, of the last band.
+    /// Milliseconds per pixel in the last band.
     cost: Option<f64>,
-    /// The most that a band of this picture has cost a pixel.
+    /// The highest cost per pixel of any band of this picture, in milliseconds.
     most: f64,
-    /// The same of the whole picture before, if this one is its like.
+    /// The same for the whole previous picture, if this one is comparable.
     most_before: Option<f64>,
     /// Milliseconds of each band of this picture.
     pub times: Vec<f64>,
 }
 
 impl Bands {
-    /// Begins a picture; `like_the_last` if nothing has changed that could make it dearer.
+    /// Begins a picture; `like_the_last` if nothing has changed that could make it more expensive.
     pub fn begin(&mut self, extent: vk::Extent2D, like_the_last: bool) {
         let complete = self.row > 0 && self.row == self.extent.height;
         self.most_before = (like_the_last && complete).then_some(self.most);
@@ -45,17 +44,17 @@ impl Bands {
         self.times.clear();
     }
 
-    /// Gives the picture up.
+    /// Abandons the picture.
     pub fn stop(&mut self) {
         (self.extent.height, self.row) = (0, 0);
     }
 
-    /// How many pixels of the picture are traced.
+    /// Number of pixels traced so far.
     pub fn pixels(&self) -> u64 {
         u64::from(self.extent.width) * u64::from(self.row)
     }
 
-    /// The next band; none if the picture is complete or was given up.
+    /// The next band; `None` if the picture is complete or was abandoned.
     pub fn next(&self) -> Option<vk::Rect2D> {
         let left = self.extent.height - self.row;
         if left == 0 {
@@ -69,13 +68,13 @@ impl Bands {
             (None, None) => (0.0, 1.0),
         };
         let most = (budget / (cost * f64::from(self.extent.width))).clamp(1.0, left.into()) as u32;
-        // As many bands as it takes, all of one height.
+        // As few bands as the limit allows, all equally high.
         let height = left.div_ceil(left.div_ceil(most));
         let offset = vk::Offset2D { x: 0, y: self.row as i32 };
         Some(vk::Rect2D { offset, extent: vk::Extent2D { height, ..self.extent } })
     }
 
-    /// A band is traced, and has taken so many milliseconds.
+    /// Records that a band was traced and how many milliseconds it took.
     pub fn took(&mut self, band: vk::Rect2D, milliseconds: f64) {
         let vk::Extent2D { width, height } = band.extent;
         let cost = milliseconds / (f64::from(width) * f64::from(height));
@@ -88,7 +87,7 @@ impl Bands {
         self.row += height;
     }
 
-    /// Traces the next band of a frame and returns the milliseconds it took, none if there is no more.
+    /// Traces the next band of a frame and returns its time in milliseconds; `None` if no band is left.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -123,7 +122,7 @@ impl Bands {
     }
 }
 
-/// Traces one pixel of a frame alone, as the whole frame would.
+/// Traces a single pixel of a frame, with the same result as in the whole frame.
 ///
 /// # Errors
 /// If the sample or the device fails.
@@ -158,7 +157,7 @@ mod tests {
 
     const EXTENT: vk::Extent2D = vk::Extent2D { width: 800, height: 600 };
 
-    /// Traces a picture whose rows take `row(y)` milliseconds, and returns what its bands took.
+    /// Traces a picture whose rows take `row(y)` milliseconds, and returns the time of each band.
     fn picture(bands: &mut Bands, like_the_last: bool, row: impl Fn(u32) -> f64) -> Vec<f64> {
         bands.begin(EXTENT, like_the_last);
         let (mut times, mut next) = (Vec::new(), 0);
@@ -190,7 +189,7 @@ mod tests {
     #[test]
     fn a_slow_picture_is_many_bands_none_of_them_long() {
         let mut bands = Bands::default();
-        // A sky, and under it what is 25 times as dear.
+        // A sky, and below it rows 25 times as expensive.
         let row = |y| if y < 250 { 0.4 } else { 10.0 };
         assert!(longest(&picture(&mut bands, false, row)) <= 100.0);
         let again = picture(&mut bands, true, row);

@@ -1,33 +1,33 @@
 //! A small plot for the panel: labelled dots, both axes logarithmic.
 
-/// What a sample has found out, for [`Controls::chart`](super::Controls::chart).
+/// A sample's measurements, for [`Controls::chart`](super::Controls::chart).
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What is plotted, in a word: the name of its row.
+    /// The plotted quantity, in a word: the name of its row.
     pub name: &'static str,
-    /// What runs to the right, and its unit.
+    /// The quantity on the horizontal axis, and its unit.
     pub x: &'static str,
-    /// What runs upwards, and its unit.
+    /// The quantity on the vertical axis, and its unit.
     pub y: &'static str,
-    /// What is shown whatever there is to see: from and to, above 0, in each direction.
+    /// The range always shown, whatever the dots: from and to, above 0, in each direction.
     pub span: [[f64; 2]; 2],
-    /// What there is to see.
+    /// The dots.
     pub dots: Vec<Dot>,
 }
 
 /// One dot.
 #[derive(Clone, Debug)]
 pub struct Dot {
-    /// What it stands for.
+    /// The configuration the dot stands for.
     pub label: &'static str,
-    /// Its place; both above 0.
+    /// Its position; both coordinates above 0.
     pub at: [f64; 2],
-    /// Whether it is the one that the picture shows.
+    /// True if the picture shows this one.
     pub is_shown: bool,
 }
 
 impl Chart {
-    /// The decades that hold all dots, in each direction: exponents of ten, at least one apart.
+    /// The decades that contain all dots, in each direction: exponents of ten, at least one apart.
     pub fn decades(&self) -> [(i32, i32); 2] {
         [0, 1].map(|axis| {
             let values = self.dots.iter().map(|dot| dot.at[axis]).chain(self.span[axis]);

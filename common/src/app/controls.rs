@@ -16,31 +16,31 @@ use crate::scene::{Camera, Sun};
 
 pub use value::Value;
 
-/// Something that is shown every control in turn: the panel, a list, a setting.
+/// A visitor that is shown every control in turn: the panel, a list, a setting.
 pub trait Visit {
-    /// Sees one control, may change its value, and says whether it did.
+    /// Visits one control, may change its value, and returns whether it did.
     fn visit(&mut self, name: &str, value: Value) -> bool;
 
-    /// Sees a line that only tells something, such as what is in use; by default passed over.
+    /// Visits a line of information, such as what is in use; ignored by default.
     fn note(&mut self, _name: &str, _text: &str) {}
 
-    /// Sees the camera; by default as the controls that a script can set.
+    /// Visits the camera; by default as the controls a script can set.
     fn camera(&mut self, camera: &mut Camera) -> bool {
         visit_camera(self, camera)
     }
 
-    /// Sees an animation's frame; by default as the controls that a script can set.
+    /// Visits an animation's frame; by default as the controls a script can set.
     fn playback(&mut self, playback: &mut Playback) -> bool {
         let last = playback.last;
         self.visit("frame", Value::Integer(&mut playback.frame, 0..=last))
             | self.visit("play", Value::Checkbox(&mut playback.playing))
     }
 
-    /// Sees what the sample has found out; only the panel has room for it.
+    /// Visits a chart of the sample's measurements; only the panel has room for it.
     fn chart(&mut self, _: &Chart) {}
 }
 
-/// Shows a camera as the controls that a script can set.
+/// Visits a camera as the controls a script can set.
 fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool {
     let mut degrees = camera.fov_y as f32;
     let moved = visitor.visit("camera eye", Value::Point(&mut camera.eye))
@@ -52,7 +52,7 @@ fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool
     moved | zoomed
 }
 
-/// What [`Sample::controls`](super::Sample::controls) declares its controls on.
+/// The set on which [`Sample::controls`](super::Sample::controls) declares its controls.
 ///
 /// ```
 /// use raybook::prelude::*;
@@ -64,7 +64,7 @@ fn visit_camera<V: Visit + ?Sized>(visitor: &mut V, camera: &mut Camera) -> bool
 /// }
 /// ```
 ///
-/// Each method returns whether the value has just been changed.
+/// Each method returns true if the value has just been changed.
 pub struct Controls<'a> {
     visitor: &'a mut dyn Visit,
 }
@@ -103,7 +103,7 @@ impl<'a> Controls<'a> {
         changed
     }
 
-    /// One of words that only the program knows, held as its position among them.
+    /// One of a list of words known only at run time, stored as its position in the list.
     pub fn one_of(&mut self, name: &str, value: &mut u32, options: &[&str]) -> bool {
         self.visitor.visit(name, Value::Choice(value, options))
     }
@@ -118,7 +118,7 @@ impl<'a> Controls<'a> {
         self.visitor.visit(name, Value::Direction(value, range))
     }
 
-    /// A line that tells something: shown in the panel, no control.
+    /// A line of information, shown in the panel; not a control.
     pub fn note(&mut self, name: &str, text: &str) {
         self.visitor.note(name, text);
     }
@@ -145,16 +145,16 @@ impl<'a> Controls<'a> {
     }
 }
 
-/// A control as a list shows it.
+/// A control as `--list-controls` prints it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Listed {
     /// Its name.
     pub name: String,
     /// Its kind.
     pub kind: &'static str,
-    /// What it may be.
+    /// Its possible values.
     pub possible: String,
-    /// What it is.
+    /// Its current value.
     pub value: String,
 }
 
@@ -173,12 +173,12 @@ pub fn list(declare: impl FnOnce(&mut Controls)) -> Vec<Listed> {
     listed
 }
 
-/// Controls on their way to new values, each with its name and text.
+/// Controls to be set, each by name and text.
 struct Settings<'a> {
     waiting: Vec<(&'a str, &'a str)>,
     seen: Vec<String>,
     refused: Option<String>,
-    /// Whether a control that is given the value that it has does what it does at a change.
+    /// True if setting a control to the value it already has still triggers its side effects.
     repeats: bool,
 }
 
@@ -198,7 +198,7 @@ impl Visit for Settings<'_> {
         self.repeats || value.text() != before
     }
 
-    /// Either point alone would do, but an eye that is its own target looks nowhere.
+    /// Either point alone could be set, but an eye that equals its target has no viewing direction.
     fn camera(&mut self, camera: &mut Camera) -> bool {
         let moved = visit_camera(self, camera);
         if moved && !camera.looks_somewhere() {
@@ -216,7 +216,7 @@ impl Visit for Settings<'_> {
 /// Sets one control of those that `declare` declares.
 ///
 /// # Errors
-/// If there is none of that name, or the value is not possible; the line lists what is.
+/// If no control has that name, or the value is not possible; the message lists what is.
 pub fn set(
     name: &str,
     text: &str,
@@ -225,9 +225,9 @@ pub fn set(
     round(vec![(name, text)], true, &mut declare)
 }
 
-/// Sets controls, each given by name and text, as they are declared and not as they are given: a preset
-/// that comes last does not undo what was set beside it. A name that is given again begins another round
-/// after those before it, so that one control can choose what the next ones are about.
+/// Sets controls, each given by name and text, in the order of declaration rather than the order given: a preset
+/// that comes last does not undo the controls set beside it. A repeated name starts another round after the
+/// controls before it, so that one control can decide what the next ones apply to.
 ///
 /// # Errors
 /// As [`set`].
@@ -253,8 +253,8 @@ fn rounds(
     round(waiting, repeats, &mut declare)
 }
 
-/// As [`set_all`], but with one control at a value of its own: what that brings, as a preset does, undoes
-/// none of the others. A control that has its value already does nothing: it is asked once a frame.
+/// As [`set_all`], but with one control at a value of its own: its side effects, such as those of a preset, undo
+/// none of the others. Cheap to call once per frame: a control that already has its value does nothing.
 ///
 /// # Errors
 /// As [`set`].
@@ -283,7 +283,7 @@ fn round(
         if let Some(refused) = settings.refused {
             return Err(UsageError(refused));
         }
-        // A control may be declared only after a later one was set.
+        // A control may be declared only after a later one has been set.
         if settings.waiting.len() == count {
             let there_is = settings.seen.join(", ");
             return Err(UsageError(format!("no control '{name}'; there is {there_is}")));

@@ -1,4 +1,4 @@
-//! The files that a run reads and writes, refused before the work.
+//! The files a run reads and writes, checked before the work begins.
 
 use std::path::PathBuf;
 
@@ -14,18 +14,17 @@ use crate::model::text;
 /// Files, each with the option that names it.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
-    /// Files that are read.
+    /// Input files.
     pub inputs: Vec<(&'static str, PathBuf)>,
-    /// Files that are written.
+    /// Output files.
     pub outputs: Vec<(&'static str, PathBuf)>,
-    /// The options of an input and an output that may be one file: it is brought up to date.
+    /// The options of an input and an output that may be the same file: the run updates it.
     pub updated: Option<(&'static str, &'static str)>,
 }
 
-/// Refuses before the work what would be refused after it: a file that cannot be written, or that is named
-/// twice.
+/// Refuses early, before the work, any output file that cannot be written or that is named twice.
 ///
-/// # Errors
+/// Names the file and the reason.
 /// With the file, and why.
 pub fn check(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
@@ -42,7 +41,7 @@ pub fn check(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// The files that a run reads and writes.
+/// All files the run reads and writes.
 fn all(args: &Args) -> Files {
     let Files { mut inputs, mut outputs, updated } = args.files.clone();
     inputs.splice(0..0, args.scene.clone().map(|file| ("--scene", file)));
@@ -50,10 +49,10 @@ fn all(args: &Args) -> Files {
     Files { inputs, outputs, updated }
 }
 
-/// Fails if an output is one of the scene's files: what they are is known only once they were opened.
+/// Fails if an output is one of the scene's files, which are known only once the scene has been opened.
 ///
 /// # Errors
-/// With the file.
+/// Names the file.
 pub fn check_scene(args: &Args) -> Result<(), UsageError> {
     let opened = text::opened();
     let mut outputs = all(args).outputs.into_iter();
@@ -68,7 +67,7 @@ pub fn check_scene(args: &Args) -> Result<(), UsageError> {
 /// Fails if a picture is larger than the device allows.
 ///
 /// # Errors
-/// With what it allows.
+/// States the limit.
 pub fn check_size(gpu: &Gpu, size: vk::Extent2D) -> Result<(), UsageError> {
     if gpu.limits.fits(size) {
         return Ok(());

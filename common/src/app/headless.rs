@@ -1,4 +1,4 @@
-//! A run without a window: every frame is rendered, and what was asked for is written.
+//! A run without a window: renders every frame and writes the requested files.
 
 use std::time::Instant;
 
@@ -7,11 +7,10 @@ use anyhow::Result;
 use super::animated::{self, Animated};
 use super::{Args, Program, Progress, Run, RunHooks, files};
 
-/// Renders the frames of a sample, and writes the last one, or all of them where they are to move.
+/// Renders the frames of a sample, and writes the last one, or all of them for an animation.
 ///
 /// # Errors
-/// On wrong arguments ([`UsageError`](crate::UsageError)), if anything fails, or if validation had something to
-/// say.
+/// On wrong arguments ([`UsageError`](crate::UsageError)), if anything fails, or if validation reported a message.
 pub fn run(program: &Program, args: &Args, hooks: &mut dyn RunHooks) -> Result<()> {
     let start = Instant::now();
     files::check(args)?;
@@ -58,7 +57,7 @@ mod tests {
     use crate::app::{Controls, Frame, Sample, Setup};
     use crate::gpu::{Gpu, Requirements};
 
-    /// A sample that notes what it was asked to build, and of which frames it was asked for.
+    /// A sample that records the builds and frames requested of it.
     #[derive(Default)]
     struct Noting {
         preset: u32,
@@ -98,7 +97,7 @@ mod tests {
         let args = ["test", "--headless", "--size", "8x8"].iter().chain(args);
         run(&Program::of::<Noting>("test"), &Args::try_parse_from(args).unwrap(), &mut ()).unwrap();
         let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
-        // A frame is asked for once for each of its bands.
+        // `render` is called once per band.
         notes.dedup();
         notes
     }

@@ -1,32 +1,32 @@
-//! The light of a chapter: what may be set of it, and what its shaders get.
+//! A chapter's light: its controls, and its form for shaders.
 
 use super::Controls;
 use crate::scene::{Light, LightKind, PointLight, Sun};
 
-/// A sun and a lamp, of which one shines; 34_lights teaches what its shaders do with it.
+/// A sun and a lamp, one of which shines; 34_lights explains the shader code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lighting {
     /// The sun.
     pub sun: Sun,
     /// The lamp.
     pub lamp: PointLight,
-    /// Which of them shines.
+    /// The one that shines.
     pub kind: LightKind,
 }
 
 impl Lighting {
-    /// A sun, and a lamp over the board that does not shine.
+    /// A sun, and a lamp over the board that is switched off.
     pub fn new(sun: Sun) -> Self {
         Self { sun, lamp: PointLight::default(), kind: LightKind::Directional }
     }
 
-    /// Declares what may be set.
+    /// Declares the controls.
     pub fn controls(&mut self, c: &mut Controls) {
         c.choice("light", &mut self.kind);
         self.controls_of_both(c);
     }
 
-    /// All but the choice of one, for a chapter where both can shine.
+    /// Declares all controls except the choice between the two, for a chapter where both can shine.
     pub fn controls_of_both(&mut self, c: &mut Controls) {
         c.sun(&mut self.sun);
         c.vector("lamp position", &mut self.lamp.position, -100.0..=100.0);

@@ -12,10 +12,10 @@ use exr::prelude::{
 use crate::UsageError;
 use crate::files::write_whole;
 
-/// Linear RGBA pixels, rows from the top.
+/// Linear RGBA pixels, rows from top to bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
@@ -26,9 +26,9 @@ pub struct Picture {
 /// The formats that a picture can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// 8 bits a channel, sRGB, opaque.
+    /// 8 bits per channel, sRGB, opaque.
     Png,
-    /// 32-bit floats, linear and unclamped: the very bits that the shader wrote.
+    /// 32-bit floats, linear and unclamped: exactly the bits that the shader wrote.
     Exr,
 }
 
@@ -51,7 +51,7 @@ impl Format {
 }
 
 impl Picture {
-    /// Writes the picture whole or not at all; the same pixels give the same bytes.
+    /// Writes the picture, whole or not at all; the same pixels give the same bytes.
     ///
     /// # Errors
     /// If the extension is unknown or the file cannot be written.
@@ -81,7 +81,7 @@ impl Picture {
             let [r, g, b, a] = self.pixels[position.y() * width + position.x()];
             (r, g, b, a)
         };
-        // The order of lines is fixed and one thread writes them, so that files can be compared.
+        // Fixed line order and a single thread, so that equal pictures give equal files.
         let encoding = Encoding {
             compression: Compression::ZIP16,
             blocks: Blocks::ScanLines,
@@ -101,7 +101,7 @@ impl Picture {
     /// Reads an EXR that [`Picture::save`] wrote.
     ///
     /// # Errors
-    /// If the file is missing or no RGBA picture.
+    /// If the file is missing or is not an RGBA picture.
     pub fn open_exr(path: &Path) -> Result<Self> {
         let image = exr::prelude::read_first_rgba_layer_from_file(
             path,

@@ -1,23 +1,23 @@
-//! Which frame of an animation is shown, and whether it goes on.
+//! The frame of an animation, and its playback.
 //!
-//! What is shown follows from the number of the frame alone, never from a clock: a clock only decides, in a
-//! window, which frame is next. So frame 600 is the same picture whether it was played, stepped or jumped to.
+//! The picture depends only on the number of the frame, never on a clock: in a window, a clock decides which frame
+//! comes next. So frame 600 is the same picture whether it was played, stepped or jumped to.
 
 use std::time::Instant;
 
-/// The frame of an animation: 60 are a second.
+/// The frame of an animation, at 60 per second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Playback {
-    /// The frame that is shown.
+    /// The current frame.
     pub frame: u32,
-    /// The last there is; playing ends there.
+    /// The last frame; playback stops there.
     pub last: u32,
-    /// Whether it goes on: with every frame that is rendered without a window, with time in one.
+    /// True while playing: by one frame per rendered frame without a window, in real time with one.
     pub playing: bool,
 }
 
 impl Playback {
-    /// Frames a second.
+    /// Frames per second.
     pub const RATE: u32 = 60;
 
     /// An animation that plays from its first frame.
@@ -25,7 +25,7 @@ impl Playback {
         Self { frame: 0, last, playing: true }
     }
 
-    /// Goes on by so many frames if it plays; whether another frame is shown now.
+    /// Advances by so many frames if it plays; returns true if the frame has changed.
     pub fn advance(&mut self, frames: u32) -> bool {
         if !self.playing {
             return false;
@@ -36,7 +36,7 @@ impl Playback {
         self.frame != before
     }
 
-    /// Plays, from the first frame if the last is shown; or pauses.
+    /// Starts playback, from the first frame if the last is shown; or pauses it.
     pub fn toggle(&mut self) {
         self.playing = !self.playing;
         if self.playing && self.frame >= self.last {
@@ -44,14 +44,14 @@ impl Playback {
         }
     }
 
-    /// Pauses, and goes forward by a number of frames, or back if it is negative.
+    /// Pauses, and steps forward by a number of frames, or back if it is negative.
     pub fn step(&mut self, frames: i32) {
         self.playing = false;
         self.frame = self.frame.saturating_add_signed(frames).min(self.last);
     }
 }
 
-/// Counts the frames that pass in a window.
+/// Counts the frames that pass in real time.
 #[derive(Default)]
 pub struct Clock {
     since: Option<Instant>,
@@ -59,10 +59,10 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// The most frames at once, a quarter of a second: a window that was hidden goes on where it was.
+    /// The most frames at once, a quarter of a second: a window that was hidden continues where it was.
     const MOST: u64 = 15;
 
-    /// How many frames have passed since it was last asked.
+    /// Number of frames since the last call.
     pub fn frames(&mut self, now: Instant) -> u32 {
         let since = *self.since.get_or_insert(now);
         let passed = (now.duration_since(since).as_secs_f64() * f64::from(Playback::RATE)) as u64;
@@ -71,7 +71,7 @@ impl Clock {
         frames as u32
     }
 
-    /// Lets an animation that plays go on as time does; whether another frame is shown now.
+    /// Advances a playing animation in real time; returns true if the frame has changed.
     pub fn advance(&mut self, playback: Option<&mut Playback>, now: Instant) -> bool {
         let Some(playback) = playback.filter(|playback| playback.playing) else {
             self.stop();
@@ -80,7 +80,7 @@ impl Clock {
         playback.advance(self.frames(now))
     }
 
-    /// Time stands still until it is asked again.
+    /// Stops the clock until the next call.
     pub fn stop(&mut self) {
         *self = Self::default();
     }

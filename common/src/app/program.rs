@@ -1,4 +1,4 @@
-//! A sample as a program: its name, and how it begins and ends.
+//! A sample as a program: its name, start and end.
 
 use std::process::ExitCode;
 
@@ -38,13 +38,13 @@ macro_rules! run {
     };
 }
 
-/// A sample that is still to be made.
+/// A sample that has not been created yet.
 pub struct Program {
     /// The sample's name, such as `02_basic`.
     pub name: &'static str,
-    /// What it asks of a device.
+    /// The features and limits it needs.
     pub requirements: fn() -> Requirements,
-    /// Makes it.
+    /// Creates the sample.
     pub make: fn(&Gpu, &Setup) -> Result<Box<dyn Sample>>,
 }
 
@@ -55,10 +55,10 @@ impl Program {
         Self { name, requirements: S::requirements, make }
     }
 
-    /// Does what the arguments ask for.
+    /// Runs the command that the arguments select.
     ///
     /// # Errors
-    /// Whatever went wrong.
+    /// Any failure of the run.
     pub fn start(&self, args: &Args, hooks: &mut dyn RunHooks) -> Result<()> {
         if args.list_devices {
             return list_devices(&(self.requirements)());
@@ -71,7 +71,7 @@ impl Program {
     }
 }
 
-/// Prints every device with its driver, and what it lacks.
+/// Prints every device with its driver and the features it lacks.
 fn list_devices(requirements: &Requirements) -> Result<()> {
     for line in gpu::device_lines(requirements)? {
         output::print(&format!("{line}\n"))?;

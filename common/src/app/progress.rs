@@ -1,30 +1,30 @@
-//! A bar on standard error that shows how far a long run has come.
+//! A progress bar on standard error for long runs.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How long a run may take before it shows its progress.
+/// Delay before the progress bar appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A bar that appears once the run has taken a while, if someone can see it.
+/// A bar that appears after a delay, if standard error is a terminal.
 pub struct Progress {
     steps: u64,
     done: u64,
-    /// Of what the steps are.
+    /// Name of the steps.
     what: &'static str,
     start: Instant,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// So many steps, none of them done.
+    /// A bar of so many steps, none of them done.
     pub fn new(steps: u64, what: &'static str) -> Self {
         Self { steps, done: 0, what, start: Instant::now(), bar: None }
     }
 
-    /// One step is done.
+    /// Marks one step as done.
     pub fn step(&mut self) {
         self.done += 1;
         if self.bar.is_none() && self.start.elapsed() > PATIENCE && std::io::stderr().is_terminal()
@@ -39,7 +39,7 @@ impl Progress {
         let template = format!("{{bar:40}} {{pos}}/{{len}} {}, {{eta}} left", self.what);
         let style = ProgressStyle::with_template(&template);
         let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
-        // What is left is told by all that was done, not by what is done from now on.
+        // Estimate the remaining time from all steps, not only from those since the bar appeared.
         bar.with_elapsed(self.start.elapsed())
     }
 }

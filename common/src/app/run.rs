@@ -1,4 +1,4 @@
-//! A sample that is rendered without a window, picture by picture.
+//! A sample rendered without a window, picture by picture.
 
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -14,21 +14,21 @@ use crate::output;
 pub struct Run<'a> {
     /// The sample's name.
     pub name: &'static str,
-    /// What was asked for.
+    /// The command line.
     pub args: &'a Args,
     /// The sample, all controls set.
     pub sample: Box<dyn Sample>,
-    /// What it renders to.
+    /// The image it renders to.
     pub image: Image,
-    /// The frames that are to be rendered, by [`Frame::index`](super::Frame::index).
+    /// The frames to render, by [`Frame::index`](super::Frame::index).
     pub frames: Vec<Range<u32>>,
-    /// Whether each of them is a picture alone.
+    /// True if each frame is a separate picture, rather than a part of one that accumulates.
     pub apart: bool,
     /// Milliseconds of each frame, and of each of its bands.
     pub times: Vec<Vec<f64>>,
     /// From the start of the run to the end of the first frame.
     pub first_frame: Duration,
-    /// Asked after each band but the last of a frame: an error ends the frame there.
+    /// Called after each band of a frame except the last; an error ends the frame.
     pub between_bands: Box<dyn Fn() -> Result<()>>,
     bands: Bands,
     timer: Timer,
@@ -74,14 +74,14 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Prints a line for each control: name, kind, what is possible, value.
+    /// Prints a line for each control: name, kind, possible values, current value.
     ///
     /// # Errors
-    /// If that cannot be written.
+    /// If the lines cannot be written.
     pub fn list_controls(&mut self) -> Result<()> {
         for control in controls::list(|c| self.sample.controls(c)) {
             let controls::Listed { name, kind, possible, value } = control;
-            // What is possible may be the names of a scene's materials.
+            // The possible values may include names from a scene file.
             let cells = [&*name, kind, &*possible, &*value].map(output::plain);
             output::print(&(cells.join("\t") + "\n"))?;
         }
@@ -107,8 +107,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// As [`Run::render`], for a picture of its own whose bands follow what `bands` has learnt, and which is
-    /// none of [`Run::times`]; its milliseconds.
+    /// As [`Run::render`], for a separate picture whose bands use the costs in `bands` and whose time is not added
+    /// to [`Run::times`]; returns its milliseconds.
     ///
     /// # Errors
     /// As [`Run::render`].
@@ -120,7 +120,7 @@ impl<'a> Run<'a> {
         Ok(bands.times.iter().sum())
     }
 
-    /// Traces one pixel of the frame with this number alone, as the whole frame would.
+    /// Traces a single pixel of the frame with this number, with the same result as in the whole frame.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
     /// Closes the device.
     ///
     /// # Errors
-    /// If validation had something to say, a leak for one.
+    /// If validation reported a message, for example a leak.
     pub fn close(self) -> Result<()> {
         let validation = self.gpu.validation();
         drop(self);
@@ -149,10 +149,10 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Fails if validation has said anything.
+/// Fails if validation has reported a message.
 ///
 /// # Errors
-/// With the number of messages and the first.
+/// States the number of messages and the first one.
 pub fn check_validation(validation: &Messages) -> Result<()> {
     match validation.all().as_slice() {
         [] => Ok(()),

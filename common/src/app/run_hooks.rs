@@ -1,4 +1,4 @@
-//! Hooks into a run: what instruments see of it, and may change.
+//! Hooks into a run: instruments use them to observe and change it.
 
 use anyhow::Result;
 use clap::{ArgMatches, Command};
@@ -6,34 +6,34 @@ use clap::{ArgMatches, Command};
 use super::{Args, Picture, Program, Run};
 use crate::gpu::GpuOptions;
 
-/// Hooks into a run, called in the order in which they stand here. `()` has none.
+/// Hooks into a run, in the order in which they are called. `()` has none.
 pub trait RunHooks {
     /// Adds options to the command line.
     fn options(&self, command: Command) -> Command {
         command
     }
 
-    /// Reads these options, refuses what is wrong before a device is opened, and changes what is asked for, such
-    /// as the files that are written. `false` if nothing is left to do.
+    /// Reads these options, refuses mistakes before a device is opened, and may change the arguments, for example
+    /// the output files. Returns `false` if nothing is left to do.
     ///
     /// # Errors
-    /// With what is wrong.
+    /// States the mistake.
     fn asked(&mut self, _: &Program, _: &ArgMatches, _: &mut Args) -> Result<bool> {
         Ok(true)
     }
 
-    /// Changes what a device is opened with: features, or the driver's shim.
+    /// Changes the options for opening the device: features, or the driver shim.
     fn device(&self, _: &mut GpuOptions) {}
 
-    /// Sees a sample that is made and set; which frames are rendered may still be changed.
+    /// Called with the sample created and its controls set; may still change which frames are rendered.
     ///
     /// # Errors
-    /// Whatever went wrong, here and below.
+    /// Any failure of the hook, here and below.
     fn begin(&mut self, _: &mut Run) -> Result<()> {
         Ok(())
     }
 
-    /// Sees a frame that is done.
+    /// Called after each frame.
     ///
     /// # Errors
     /// As [`RunHooks::begin`].
@@ -41,7 +41,7 @@ pub trait RunHooks {
         Ok(())
     }
 
-    /// Sees the end of the last frame; returns the picture of the run, where it is not that frame.
+    /// Called after the last frame; returns the picture of the run, if it is not that frame.
     ///
     /// # Errors
     /// As [`RunHooks::begin`].
@@ -49,11 +49,11 @@ pub trait RunHooks {
         Ok(None)
     }
 
-    /// Sees a pixel of a window that was clicked with Ctrl held. `trace` traces it alone; the text says what
-    /// became of it.
+    /// Called when a pixel in the window is clicked with Ctrl held. `trace` traces that pixel alone; returns the
+    /// text to show.
     ///
     /// # Errors
-    /// Whatever went wrong, here and in `trace`.
+    /// Any failure, here and in `trace`.
     fn clicked(&self, _trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<Option<String>> {
         Ok(None)
     }

@@ -11,7 +11,7 @@ use crate::gpu::{Gpu, Image, Requirements};
 
 /// One chapter's program. The order of the items is the order of every chapter's `main.rs`.
 pub trait Sample: 'static {
-    /// Features and extensions to ask for: the baseline, unless a chapter needs more.
+    /// Features and extensions to enable: the baseline, unless a chapter needs more.
     fn requirements() -> Requirements
     where
         Self: Sized,
@@ -19,56 +19,56 @@ pub trait Sample: 'static {
         Requirements::ray_tracing()
     }
 
-    /// Makes everything that lasts: scene, pipeline, shader binding table.
+    /// Creates everything that lasts: scene, pipeline, shader binding table.
     ///
     /// # Errors
-    /// If the device or a file is not up to it.
+    /// If the device lacks something, or a file is missing or wrong.
     fn new(gpu: &Gpu, setup: &Setup) -> Result<Self>
     where
         Self: Sized;
 
-    /// Declares the controls. One that brings values of others, as a preset does, sets those; all else that
-    /// a change causes belongs in [`Sample::changed`].
+    /// Declares the controls. One that sets others, as a preset does, does so here; all other consequences of a
+    /// change belong in [`Sample::changed`].
     fn controls(&mut self, controls: &mut Controls);
 
-    /// Builds what the controls ask for: called once before the first frame, when all settings are made,
-    /// and once before each frame that shows other values.
+    /// Builds what depends on the controls: called once before the first frame, after all settings, and once
+    /// before each frame with changed values.
     ///
     /// # Errors
-    /// If it cannot be built. A window tells that and keeps its last picture until something is changed.
+    /// If building fails. A window shows the error and keeps its last picture until something changes.
     fn changed(&mut self, _: &Gpu) -> Result<()> {
         Ok(())
     }
 
     /// Records one band of a frame into `frame.cmd`, writing `frame.area` of `frame.image`.
     ///
-    /// A frame is as many bands as the device needs to answer in time: what all of them share is to be
-    /// made once.
+    /// A frame consists of as many bands as the device needs to stay responsive, so anything shared by all of them
+    /// should be made once.
     ///
     /// # Errors
     /// If something is missing and cannot be made.
     fn render(&mut self, frame: &Frame) -> Result<()>;
 
-    /// Whether further frames of an unchanged view improve the picture, as with accumulation.
+    /// True if further frames of an unchanged view improve the picture, as with accumulation.
     ///
-    /// Without it, a window at rest renders nothing.
+    /// Otherwise an idle window renders nothing.
     fn accumulates(&self) -> bool {
         false
     }
 
-    /// Whether a frame whose [`Frame::accumulated`] is 0 shows one sample, found from [`Frame::index`]
-    /// alone: then `--samples` gathers them.
+    /// True if a frame whose [`Frame::accumulated`] is 0 shows one sample that depends on [`Frame::index`] alone;
+    /// `--samples` can then sum them.
     fn gathers(&self) -> bool {
         self.accumulates()
     }
 
-    /// The frame that an animation shows. Time goes on between two pictures: `render` then records what
-    /// moves, and [`Sample::changed`] is not called.
+    /// The frame of an animation. Between two pictures, time advances: `render` then records whatever moves, and
+    /// [`Sample::changed`] is not called.
     fn playback(&mut self) -> Option<&mut Playback> {
         None
     }
 
-    /// What the chapter itself has to tell after the last frame; part of `--report`.
+    /// The chapter's own part of `--report`, after the last frame.
     ///
     /// # Errors
     /// If it cannot be read back.
@@ -77,25 +77,25 @@ pub trait Sample: 'static {
     }
 }
 
-/// A frame that is to be rendered: the device, the picture, and where commands go.
+/// A frame to render: the device, the image, and the command buffer.
 pub struct Frame<'a> {
     /// The device.
     pub gpu: &'a Gpu,
-    /// Where commands are recorded.
+    /// The command buffer to record into.
     pub cmd: vk::CommandBuffer,
-    /// Where the picture goes: linear RGBA, four 32-bit floats, layout `GENERAL`.
+    /// The image to write: linear RGBA, four 32-bit floats, layout `GENERAL`.
     pub image: &'a Image,
-    /// The band of it that is to be traced: whole rows.
+    /// The band of it to trace: whole rows.
     pub area: vk::Rect2D,
     /// Frames since anything changed: 0 is the first after a start, a resize or a moved control. With
     /// `--samples`, the number of a sample.
     pub index: u32,
-    /// How many of the frames before belong to the same picture: all of them, or with `--samples` none, as
-    /// each sample is a picture alone.
+    /// Number of earlier frames that belong to the same picture: all of them, or none with `--samples`, where each
+    /// sample is a separate picture.
     pub accumulated: u32,
     /// True before the first band of this frame was traced.
     pub(super) first_band: bool,
-    /// Where pipelines are made while the old picture stays: in a window.
+    /// In a window: builds pipelines in the background while the old picture stays.
     pub(super) background: Option<&'a Arc<Background>>,
 }
 
@@ -105,7 +105,7 @@ impl Frame<'_> {
         f64::from(self.image.extent.width) / f64::from(self.image.extent.height)
     }
 
-    /// The number of the frame that the picture begins with: 0, or with `--samples` this one's.
+    /// The number of the first frame of the picture: 0, or this one's with `--samples`.
     pub fn first(&self) -> u32 {
         self.index - self.accumulated
     }

@@ -1,4 +1,4 @@
-//! What a sample is made with.
+//! The options a sample is created with.
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -11,9 +11,9 @@ use crate::model::text::shown;
 use crate::output;
 use crate::scene::{Scene, SceneOptions};
 
-/// What a sample is made with.
+/// The options a sample is created with.
 pub struct Setup {
-    /// How acceleration structures are built: in spatial order, unless `--unordered` says otherwise.
+    /// Options for building acceleration structures: in spatial order, unless `--unordered` is given.
     pub options: SceneOptions,
     scene: Option<PathBuf>,
     scene_taken: Cell<bool>,
@@ -26,17 +26,16 @@ impl Setup {
         Self { options, scene: args.scene.clone(), scene_taken: Cell::new(false) }
     }
 
-    /// The file that `--scene` names, for a sample that takes more than models.
+    /// The file named by `--scene`, for a sample that accepts more than models.
     pub fn scene(&self) -> Option<&Path> {
         self.scene_taken.set(true);
         self.scene.as_deref()
     }
 
-    /// The scene that `--scene` names, else the chapter's own. What is wrong with a file, and not so wrong
-    /// that it cannot be shown, goes to standard error.
+    /// The scene named by `--scene`, else the chapter's own. Warnings about a file go to standard error.
     ///
     /// # Errors
-    /// If a file is missing or wrong; on a scene file of chapter 25, [`UsageError`].
+    /// If a file is missing or wrong; for a scene file of chapter 25, [`UsageError`].
     pub fn scene_or(&self, own: impl FnOnce() -> Result<Scene>) -> Result<Scene> {
         let Some(path) = self.scene() else {
             return own().inspect(|scene| output::warn(&scene.model.warnings));
@@ -51,7 +50,7 @@ impl Setup {
         Ok(scene)
     }
 
-    /// Fails if a scene was given to a sample that takes none.
+    /// Fails if a scene was given to a sample that does not accept one.
     pub(super) fn check(&self) -> Result<(), UsageError> {
         if self.scene.is_some() && !self.scene_taken.get() {
             return Err(UsageError(

@@ -1,4 +1,4 @@
-//! A pipeline for each set of constants that was asked for, made when it is first wanted.
+//! One pipeline per set of constants, built when it is first needed.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,28 +11,28 @@ use crate::gpu::{
     ComputePipeline, Gpu, GraphicsPipeline, RayTracingPipeline, ShaderBindingTable, TextureTable,
 };
 
-/// Where a window's pipelines are made, beside the picture that is shown.
+/// Builds a window's pipelines in the background, while the old picture is shown.
 #[derive(Default)]
 pub struct Background {
-    /// How many pipelines are being made by other threads.
+    /// Number of pipelines being built by other threads.
     building: AtomicUsize,
-    /// How many they have made.
+    /// Number of pipelines they have built.
     built: AtomicUsize,
     refused: Mutex<Vec<String>>,
 }
 
 impl Background {
-    /// Whether a pipeline is being made: the picture will change once it is there.
+    /// True while a pipeline is being built: the picture will change once it is ready.
     pub fn is_building(&self) -> bool {
         self.building.load(Ordering::Relaxed) > 0
     }
 
-    /// How many were made and handed over.
+    /// Number of pipelines built in the background and put to use.
     pub fn built(&self) -> usize {
         self.built.load(Ordering::Relaxed)
     }
 
-    /// Takes the reasons why pipelines could not be made.
+    /// Takes the error messages of pipelines that could not be built.
     pub fn refused(&self) -> Vec<String> {
         std::mem::take(&mut *self.refused.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -42,9 +42,9 @@ impl Background {
     }
 }
 
-/// A kind of pipeline, and the table that a launch of it needs.
+/// A kind of pipeline, with the table that its launches need.
 pub trait Launch: Sized + Send + 'static {
-    /// The table, if there is one.
+    /// The table; `()` if it needs none.
     type Table;
 
     /// A table of this pipeline.
@@ -78,34 +78,34 @@ impl Launch for GraphicsPipeline {
     }
 }
 
-/// Makes a variant's pipeline: the chapter's own `pipeline`.
+/// Builds the pipeline of a variant: the chapter's own `pipeline`.
 pub type Make<V, P> = fn(&Gpu, &TextureTable, V) -> Result<P>;
 
-/// How many pipelines a window keeps: all that were chosen lately.
+/// The most pipelines a window keeps, the most recently chosen ones.
 const MOST: usize = 32;
 
-/// The pipelines of a sample, each with what it was made for.
+/// The pipelines of a sample, by variant.
 ///
-/// In a window, a variant that is not there yet is made by another thread while the old picture stays; a run
-/// without one waits for it.
+/// In a window, another thread builds a missing variant while the old picture stays; a run without a window waits
+/// for it.
 pub struct Variants<V, P: Launch = RayTracingPipeline> {
-    /// In the order in which they were chosen, the present one last.
+    /// In the order in which they were chosen, the current one last.
     made: Vec<Variant<V, P>>,
     order: Option<Order<V, P>>,
-    /// What could not be made, until something else is wanted.
+    /// The variant that could not be built, until another one is chosen.
     refused: Option<V>,
 }
 
-/// A pipeline that another thread is making, counted until it is taken.
+/// A pipeline being built by another thread, counted until it is taken.
 struct Order<V, P> {
     key: V,
     thread: Option<JoinHandle<Result<P>>>,
     background: Arc<Background>,
 }
 
-/// A pipeline, its table, and what it was made for.
+/// A pipeline, its table, and the variant it was built for.
 pub struct Variant<V, P: Launch = RayTracingPipeline> {
-    /// What it was made for.
+    /// The variant it was built for.
     pub key: V,
     /// The pipeline.
     pub pipeline: P,
@@ -123,7 +123,7 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
     /// The pipeline for `wanted`; in a window, the last one for as long as it is being made.
     ///
     /// # Errors
-    /// If it cannot be made. In a window with a picture that is told, and the last pipeline goes on.
+    /// If it cannot be built. A window with a picture shows the error and keeps using the last pipeline.
     pub fn choose(
         &mut self,
         frame: &Frame,
@@ -161,14 +161,14 @@ impl<V: Copy + PartialEq + Send + 'static, P: Launch> Variants<V, P> {
         self.made.last().context("no pipeline")
     }
 
-    /// What was chosen last.
+    /// The variant chosen last.
     pub fn current(&self) -> Option<&Variant<V, P>> {
         self.made.last()
     }
 
     fn keep(&mut self, frame: &Frame, key: V, pipeline: P) -> Result<()> {
         let sbt = pipeline.table(frame.gpu)?;
-        // Who plays with the controls may do so for hours; a comparison takes its values in turns.
+        // A window session may request many variants; a comparison cycles through its values.
         if frame.background.is_some() && self.made.len() == MOST {
             self.made.remove(0);
         }
@@ -205,7 +205,7 @@ impl<V: Copy + Send + 'static, P: Launch> Order<V, P> {
 
 impl<V, P> Drop for Order<V, P> {
     fn drop(&mut self) {
-        // What is half made must not outlive the window.
+        // A pipeline still being built must not outlive the window.
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }

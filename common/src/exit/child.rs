@@ -1,4 +1,4 @@
-//! This program started again, to answer one question: what it does may crash, and its parent must not.
+//! This program started again for a single task that may crash, while its parent must not.
 
 use std::fmt::{Display, Formatter};
 use std::io::Write;
@@ -6,30 +6,31 @@ use std::process::{Command, ExitStatus, Stdio};
 
 use anyhow::{Context, Result, bail};
 
-/// The end of a child that has given neither an answer nor a reason.
+/// The end of a child that returned neither a result nor an error.
 #[derive(Debug)]
 pub struct Crashed {
-    /// How it ended.
+    /// Its exit status.
     pub status: ExitStatus,
-    /// What it, or a library in it, said on standard error.
+    /// Its standard error, including that of its libraries.
     pub said: String,
 }
 
 impl Display for Crashed {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match is_late(self.status) {
-            true => write!(f, "the compiler takes more than {SECONDS} s"),
-            false => write!(f, "the compiler crashed ({})", self.status),
+        if is_late(self.status) {
+            write!(f, "the compiler takes more than {SECONDS} s")
+        } else {
+            write!(f, "the compiler crashed ({})", self.status)
         }
     }
 }
 
 impl std::error::Error for Crashed {}
 
-/// How long a child may take on the clock: far longer than what is asked of one.
+/// Time limit for a child, on the clock: far longer than it should need.
 const SECONDS: u32 = 600;
 
-/// What a child does first: from now on it ends with its parent, and once its time is over.
+/// The first step of a child: from now on it ends with its parent, and when its time is over.
 pub fn bind() {
     // SAFETY: the call has no preconditions, and nothing else here sets the clock.
     #[cfg(unix)]
@@ -54,18 +55,18 @@ fn is_late(_: ExitStatus) -> bool {
     false
 }
 
-/// This program, to be asked with [`ask`].
+/// This program, to be started by [`ask`].
 ///
 /// # Errors
-/// If it cannot tell where it lies.
+/// If it cannot find its own path.
 pub fn command() -> Result<Command> {
     Ok(Command::new(std::env::current_exe().context("cannot tell where this program lies")?))
 }
 
-/// Writes a question to a child's standard input, and returns what it has said on standard output.
+/// Writes a child's standard input, and returns its standard output.
 ///
 /// # Errors
-/// If it does not start, refuses, with its own line, or crashes: [`Crashed`].
+/// If it does not start, if it fails, with its own line, or if it crashes: [`Crashed`].
 pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
     let mut child = command
         .stdin(Stdio::piped())
@@ -74,7 +75,7 @@ pub fn ask(command: &mut Command, question: &[u8]) -> Result<Vec<u8>> {
         .spawn()
         .context("cannot start this program again")?;
     let mut stdin = child.stdin.take().context("a child without standard input")?;
-    // A child that has failed reads no further; its own words say why.
+    // A child that has failed stops reading; its own error line gives the reason.
     let _ = stdin.write_all(question);
     drop(stdin);
     let output = child.wait_with_output()?;

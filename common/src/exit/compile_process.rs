@@ -1,5 +1,6 @@
-//! Shaders are compiled in a process of its own: it may abort on an edit, and a window must not. Nor may a short
-//! text of somebody else's take all memory, or all time: macros and structures double line by line.
+//! Compiles shaders in a separate process: the compiler may abort on an edit, which must not close a window. Nor
+//! may a short text from an untrusted source use all memory, or run for ever: macros and structures can double
+//! line by line.
 
 use anyhow::{Context, Result, anyhow};
 use serde::{Deserialize, Serialize};
@@ -10,13 +11,13 @@ use crate::output;
 
 /// The child's argument.
 const ASKED: &str = "--answer-compile";
-/// The child's time on a processor, in seconds.
+/// The child's limit of processor time, in seconds.
 const SECONDS: u64 = 30;
-/// The child's address space, in bytes.
+/// The limit of the child's address space, in bytes.
 #[cfg(unix)]
 const BYTES: u64 = 4 << 30;
 
-/// What the child is asked to compile.
+/// The child's input: the shader to compile.
 #[derive(Serialize, Deserialize)]
 struct Question {
     path: String,
@@ -24,20 +25,20 @@ struct Question {
     defines: Vec<(String, String)>,
 }
 
-/// From now on, this process compiles no shader itself.
+/// From now on, this process does not compile shaders itself.
 pub fn want() {
     shader::compile_by(compile);
 }
 
-/// Whether this process is such a child.
+/// True if this process is such a child.
 pub fn is_asked() -> bool {
     std::env::args_os().nth(1).is_some_and(|argument| argument == ASKED)
 }
 
-/// The words of a shader's whole text, as [`shader::to_spirv`] makes them.
+/// Compiles a shader's whole text, as [`shader::to_spirv`].
 ///
 /// # Errors
-/// If the text does not compile, or the compiler crashes or does not come to an end.
+/// If the text does not compile, or the compiler crashes or does not finish.
 fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32>> {
     let defines = defines.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
     let question =
@@ -55,7 +56,7 @@ fn compile(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Vec<u32
     Ok(bytemuck::pod_collect_to_vec(&words))
 }
 
-/// The child's part: reads a text from standard input, and writes its words to standard output.
+/// The child's part: reads a text from standard input, and writes SPIR-V to standard output.
 ///
 /// # Errors
 /// If it does not compile.
@@ -71,10 +72,10 @@ pub fn answer() -> Result<()> {
     output::write(bytemuck::cast_slice(&words))
 }
 
-/// Bounds this process. A limit that cannot be set is a narrower one that there is.
+/// Limits this process. A limit that cannot be set is already lower.
 #[cfg(unix)]
 fn bound() {
-    // A process gets a second to heed the first limit.
+    // A process gets a second to react to the first limit.
     let cpu = libc::rlimit { rlim_cur: SECONDS, rlim_max: SECONDS + 1 };
     let memory = libc::rlimit { rlim_cur: BYTES, rlim_max: BYTES };
     let core = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
@@ -86,7 +87,7 @@ fn bound() {
     }
 }
 
-/// Whether a child's time was over.
+/// True if a child exceeded its time limit.
 #[cfg(unix)]
 fn is_late(status: std::process::ExitStatus) -> bool {
     use std::os::unix::process::ExitStatusExt;

@@ -1,10 +1,10 @@
-//! How a program ends: in one line whatever ends it, with no half-written file, and without taking others along.
+//! The end of a program: always in one line, with no half-written file, and without affecting other processes.
 //!
-//! - [`signals`]: Ctrl-C, a closed terminal, what a batch system sends
-//! - [`panic_hook`]: panics, crashes of the driver, no memory left
+//! - [`signals`]: Ctrl-C, a closed terminal, the signals of batch systems
+//! - [`panic_hook`]: panics, crashes of the driver, lack of memory
 //! - [`open_files`]: too few of them
 //! - [`compile_process`]: the shader compiler in a process of its own, with bounds
-//! - [`child`]: this program started again, to be asked one question
+//! - [`child`]: this program started again for a single task
 
 pub mod child;
 pub mod compile_process;
@@ -21,11 +21,11 @@ use anyhow::Result;
 
 pub use self::signals::{Interrupt, Stopped, watch};
 
-/// Runs a program and returns its exit code; whatever ends it is printed as one line, and a signal leaves no
-/// half-written file. Shaders of a folder that is not the project's are compiled in a process of their own.
+/// Runs a program and returns its exit code; any failure is printed as one line, and a signal leaves no
+/// half-written file. Shaders outside the project's own folder are compiled in a separate process.
 ///
-/// Exit codes: 0 done, 1 failed with one line that says why, 2 wrong arguments, 3 asked to stop, and what was
-/// gathered is saved.
+/// Exit codes: 0 done, 1 failed, with the reason in one line, 2 wrong arguments, 3 stopped on request, with the
+/// results saved.
 pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
     watch();
     exit_code(|| {
@@ -39,10 +39,10 @@ pub fn finish(program: impl FnOnce() -> Result<()>) -> ExitCode {
     })
 }
 
-/// As [`finish`], for a program that heeds signals itself.
+/// As [`finish`], for a program that handles signals itself.
 pub fn exit_code(program: impl FnOnce() -> Result<()>) -> ExitCode {
     panic_hook::for_panics();
-    // Of the compiler's child, its parent tells, which can name the shader.
+    // The parent reports errors of its compiler process, because it can name the shader.
     if !compile_process::is_asked() {
         panic_hook::for_crashes();
     }

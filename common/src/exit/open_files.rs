@@ -1,13 +1,13 @@
-//! How many files a process may have open at once. With too few, driver, window and files fail each in words of
-//! their own, and none says why.
+//! The limit on open files of a process. If it is too low, driver, window and files each fail with an error of
+//! their own, and none names the reason.
 
 use anyhow::Result;
 
-/// So many are enough for all that a program opens.
+/// Enough for everything a program opens.
 #[cfg(unix)]
 const ENOUGH: libc::rlim_t = 64;
 
-/// Holds that the system allows enough.
+/// Checks that the system allows enough.
 ///
 /// # Errors
 /// If it does not.
@@ -24,7 +24,7 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// Elsewhere the system has no such limit.
+/// Other systems have no such limit.
 #[cfg(not(unix))]
 pub fn check() -> Result<()> {
     Ok(())

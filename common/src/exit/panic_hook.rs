@@ -1,20 +1,20 @@
-//! What a program says when it cannot go on: one line, and exit code 1, as with any other error.
+//! The message of a program that cannot go on: one line, and exit code 1, as with any other error.
 
 use std::panic::PanicHookInfo;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output;
 
-/// Whether it was said why the process ends. What crashes on the way to its end has nothing to add.
+/// True if the reason for the end was reported. A crash during the shutdown after it adds nothing.
 static SAID: AtomicBool = AtomicBool::new(false);
 
-/// Says why the process ends.
+/// Prints the reason for the end of the process.
 pub fn say(line: &str) {
     SAID.store(true, Ordering::Relaxed);
     output::complain(line);
 }
 
-/// From now on, a panic ends the process in one line. With `RUST_BACKTRACE` set, where it came from follows.
+/// From now on, a panic ends the process with one line. With `RUST_BACKTRACE` set, a backtrace follows.
 pub fn for_panics() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
@@ -33,21 +33,22 @@ fn is_traced() -> bool {
 fn line(info: &PanicHookInfo) -> String {
     let said = info.payload_as_str().unwrap_or("no reason given").replace('\n', " ");
     let (file, line) = info.location().map_or(("", 0), |place| (place.file(), place.line()));
-    // winit takes its server's answers for granted.
-    match ["winit", "x11"].iter().any(|part| file.contains(part)) {
-        true => format!("error: the window system failed: {said}"),
-        false => format!("error: this is a mistake of the program, at {file}:{line}: {said}"),
+    // winit panics when its display server fails.
+    if ["winit", "x11"].iter().any(|part| file.contains(part)) {
+        format!("error: the window system failed: {said}")
+    } else {
+        format!("error: this is a mistake of the program, at {file}:{line}: {said}")
     }
 }
 
-/// Elsewhere the system says what has crashed.
+/// Other systems report crashes themselves.
 #[cfg(not(target_os = "linux"))]
 pub fn for_crashes() {}
 
 #[cfg(target_os = "linux")]
 pub use crashes::for_crashes;
 
-/// What C and C++ do where memory is short, or where they are wrong: the driver and the shader compiler.
+/// Crashes of C and C++ code, from lack of memory or bugs: the driver and the shader compiler.
 #[cfg(target_os = "linux")]
 mod crashes {
     use std::mem::MaybeUninit;
@@ -58,21 +59,21 @@ mod crashes {
 
     use super::{SAID, is_traced};
 
-    /// From now on, a crash of the driver or of the shader compiler ends the process in one line, and so does a
-    /// file that grows beyond the system's limit. With `RUST_BACKTRACE` set, a crash is the system's, which may
-    /// keep its memory for a debugger.
+    /// From now on, a crash of the driver or of the shader compiler ends the process with one line, and so does a
+    /// file that exceeds the system's size limit. With `RUST_BACKTRACE` set, crashes are left to the system, which
+    /// may keep a core dump for a debugger.
     pub fn for_crashes() {
         // SAFETY: the handlers below call only what a signal's handler may, and none of them returns. To ignore
         // a signal asks for nothing.
         unsafe {
-            // Then the write fails, and what was half written is removed.
+            // Then the write fails, and the half-written file is removed.
             libc::signal(SIGXFSZ, libc::SIG_IGN);
             if is_traced() {
                 return;
             }
             let mut action = MaybeUninit::<libc::sigaction>::zeroed().assume_init();
             action.sa_sigaction = crashed as *const () as usize;
-            // Rust gives its threads a second stack: the first may be what has overflowed.
+            // Rust gives its threads a second stack, needed if the first has overflowed.
             action.sa_flags = libc::SA_ONSTACK;
             for signal in [SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT] {
                 libc::sigaction(signal, &action, std::ptr::null_mut());
@@ -80,7 +81,7 @@ mod crashes {
         }
     }
 
-    /// Nothing can be put together where a signal is handled.
+    /// Messages cannot be formatted in a signal handler.
     macro_rules! crash {
         ($what:literal, $signal:literal) => {
             concat!(
@@ -99,7 +100,7 @@ mod crashes {
             SIGBUS => crash!("crashed", "SIGBUS"),
             SIGILL => crash!("crashed", "SIGILL"),
             SIGFPE => crash!("crashed", "SIGFPE"),
-            // Rust does so where it gets no memory, and has said how much it asked for.
+            // Rust does so if it gets no memory, and has already reported the size.
             _ => {
                 "error: no memory left, or the driver or the shader compiler gave up (SIGABRT): --validate may say \
                  why\n"
@@ -107,15 +108,16 @@ mod crashes {
         })
     }
 
-    /// Says why, and ends the process at once: no lock, no allocation, no destructor.
+    /// Prints the reason, and ends the process at once: no lock, no allocation, no destructor.
     fn end(line: &str) -> ! {
         let said = SAID.swap(true, Ordering::Relaxed);
         // SAFETY: a signal's handler may call these three; the line is as long as it says.
         unsafe {
-            match said {
-                // Another thread may be at it.
-                true => std::thread::sleep(Duration::from_millis(200)),
-                false => _ = libc::write(2, line.as_ptr().cast(), line.len()),
+            if said {
+                // Another thread may be about to end the process.
+                std::thread::sleep(Duration::from_millis(200));
+            } else {
+                libc::write(2, line.as_ptr().cast(), line.len());
             }
             libc::_exit(1)
         }

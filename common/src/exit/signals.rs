@@ -1,26 +1,26 @@
-//! The wish that a program end early: Ctrl-C, a closed terminal, or what a batch system sends before it
-//! kills. A long render saves what it has; everything else ends at once and leaves no half-written file.
+//! Requests to end early: Ctrl-C, a closed terminal, or the warning signal of a batch system. A long render saves
+//! its progress; everything else ends at once and leaves no half-written file.
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::files;
 
-/// Whether somebody waits for [`Interrupt::came`], and whether a signal has come since.
+/// State of [`Interrupt::came`]: true if somebody waits for it, and true if a signal has come since.
 static LISTENING: AtomicBool = AtomicBool::new(false);
 static CAME: AtomicBool = AtomicBool::new(false);
 
-/// Whoever holds it is told of the first signal; a second one ends the process at once.
+/// While it exists, its owner is notified of the first signal; a second one ends the process at once.
 pub struct Interrupt(());
 
 impl Interrupt {
-    /// Listens from now on.
+    /// Starts listening.
     pub fn listen() -> Self {
         LISTENING.store(true, Ordering::Relaxed);
         Self(())
     }
 
-    /// Whether a signal has come.
+    /// True if a signal has come.
     pub fn came(&self) -> bool {
         CAME.load(Ordering::Relaxed)
     }
@@ -32,7 +32,7 @@ impl Drop for Interrupt {
     }
 }
 
-/// Takes up signals for as long as the process lives.
+/// Handles signals for as long as the process lives.
 pub fn watch() {
     signals::watch(|signal| {
         let first = !CAME.swap(true, Ordering::Relaxed);
@@ -44,7 +44,7 @@ pub fn watch() {
     });
 }
 
-/// The error that means "asked to stop, and what was done is saved": a program ends with exit code 3.
+/// The error for a stop on request, with the results saved: a program ends with exit code 3.
 #[derive(Debug)]
 pub struct Stopped(pub String);
 

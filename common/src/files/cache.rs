@@ -1,4 +1,4 @@
-//! Where caches lie: in the book's `target/`, which `cargo clean` removes, or in the user's own folder.
+//! The place of caches: the book's `target/`, which `cargo clean` removes, or the user's own folder.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,8 @@ pub fn folder(kind: &str) -> Option<PathBuf> {
     ALL.as_ref().map(|all| all.join(kind))
 }
 
-/// The place of all caches for a program of the crate in the folder `home`. Cargo's checkout of the book has no
-/// `target/`, and gets none.
+/// The place of all caches for a program of the crate in the folder `home`. The book's copy in Cargo's checkouts
+/// has no `target/`, and none is created there.
 fn place(home: Option<&Path>, book: &Path, users: Option<PathBuf>) -> Option<PathBuf> {
     let is_of_the_book = home.is_none_or(|home| {
         let paths = [home, book].map(Path::canonicalize);
@@ -26,8 +26,8 @@ fn place(home: Option<&Path>, book: &Path, users: Option<PathBuf>) -> Option<Pat
     if is_of_the_book && target.is_dir() { Some(target) } else { users }
 }
 
-/// The user's folder of caches, as the system has it (XDG Base Directory Specification; Known Folders; File
-/// System Programming Guide). A path that is not absolute counts for nothing.
+/// The user's cache folder by the system's convention (XDG Base Directory Specification; Known Folders; File
+/// System Programming Guide). A path that is not absolute is ignored.
 fn users(system: &str, variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let path = |name| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let caches = match system {
@@ -47,7 +47,7 @@ mod tests {
         let [book, other] = [0, 1].map(|_| tempfile::tempdir().unwrap());
         let users = PathBuf::from("/home/ada/.cache/raybook");
         let place = |home: Option<&Path>| place(home, book.path(), Some(users.clone()));
-        // As Cargo checks it out.
+        // In Cargo's checkout.
         assert_eq!(place(None).as_ref(), Some(&users));
         let target = book.path().join("target");
         std::fs::create_dir(&target).unwrap();

@@ -1,4 +1,4 @@
-//! Folders that are made whole or not at all.
+//! Folders created whole or not at all.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,16 +8,16 @@ use anyhow::{Context, Result};
 
 use super::{Made, unfinished};
 
-/// Makes a folder, and those above it, unless the process is about to end.
+/// Creates a folder and its parents, unless the process is about to end.
 ///
 /// # Errors
-/// If it cannot be made.
+/// If it cannot be created.
 pub fn make(path: &Path) -> Result<()> {
     let _alone = unfinished();
     fs::create_dir_all(path).with_context(|| format!("cannot make '{}'", path.display()))
 }
 
-/// Writes a file of a [`NewFolder`], and makes the folders above it, unless the process is about to end.
+/// Writes a file of a [`NewFolder`] and creates its parents, unless the process is about to end.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -29,18 +29,18 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     fs::write(path, bytes).with_context(failed)
 }
 
-/// A folder that is being made. Its files are removed at the end of its owner, and where a signal ends the
-/// process, unless it is kept; so is the folder, unless it was there before.
+/// A folder under construction. Its files are removed on drop, and if a signal ends the process, unless it is
+/// kept; the folder is removed as well, unless it existed before.
 pub struct NewFolder {
     path: PathBuf,
     is_kept: bool,
 }
 
 impl NewFolder {
-    /// An empty folder with this path, which is made if it is not there.
+    /// An empty folder at this path, created if it does not exist.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// If it cannot be created.
     pub fn at(path: &Path) -> Result<Self> {
         let failed = || format!("cannot make '{}'", path.display());
         let mut unfinished = unfinished();
@@ -52,10 +52,10 @@ impl NewFolder {
         Ok(Self { path, is_kept: false })
     }
 
-    /// A new folder in that of all temporary files.
+    /// A new folder in the system's temporary folder.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// If it cannot be created.
     pub fn temporary() -> Result<Self> {
         let mut unfinished = unfinished();
         let path = tempfile::tempdir().context("cannot make a temporary folder")?.keep();
@@ -63,17 +63,17 @@ impl NewFolder {
         Ok(Self { path, is_kept: false })
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Leaves it where it is.
+    /// Keeps the folder and its files.
     pub fn keep(mut self) {
         self.is_kept = true;
     }
 
-    /// As [`NewFolder::keep`], for who holds what is unfinished.
+    /// As [`NewFolder::keep`], for a caller that holds the lock.
     pub(super) fn keep_in(&mut self, unfinished: &mut BTreeMap<PathBuf, Made>) {
         unfinished.remove(&self.path);
         self.is_kept = true;
@@ -103,7 +103,7 @@ mod tests {
         assert!(!path.exists() && work.path().join("a").is_dir());
         NewFolder::at(&path).unwrap().keep();
         assert!(path.is_dir());
-        // One that was there stays, empty as it was.
+        // An existing folder stays, empty as before.
         let folder = NewFolder::at(&path).unwrap();
         write(&folder.path().join("c/file"), b"text").unwrap();
         drop(folder);

@@ -1,4 +1,4 @@
-//! Several files that are written together, or none of them.
+//! Several files written together, or none of them.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 
 use super::{NewFolder, Unfinished, unfinished};
 
-/// Writes several files, all or none of them, as [`write_whole`](super::write_whole) does each, and keeps the folders that were
-/// made for them.
+/// Writes several files, all or none of them, each as by [`write_whole`](super::write_whole), and keeps the
+/// folders created for them.
 ///
 /// # Errors
 /// As [`write_whole`](super::write_whole).
@@ -18,7 +18,7 @@ pub fn write_all(files: &[(&Path, &[u8])], mut folders: Vec<NewFolder>) -> Resul
     for &(path, bytes) in files {
         all.push(Unfinished::new(path, bytes).with_context(|| failed(path))?);
     }
-    // A signal comes before the first is in its place, or after the last.
+    // A signal takes effect before the first is in its place, or after the last.
     let mut unfinished = unfinished();
     let mut done = Vec::new();
     for (file, (path, _)) in all.iter_mut().zip(files) {

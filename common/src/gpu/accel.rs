@@ -1,9 +1,8 @@
 //! Acceleration structures: bottom levels of triangles or boxes, top levels of instances.
 //!
-//! A build needs three sizes from the driver (structure, build scratch, update scratch), a buffer for
-//! the structure and one for the scratch; structures that are built together share both. Compaction copies
-//! a structure into a buffer of the size that it turned out to need; an update moves primitives without
-//! changing which there are.
+//! A build needs three sizes from the driver (structure, build scratch, update scratch), a buffer for the
+//! structure and one for the scratch; structures built together share both. Compaction copies a structure into a
+//! buffer of the size it turned out to need; an update moves primitives without adding or removing any.
 
 mod build;
 mod compaction;
@@ -28,20 +27,20 @@ use crate::gpu::accel::micromap_extension::TrianglesMicromap;
 pub use micromap::OpacityMicromap;
 use plan::Plan;
 
-/// What a structure is built from: the name that messages call it, and its geometries.
+/// Input of a build: a name for messages, and the geometries.
 pub type Input<'a> = (&'a str, &'a [Geometry]);
 
-/// What a build may cost and allow later.
+/// Options for a build: its cost, and the operations allowed later.
 #[derive(Clone, Copy, Default)]
 pub struct BuildOptions {
-    /// Allow [`AccelerationStructure::update`], which a driver may pay for with memory and with a tree that is
+    /// Allow [`AccelerationStructure::update`], for which a driver may use more memory and build a tree that is
     /// slower to trace.
     pub updatable: bool,
-    /// Copy the result into a buffer of just the size it needs.
+    /// Copy the result into a buffer of exactly the size it needs.
     pub compact: bool,
-    /// Let hit shaders ask for the corners of its triangles; needs `VK_KHR_ray_tracing_position_fetch`.
+    /// Let hit shaders fetch the corners of its triangles; needs `VK_KHR_ray_tracing_position_fetch`.
     pub data_access: bool,
-    /// The micromap of its only geometry, triangles: [`OpacityMicromap::by_indices`].
+    /// The micromap of its only geometry, which must be triangles: [`OpacityMicromap::by_indices`].
     pub micromap: Option<TrianglesMicromap>,
 }
 
@@ -49,21 +48,21 @@ pub struct BuildOptions {
 pub struct AccelerationStructure {
     /// The Vulkan handle.
     pub handle: vk::AccelerationStructureKHR,
-    /// What an instance names a bottom level by.
+    /// The address by which an instance refers to a bottom level.
     pub address: vk::DeviceAddress,
-    /// Bytes that it takes of a buffer.
+    /// Bytes it occupies in a buffer.
     pub size: u64,
-    /// The hit records that its instances ask for, as far as is known.
+    /// The hit records its instances use, as far as known.
     pub asked: Asked,
-    /// What it was built from and with.
+    /// The geometries and options it was built with.
     plan: Plan,
-    /// Where it lies, others that were built with it beside it.
+    /// The buffer that contains it, shared with others built with it.
     _buffer: Arc<Buffer>,
     gpu: Gpu,
 }
 
 impl AccelerationStructure {
-    /// Builds a bottom level from geometries, whose order is their `gl_GeometryIndexEXT`.
+    /// Builds a bottom level from geometries; their order is their `gl_GeometryIndexEXT`.
     ///
     /// # Errors
     /// If there are more primitives than the device allows, or memory is short.
@@ -76,19 +75,19 @@ impl AccelerationStructure {
         Ok(Self::build(gpu, &[(name, input)], options)?.remove(0))
     }
 
-    /// Bytes that a build in its place needs beside it.
+    /// Bytes of scratch for a build in its place.
     pub fn build_scratch(&self) -> u64 {
         self.plan.sizes.build_scratch_size
     }
 
-    /// Bytes that an update needs beside it.
+    /// Bytes of scratch for an update.
     pub fn update_scratch(&self) -> u64 {
         self.plan.sizes.update_scratch_size
     }
 
     /// Builds a top level from a buffer of `count` `VkAccelerationStructureInstanceKHR`.
     ///
-    /// The bottom levels that the instances name must stay alive as long as it is traced.
+    /// The bottom levels the instances refer to must stay alive as long as it is traced.
     ///
     /// # Errors
     /// As [`AccelerationStructure::bottom`].

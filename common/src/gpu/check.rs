@@ -1,6 +1,5 @@
-//! What is compared with what before anything runs: a shader's interface with the structures in Rust, a
-//! pipeline's shaders with each other, Vulkan calls with the specification; and what a driver says of its
-//! pipelines.
+//! Checks made before anything runs: a shader's interface against the structures in Rust, a pipeline's shaders
+//! against each other, Vulkan calls against the specification; and a driver's statistics of its pipelines.
 
 pub mod driver_shim;
 pub mod executable;

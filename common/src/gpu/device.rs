@@ -1,4 +1,4 @@
-//! The choice of a physical device: real GPUs first, and for each one refused, what it lacks.
+//! The choice of a physical device: real GPUs first, and the missing features of each one refused.
 
 pub mod context;
 pub mod features;
@@ -18,37 +18,37 @@ use crate::UsageError;
 use crate::gpu::device::instance::{Vulkan, WindowHandles};
 use crate::gpu::device::limits::Limits;
 
-/// A physical device, described well enough to choose it or to say why not, and to open it.
+/// A physical device, with everything needed to choose it, to explain why not, and to open it.
 #[derive(Default)]
 pub struct Candidate {
     /// The Vulkan handle.
     pub physical_device: vk::PhysicalDevice,
-    /// Its position in Vulkan's enumeration, which `--device N` names.
+    /// Its position in Vulkan's enumeration, for `--device N`.
     pub index: usize,
-    /// Its name, as the driver gives it.
+    /// Its name, from the driver.
     pub name: String,
-    /// The driver's name and version in its maker's words.
+    /// The driver's name and version, in its maker's words.
     pub driver: String,
-    /// Whether it is a driver that runs on the CPU.
+    /// True for a driver that runs on the CPU.
     pub software: bool,
     /// Its version, kind and identity.
     pub properties: vk::PhysicalDeviceProperties,
-    /// The limits that ray tracing code must heed.
+    /// The limits that ray tracing code must respect.
     pub limits: Limits,
-    /// The family of a queue with compute (and so with ray tracing), with graphics where there is one.
+    /// The family of a queue with compute (and so with ray tracing), and with graphics if possible.
     pub queue_family: u32,
-    /// Whether that family has graphics.
+    /// True if that family has graphics.
     pub graphics: bool,
-    /// The features to open it with: what the sample asks for, and what it wishes for and the device offers.
+    /// The features to enable: the required ones, and the optional ones the device offers.
     pub features: Features,
-    /// The extensions to open it with.
+    /// The extensions to enable.
     pub extensions: Vec<&'static CStr>,
-    /// What this device lacks for the sample at hand; empty if it will do.
+    /// The features this device lacks for the sample; empty if it is suitable.
     pub missing: Vec<String>,
 }
 
 impl Candidate {
-    /// One line: number, name, kind, driver, and whether it will do.
+    /// One line: number, name, kind, driver, and whether it is suitable.
     pub fn line(&self) -> String {
         let verdict = match self.missing.as_slice() {
             [] => "suitable".to_owned(),
@@ -75,14 +75,14 @@ const KINDS: [(vk::PhysicalDeviceType, &str); 5] = [
 ];
 const OTHER: usize = 3;
 
-/// Every device of the instance, judged against what the sample asks for.
+/// Every device of the instance, compared with the requirements.
 ///
 /// # Errors
 /// If Vulkan cannot enumerate devices.
 pub fn candidates(instance: &Instance, wanted: &Requirements) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
     let handles = match unsafe { instance.enumerate_physical_devices() } {
-        // What loaders say where drivers are installed, but none of them finds its device.
+        // Loaders return this if drivers are installed, but none of them finds its device.
         Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
         handles => handles.context("cannot list the Vulkan devices")?,
     };
@@ -129,7 +129,7 @@ fn judge(
     offered.core = chain.features;
     candidate.features = wanted.features(&offered);
     candidate.extensions = wanted.extensions(&offered);
-    // A device that is not all of Vulkan, as Macs have it, demands that a program says that it knows
+    // An incomplete implementation, as on Macs, requires programs to enable this extension
     // (VUID-VkDeviceCreateInfo-pProperties-04451). Nothing that it may lack is used here.
     if has(khr::portability_subset::NAME) {
         candidate.extensions.push(khr::portability_subset::NAME);
@@ -138,7 +138,7 @@ fn judge(
     // SAFETY: as above.
     let families = unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
     let family = |flags| families.iter().position(|family| family.queue_flags.contains(flags));
-    // The window's panel needs graphics; a headless run does with compute, as data-centre GPUs have it.
+    // The window's panel needs graphics; for a headless run compute is enough, as on data-centre GPUs.
     let graphics = family(vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE);
     candidate.graphics = graphics.is_some();
     let queue = graphics.or_else(|| family(vk::QueueFlags::COMPUTE));
@@ -173,16 +173,16 @@ const INSTALL: &str =
 /// Fails if there is no device at all.
 ///
 /// # Errors
-/// Then, with what to install.
+/// States what to install.
 pub fn ensure_some(candidates: &[Candidate]) -> Result<()> {
     ensure!(!candidates.is_empty(), "no Vulkan device, though there is a driver: {INSTALL}");
     Ok(())
 }
 
-/// Adds to what each device lacks a queue that can draw and present to a window.
+/// Adds to the missing features of each device a queue for presenting in the window, if it lacks one.
 ///
 /// # Errors
-/// If the window takes no Vulkan surface.
+/// If the window does not support Vulkan surfaces.
 pub fn require_presentation(
     Vulkan { entry, instance, .. }: &Vulkan,
     window: &WindowHandles,
@@ -203,7 +203,7 @@ pub fn require_presentation(
                 candidate.missing.push("a queue that draws to this window".to_owned());
                 continue;
             }
-            // Pictures are copied to the window's images, which a device must let them be drawn to alone.
+            // Pictures are copied to the window's images, a usage that a device need not support.
             let usage = surfaces
                 .get_physical_device_surface_capabilities(device, surface)
                 .map(|capabilities| capabilities.supported_usage_flags);
@@ -216,18 +216,18 @@ pub fn require_presentation(
     Ok(())
 }
 
-/// A part of a device's name that `GPU` in the environment asks for, as `--device` does; `GPU=1`, with which
-/// tests ask for the best device, names none.
+/// The part of a device's name in the environment variable `GPU`, an alternative to `--device`; `None` for
+/// `GPU=1`, with which tests select the best device.
 pub fn named() -> Option<&'static str> {
     static NAMED: LazyLock<Option<String>> =
         LazyLock::new(|| std::env::var("GPU").ok().filter(|gpu| !["", "0", "1"].contains(&&**gpu)));
     NAMED.as_deref()
 }
 
-/// Picks the device that `asked` names by number or part of its name, else the best suitable one.
+/// Picks the device selected by number or part of its name, else the best suitable one.
 ///
 /// # Errors
-/// If none fits: one line that lists every device and what it lacks, and what to install.
+/// If none fits: one line that lists every device with its missing features, and what to install.
 pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Candidate> {
     let list = |all: &[Candidate]| all.iter().map(Candidate::line).collect::<Vec<_>>().join(" · ");
     ensure_some(&candidates)?;
@@ -253,7 +253,7 @@ pub fn choose(mut candidates: Vec<Candidate>, asked: Option<&str>) -> Result<Can
     Ok(candidates.swap_remove(position))
 }
 
-/// One line a device: what it is, and what it lacks for `wanted`.
+/// One line per device: its description, and the features missing from `wanted`.
 ///
 /// # Errors
 /// If there is no Vulkan.
@@ -263,7 +263,7 @@ pub fn device_lines(wanted: &Requirements) -> Result<Vec<String>> {
     Ok(found.iter().map(Candidate::line).collect())
 }
 
-/// Opens a device with one queue, and with just the features and extensions that are asked for.
+/// Opens a device with one queue and only the selected features and extensions.
 ///
 /// # Errors
 /// If the device cannot be opened.

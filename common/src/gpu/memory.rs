@@ -14,14 +14,14 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::Gpu;
 
-/// A share of a `VkDeviceMemory`, given back on drop: what is bound to it must be destroyed before.
+/// A share of a `VkDeviceMemory`, freed on drop: the resource bound to it must be destroyed first.
 pub(super) struct Memory {
     pub(super) allocation: Allocation,
     gpu: Gpu,
 }
 
 impl Memory {
-    /// Memory as it is required: for a buffer if `linear`, else for an image.
+    /// Memory that meets the requirements: for a buffer if `linear`, else for an image.
     pub(super) fn new(
         gpu: &Gpu,
         name: &str,

@@ -1,4 +1,4 @@
-//! Pipelines: their stages, what they may bind, and how they are bound.
+//! Pipelines: their stages, bindings, and how they are bound.
 
 mod builder;
 pub mod cache;
@@ -30,7 +30,7 @@ use super::{AccelerationStructure, Buffer, Gpu, Image, Record};
 use crate::gpu::pipeline::desc::{Binding, PipelineDesc, STAGES};
 use crate::gpu::pipeline::layout::ShaderStruct;
 
-/// What is pushed to a binding for the next trace.
+/// A resource pushed to a binding for the next trace.
 #[derive(Clone, Copy)]
 pub enum Descriptor<'a> {
     /// For [`Binding::AccelerationStructure`].
@@ -47,26 +47,26 @@ pub struct Pipeline {
     pub handle: vk::Pipeline,
     /// The pipeline layout.
     pub layout: vk::PipelineLayout,
-    /// What it was made from.
+    /// The description it was created from.
     pub desc: Arc<PipelineDesc>,
-    /// How long compiling the shaders and making the pipeline took.
+    /// Time for compiling the shaders and creating the pipeline.
     pub build_time: Duration,
     textures: Option<vk::DescriptorSet>,
     set_layout: vk::DescriptorSetLayout,
     gpu: Gpu,
 }
 
-/// A pipeline of shader groups, and how deep its rays nest.
+/// A pipeline of shader groups, and the nesting depth of its rays.
 pub struct RayTracingPipeline {
-    /// How many groups there are of each kind: raygen, miss, hit, callable.
+    /// Number of groups of each kind: raygen, miss, hit, callable.
     pub groups: [usize; 4],
-    /// Of which kind of hit group each record of the largest table made for it is.
+    /// The kind of hit group of each record in the largest table made for it.
     pub(super) hit_records: Mutex<Vec<vk::RayTracingShaderGroupTypeKHR>>,
     pipeline: Pipeline,
 }
 
 impl RayTracingPipeline {
-    /// An empty pipeline, to be filled line by line; its shaders lie in `shaders/{name}/`.
+    /// An empty pipeline, to be filled line by line; its shaders are in `shaders/{name}/`.
     ///
     /// ```no_run
     /// use raybook::prelude::*;
@@ -99,10 +99,10 @@ impl RayTracingPipeline {
         }
     }
 
-    /// As [`Pipeline::bind`]; and holds that each instance's hit record is in the table, and of its kind.
+    /// As [`Pipeline::bind`]; also checks that each instance's hit record is in the table and of the right kind.
     ///
     /// # Errors
-    /// As [`Pipeline::bind`]; if an instance has a record that there is not, or one of the other kind.
+    /// As [`Pipeline::bind`]; if an instance uses a missing record, or one of the wrong kind.
     pub fn bind<T: ShaderStruct>(
         &self,
         cmd: vk::CommandBuffer,
@@ -132,10 +132,10 @@ impl Deref for RayTracingPipeline {
 }
 
 impl Pipeline {
-    /// Binds the pipeline, its textures, one descriptor for each binding, and the push constants.
+    /// Binds the pipeline, its textures, one descriptor per binding, and the push constants.
     ///
     /// # Errors
-    /// If descriptors or push constants are not those that the pipeline was made for.
+    /// If the descriptors or push constants differ from those the pipeline was made for.
     pub fn bind<T: ShaderStruct>(
         &self,
         cmd: vk::CommandBuffer,

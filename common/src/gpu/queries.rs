@@ -1,4 +1,4 @@
-//! Queries: numbers that the device writes while it works, and the host reads afterwards.
+//! Queries: numbers the device writes while it works, and the host reads afterwards.
 
 use anyhow::Result;
 use ash::vk;
@@ -21,13 +21,13 @@ impl Queries {
         Ok(Self { handle, count, gpu: gpu.clone() })
     }
 
-    /// Makes them ready to be written by the commands that follow in `cmd`.
+    /// Resets the queries, so that the commands that follow in `cmd` can write them.
     pub(super) fn reset(&self, cmd: vk::CommandBuffer) {
         // SAFETY: cmd is being recorded, and the pool is alive until its submission is done.
         unsafe { self.gpu.device.cmd_reset_query_pool(cmd, self.handle, 0, self.count) };
     }
 
-    /// What a submission that is done has written, to all of them.
+    /// The values of all queries, written by a completed submission.
     pub(super) fn results(&self) -> Result<Vec<u64>> {
         let mut results = vec![0; self.count as usize];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;

@@ -1,4 +1,4 @@
-//! Submission: commands are recorded, submitted and waited for.
+//! Submission: records commands, submits them and waits for them.
 
 use std::thread;
 use std::time::Duration;
@@ -10,16 +10,16 @@ use ash::vk;
 use super::Gpu;
 use crate::output;
 
-/// How long one submission may take: far longer than systems let a device work without an answer, and
-/// than a software driver builds the largest model in.
+/// Time limit for one submission: far longer than systems let a device work without responding, and than a
+/// software driver needs to build the largest model.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// How often a wait is begun again for which the host had no memory, and how long to leave it alone.
+/// Number of retries of a wait that failed for lack of host memory, and the pause between them.
 const TRIES: u32 = 50;
 const PAUSE: Duration = Duration::from_millis(20);
 
 impl Gpu {
-    /// Records commands with `record`, submits them, and waits until the device has done them.
+    /// Records commands with `record`, submits them, and waits for their completion.
     ///
     /// # Errors
     /// If recording or the device fails.
@@ -27,7 +27,7 @@ impl Gpu {
         self.submit_with(vk::SubmitInfo2::default(), record)
     }
 
-    /// As [`Gpu::submit`], but begun once `before` is signalled, and `after` is signalled at its end.
+    /// As [`Gpu::submit`], but waits for the semaphore `before` and signals `after` at its end.
     ///
     /// # Errors
     /// As [`Gpu::submit`].
@@ -83,7 +83,7 @@ impl Gpu {
         }
     }
 
-    /// Waits until the queue has done all its work, or the device is lost.
+    /// Waits until the queue is idle, or the device is lost.
     ///
     /// # Errors
     /// If the device is lost.
@@ -92,10 +92,10 @@ impl Gpu {
         self.insist(|| unsafe { self.device.queue_wait_idle(self.queue) })
     }
 
-    /// Waits until the device has done its work, or is lost, which ends it too; again if need be.
+    /// Waits until the device has finished or is lost, which also ends its work; retries if need be.
     ///
-    /// Whoever waits may free afterwards what the device has used. So this never returns while the device
-    /// may be at work: a wait that goes on failing, or that has no end, ends the process.
+    /// The caller may then free the resources the device used. So this never returns while the device may be
+    /// working: a wait that keeps failing, or never ends, ends the process.
     fn insist(&self, wait: impl Fn() -> VkResult<()>) -> VkResult<()> {
         let mut last = vk::Result::TIMEOUT;
         for _ in 0..TRIES {

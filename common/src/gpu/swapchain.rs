@@ -1,31 +1,31 @@
-//! The images of a window: acquired, drawn to, presented, and made anew when the window changes.
+//! The images of a window: acquired, drawn to, presented, and recreated when the window changes.
 
 use anyhow::{Context, Result};
 use ash::{khr, vk};
 
 use super::{Gpu, Vulkan, WindowHandles};
 
-/// Nanoseconds to wait for an image; a hidden window may give none for as long as it is hidden.
+/// Timeout for acquiring an image, in nanoseconds; a hidden window may provide none as long as it is hidden.
 const PATIENCE: u64 = 100_000_000;
 
-/// 8-bit formats in sRGB, each with its sibling that holds the same bits without conversion.
+/// 8-bit sRGB formats, each with the UNORM format of the same bits.
 const FORMATS: [(vk::Format, vk::Format); 3] = [
     (vk::Format::B8G8R8A8_SRGB, vk::Format::B8G8R8A8_UNORM),
     (vk::Format::R8G8B8A8_SRGB, vk::Format::R8G8B8A8_UNORM),
     (vk::Format::A8B8G8R8_SRGB_PACK32, vk::Format::A8B8G8R8_UNORM_PACK32),
 ];
 
-/// Formats of 10 bits in sRGB, which some desktops have alone. They have no sibling that converts.
+/// 10-bit formats in sRGB, the only ones on some desktops. They have no sibling that converts.
 const DEEP_FORMATS: [vk::Format; 2] =
     [vk::Format::A2B10G10R10_UNORM_PACK32, vk::Format::A2R10G10B10_UNORM_PACK32];
 
 /// A `VkSwapchainKHR` and its surface, destroyed on drop; drop it before its window.
 pub struct Swapchain {
-    /// The format in which a copy converts linear colour to what the window shows.
+    /// The format in which a copy converts linear colour to the window's encoding.
     pub srgb: vk::Format,
     /// The same bits without conversion.
     pub unorm: vk::Format,
-    /// Whether the images have more bits: then `unorm` is to be blitted to them, and else either format copied.
+    /// True if the images have more than 8 bits: then blit `unorm` to them; otherwise copy either format.
     pub deep: bool,
     window: WindowHandles,
     surfaces: khr::surface::Instance,
@@ -34,23 +34,23 @@ pub struct Swapchain {
     handle: vk::SwapchainKHR,
     extent: vk::Extent2D,
     stale: bool,
-    /// Whether new images of this size were no better: a window system may call any suboptimal for ever.
+    /// True if new images of this size were no better: a window system may report any as suboptimal for ever.
     resigned: bool,
     images: Vec<vk::Image>,
-    /// One an image: presentation may still wait for it when another image is drawn.
+    /// One per image: presentation may still wait for it while another image is drawn.
     drawn: Vec<vk::Semaphore>,
     acquired: vk::Semaphore,
     gpu: Gpu,
 }
 
-/// An image of the window to copy a picture to, its content undefined.
+/// An image of the window to copy a picture to; its contents are undefined.
 #[derive(Clone, Copy)]
 pub struct Acquired {
     /// The Vulkan handle.
     pub image: vk::Image,
-    /// To wait for before the copy.
+    /// Wait for this before the copy.
     pub before: vk::Semaphore,
-    /// To signal after the copy.
+    /// Signal this after the copy.
     pub after: vk::Semaphore,
     index: u32,
 }
@@ -59,7 +59,7 @@ impl Swapchain {
     /// A swapchain for a window that `gpu` was made for; it has no images until [`Swapchain::fit`].
     ///
     /// # Errors
-    /// If the window shows no sRGB colour of 8 or 10 bits.
+    /// If the window supports no sRGB colour of 8 or 10 bits.
     pub fn new(gpu: &Gpu, window: WindowHandles) -> Result<Self> {
         let mut swapchain = Self {
             srgb: vk::Format::UNDEFINED,
@@ -88,15 +88,15 @@ impl Swapchain {
         Ok(swapchain)
     }
 
-    /// Makes the images as large as the window, if they are not, and returns their size.
+    /// Makes the images as large as the window, if they are not yet, and returns their size.
     ///
-    /// `wanted` counts where the window system leaves the size to the program. `None` while the window
-    /// has no area, as when it is minimised, and if it has changed just now: an event tells of either.
+    /// `wanted` is used if the window system lets the program choose the size. `None` while the window has no
+    /// area, for example minimised, or if it has just changed: an event reports both.
     ///
     /// # Errors
     /// If the window system or the device fails.
     pub fn fit(&mut self, wanted: vk::Extent2D) -> Result<Option<vk::Extent2D>> {
-        // A surface that was lost while its images were made has a successor by now.
+        // If the surface was lost while its images were created, a new one has replaced it by now.
         for _ in 0..2 {
             let Some((capabilities, extent)) = self.size(wanted)? else { return Ok(None) };
             let fits = !self.stale && extent == self.extent;
@@ -107,7 +107,7 @@ impl Swapchain {
         Ok(None)
     }
 
-    /// What the surface can do, and how large its images have to be; `None` while the window has no area.
+    /// The surface's capabilities, and the required size of its images; `None` while the window has no area.
     fn size(
         &mut self,
         wanted: vk::Extent2D,
@@ -131,7 +131,7 @@ impl Swapchain {
         Ok((extent.width > 0 && extent.height > 0).then_some((capabilities, extent)))
     }
 
-    /// The next image, or `None` if there is none now: draw again, after [`Swapchain::fit`].
+    /// The next image, or `None` if none is available now: try again after [`Swapchain::fit`].
     ///
     /// # Errors
     /// If the device was lost.
@@ -157,8 +157,8 @@ impl Swapchain {
         }
     }
 
-    /// Shows an image that was drawn to and left in `PRESENT_SRC_KHR`; whether it was shown. If the window has
-    /// changed, it may not be.
+    /// Presents an image that was drawn to and left in `PRESENT_SRC_KHR`; returns true if it was shown. It may not
+    /// be if the window has changed.
     ///
     /// # Errors
     /// If the device was lost.
@@ -178,7 +178,7 @@ impl Swapchain {
         }
     }
 
-    /// Whether new images are due: [`Swapchain::fit`] makes them.
+    /// True if new images are needed: [`Swapchain::fit`] creates them.
     pub fn is_stale(&self) -> bool {
         self.stale
     }
@@ -200,7 +200,7 @@ impl Swapchain {
         }
     }
 
-    /// The window's format, and the pair that it belongs to or, if it has 10 bits, that is blitted to it.
+    /// The window's format, and the pair that it belongs to or, for 10 bits, the pair to blit from.
     fn format(&self) -> Result<(vk::Format, (vk::Format, vk::Format))> {
         // SAFETY: as above.
         let offered = unsafe {
@@ -233,7 +233,7 @@ impl Swapchain {
         self.destroy();
         let Vulkan { entry, instance, .. } = &self.gpu.vulkan;
         let WindowHandles { display, window } = self.window;
-        // SAFETY: whoever made this swapchain keeps the window alive longer.
+        // SAFETY: the caller of `new` keeps the window alive longer.
         self.surface =
             unsafe { ash_window::create_surface(entry, instance, display, window, None) }
                 .context("cannot draw to the window")?;
@@ -241,7 +241,7 @@ impl Swapchain {
         Ok(())
     }
 
-    /// Makes the images; `false` if the window has changed since its capabilities were asked for.
+    /// Creates the images; `false` if the window has changed since its capabilities were queried.
     fn make(
         &mut self,
         capabilities: &vk::SurfaceCapabilitiesKHR,
@@ -254,7 +254,7 @@ impl Swapchain {
         let old = self.handle;
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(self.surface)
-            // One image more would be one more picture that waits for the display, and shows old input.
+            // Each additional image would be one more picture in the queue, showing older input.
             .min_image_count(capabilities.min_image_count)
             .image_format(self.format()?.0)
             .image_color_space(vk::ColorSpaceKHR::SRGB_NONLINEAR)
@@ -271,7 +271,7 @@ impl Swapchain {
         // queue has presented its last image.
         unsafe {
             let made = self.swapchains.create_swapchain(&info, None);
-            // The old one is retired even if there is no new one.
+            // The old one is retired even if creation fails.
             self.destroy_images()?;
             self.stale = true;
             let handle = match made {
@@ -307,7 +307,7 @@ impl Swapchain {
     }
 
     fn destroy(&mut self) {
-        // A lost device is no reason to keep the window.
+        // A lost device must not keep the window from closing.
         let _ = self.destroy_images();
         // SAFETY: the surface's swapchain is gone.
         unsafe { self.surfaces.destroy_surface(self.surface, None) };

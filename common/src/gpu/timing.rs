@@ -1,4 +1,4 @@
-//! How long the device worked: by its own clock, or by the host's where the queue has none.
+//! Timing of the device: by its own clock, or by the host's if the queue has no timestamps.
 
 use std::cell::Cell;
 use std::time::Instant;
@@ -11,8 +11,8 @@ use super::queries::Queries;
 
 /// A pair of timestamps around recorded commands.
 ///
-/// A queue whose timestamps have no valid bits may not write any (Vulkan specification,
-/// `vkCmdWriteTimestamp2`). There the host's clock runs from the recording until someone asks.
+/// A queue without valid timestamp bits may not write any (Vulkan specification, `vkCmdWriteTimestamp2`). In that
+/// case the host's clock runs from the recording until the time is read.
 pub struct Timer {
     stamps: Queries,
     started: Cell<Instant>,
@@ -51,7 +51,7 @@ impl Timer {
         unsafe { self.gpu.device.cmd_write_timestamp2(cmd, stage, self.stamps.handle, query) };
     }
 
-    /// Milliseconds between start and stop, to be asked for as soon as the commands are done.
+    /// Milliseconds between start and stop; call it as soon as the commands are done.
     ///
     /// # Errors
     /// If the device was lost.
@@ -60,7 +60,7 @@ impl Timer {
             return Ok(self.started.get().elapsed().as_secs_f64() * 1e3);
         }
         let stamps = self.stamps.results()?;
-        // Some queues count in fewer than 64 bits, and start again from 0.
+        // Some queues have fewer than 64 valid bits and wrap around.
         let limits = &self.gpu.limits;
         let ticks = stamps[1].wrapping_sub(stamps[0]) & u64::MAX >> (64 - limits.timestamp_bits);
         Ok(ticks as f64 * f64::from(limits.core.timestamp_period) * 1e-6)

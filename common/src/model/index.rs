@@ -1,4 +1,4 @@
-//! The indices by which a face of an OBJ file names positions, normals and texture coordinates.
+//! The indices of positions, normals and texture coordinates in the faces of an OBJ file.
 
 use anyhow::{Context, Result};
 
@@ -10,13 +10,13 @@ pub(crate) fn index(word: &str, of: &str) -> Result<i64> {
     index.with_context(|| format!("{of} index {} is not a whole number", quoted(word)))
 }
 
-/// An index as a position from 1, if it is in range. Negative ones count back from the last of `count`.
+/// The index as a position from 1, if it is in range. Negative indices count back from the last of `count`.
 pub(crate) fn position(index: i64, count: usize) -> Option<usize> {
     let position = if index > 0 { index } else { index.saturating_add(count as i64 + 1) };
     usize::try_from(position).ok().filter(|position| (1..=count).contains(position))
 }
 
-/// What to say of an index that is out of range.
+/// The message for an index that is out of range.
 pub(crate) fn out_of_range(index: i64, of: &str, count: usize, what: &str) -> String {
     match index {
         0 => format!("{of} index 0 is out of range: indices start at 1, or at -1 backwards"),

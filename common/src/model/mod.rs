@@ -1,5 +1,5 @@
-//! Files that somebody else made: OBJ models, MTL materials and PNG textures, read within limits, with a warning
-//! for what other loaders read past.
+//! Files from untrusted sources: OBJ models, MTL materials and PNG textures, read within limits, with a warning
+//! about faults that other loaders ignore.
 
 mod index;
 mod limits;

@@ -1,4 +1,4 @@
-//! The MTL files that materials come from.
+//! MTL files, the materials of a model.
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
@@ -14,31 +14,31 @@ use super::texture::{Role, Texture, TextureFiles};
 use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
 
-/// The most that a material may shine, as the largest strength of a light in a scene file: sums of many
-/// samples have to bear it.
+/// The largest emission of a material, equal to the largest strength of a light in a scene file: sums of many
+/// samples must not overflow.
 const BRIGHTEST: f32 = 1e6;
 
-/// The materials that an OBJ file has met so far.
+/// The materials found so far in the MTL files of an OBJ file.
 ///
-/// MTL is read here and not by the parser of the OBJ file, which has no line numbers either, panics
-/// on the legal `Kd 0.5`, and leaves `Tr` and everything about textures to its caller.
+/// MTL is read here instead of by the parser of the OBJ file, which has no line numbers, panics on the legal `Kd
+/// 0.5`, and leaves `Tr` and everything about textures to its caller.
 #[derive(Default)]
 pub(crate) struct MaterialLibrary {
     /// The materials in the order of the files.
     pub materials: Vec<Material>,
     /// The textures they name.
     textures: TextureFiles,
-    /// Where each was defined first.
+    /// The place of each material's first definition.
     found: HashMap<String, String>,
     read: HashSet<PathBuf>,
     /// Bytes of the files that were read.
     bytes: u64,
-    /// The materials that have a colour of their own.
+    /// The materials with a colour of their own.
     colored: HashSet<usize>,
     given: Given,
 }
 
-/// What the current material has said, where one statement overrules or completes another.
+/// Statements about the current material so far, for those that override or complete another.
 #[derive(Default)]
 struct Given {
     any: bool,
@@ -48,12 +48,12 @@ struct Given {
 }
 
 impl MaterialLibrary {
-    /// Whether a file has defined the material.
+    /// True if a file has defined the material.
     pub fn defines(&self, material: &str) -> bool {
         self.found.contains_key(material)
     }
 
-    /// What to say of a material that no file defines.
+    /// The message for a material that no file defines.
     pub fn undefined(&self, material: &str) -> String {
         let known: Vec<_> = self.materials.iter().take(5).map(|m| quoted(&m.name)).collect();
         let known = match self.materials.len() {
@@ -65,7 +65,7 @@ impl MaterialLibrary {
         format!("the material {material} is not defined; the mtllib files hold {known}")
     }
 
-    /// The materials, and the textures that they index; those that cannot be had are warned of.
+    /// The materials, and the textures they index; adds warnings about unavailable ones.
     pub fn finish(self, limits: &Limits, warnings: &mut Warnings) -> (Vec<Material>, Vec<Texture>) {
         let Self { mut materials, textures, colored, .. } = self;
         let (textures, positions) = textures.load(limits, warnings);
@@ -73,7 +73,7 @@ impl MaterialLibrary {
             for slot in [&mut material.base_texture, &mut material.opacity_texture] {
                 *slot = slot.and_then(|file| positions[file]);
             }
-            // The texture alone is meant, not half of it.
+            // Without a `Kd`, the texture is used unchanged rather than multiplied by the default grey.
             if material.base_texture.is_some() && !colored.contains(&number) {
                 material.base_color = Vec3::ONE;
             }
@@ -81,10 +81,10 @@ impl MaterialLibrary {
         (materials, textures)
     }
 
-    /// Reads an MTL file. Keywords that these samples do not use are passed over.
+    /// Reads an MTL file. Keywords that these samples do not use are ignored.
     ///
     /// # Errors
-    /// On a value that is wrong, with file and line.
+    /// On a wrong value, with file and line.
     pub fn read(
         &mut self,
         file: &Named,
@@ -170,7 +170,7 @@ impl MaterialLibrary {
                 given.opacity = true;
             }
             "Tr" => {
-                // Old exporters wrote Tr as another name of d, so d decides where there are both.
+                // Old exporters wrote Tr as another name of d, so d takes precedence.
                 let transparency = number(keyword, rest, 1.0)?;
                 if !given.opacity {
                     material.opacity = 1.0 - transparency;
@@ -216,8 +216,8 @@ impl MaterialLibrary {
     }
 }
 
-/// The name of a material. Exporters leave it out, and then in both files: the OBJ file's use is of what
-/// the MTL file defines. tobj takes no empty one.
+/// The name of a material. Some exporters omit it in both files; then the OBJ file's empty name refers to the MTL
+/// file's. tobj does not accept an empty name.
 ///
 /// # Errors
 /// If it is too long.
@@ -225,7 +225,7 @@ pub(crate) fn material_name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str>
     if rest.is_empty() { Ok("(no name)") } else { name(keyword, rest) }
 }
 
-/// Three numbers from 0, or one for all three; `None` if it is given in a form that is passed over.
+/// Three numbers from 0, or one for all three; `None` for an unsupported form.
 fn color(keyword: &str, rest: &str, pass_over: &mut impl FnMut(&str)) -> Result<Option<Vec3>> {
     let first = rest.split_whitespace().next().unwrap_or_default();
     if matches!(first, "spectral" | "xyz") {
@@ -242,17 +242,17 @@ fn color(keyword: &str, rest: &str, pass_over: &mut impl FnMut(&str)) -> Result<
     Ok(Some(color))
 }
 
-/// The name of a texture, which stands after the options.
+/// The name of a texture, after the options.
 fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str)) -> &'a str {
     let mut rest = rest;
     while let Some(option) = rest.split_whitespace().next().filter(|word| word.starts_with('-')) {
-        // How many words an option takes at least; of offset, scale and turbulence, only the first is due.
+        // The minimum number of arguments of an option; of offset, scale and turbulence, only the first is required.
         let (least, most) = match option {
             "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-colorspace"
             | "-imfchan" | "-texres" | "-type" => (1, 1),
             "-mm" => (2, 2),
             "-o" | "-s" | "-t" => (1, 3),
-            // No option, but a name that starts so.
+            // Not an option, but a name that begins like one.
             _ => break,
         };
         pass_over(&format!("the option {option}"));
@@ -268,7 +268,7 @@ fn after_options<'a>(rest: &'a str, pass_over: &mut impl FnMut(&str)) -> &'a str
     rest
 }
 
-/// One number from 0 to `most`.
+/// A single number from 0 to `most`.
 fn number(keyword: &str, rest: &str, most: f32) -> Result<f32> {
     let mut values = [0.0; 1];
     ensure!(numbers(rest, &mut values)? == 1, "{keyword} is not followed by a number");

@@ -1,6 +1,6 @@
-//! Reading an OBJ file: its meshes, and the materials and textures that it names. tobj parses it.
+//! Reading an OBJ file: its meshes, and the materials and textures it names. tobj parses it.
 //!
-//! A file of somebody else's is not to be trusted: [`load`] has it checked before.
+//! Files from outside are untrusted: [`load`] checks them first.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::texture::Texture;
 use crate::scene::material::Material;
 use crate::scene::mesh::{Mesh, Vertex};
 
-/// All that an OBJ file holds and names.
+/// The contents of an OBJ file and of the files it names.
 ///
 /// ```
 /// use raybook::prelude::*;
@@ -29,21 +29,21 @@ use crate::scene::mesh::{Mesh, Vertex};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
-    /// The meshes in the file's order; at least one, none without triangles.
+    /// The meshes in the file's order; at least one, each with triangles.
     pub meshes: Vec<Mesh>,
-    /// The materials that meshes index.
+    /// The materials of the meshes.
     pub materials: Vec<Material>,
-    /// The textures that materials index.
+    /// The textures of the materials.
     pub textures: Vec<Texture>,
-    /// What is wrong with the files and what stands for it, a line for each kind, with file and line of
-    /// the first and the count of all.
+    /// Warnings about the files and the replacements used, one line per kind, with file and line of the first and
+    /// the count of all.
     pub warnings: Vec<String>,
 }
 
-/// Reads a model of the project's own: nothing in it is checked, for a tool of the project has written it.
+/// Reads one of the project's own models without checks, because a tool of the project has written it.
 ///
 /// # Errors
-/// If a file is missing or is not as that tool writes it.
+/// If a file is missing or differs from that tool's format.
 pub fn load_own(path: &Path) -> Result<Model> {
     let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
     let failed = || format!("{}: is not as the project has it", shown(path));
@@ -58,7 +58,7 @@ pub fn load_own(path: &Path) -> Result<Model> {
     Ok(Model { meshes, materials, textures, warnings: Vec::new() })
 }
 
-/// A material of the project's own, and its textures, if they are not there yet.
+/// One of the project's own materials, and its textures, if they are not loaded yet.
 fn own_material(
     model: &Path,
     material: tobj::Material,
@@ -88,14 +88,14 @@ fn own_material(
     })
 }
 
-/// A mesh as shaders want it: normals of unit length, texture coordinates from the top.
+/// A mesh in its form for shaders: normals of unit length, texture coordinates from the top.
 pub(crate) fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
     let tobj::Mesh { positions, normals, texcoords, indices, material_id, .. } = model.mesh;
     let position = |index: u32| Vec3::from_slice(&positions[3 * index as usize..]);
     let mut triangles: Vec<[u32; 3]> =
         indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
     let mut vertices = Vec::with_capacity(positions.len() / 3);
-    // Where a vertex with a normal went; the others stay with their triangle.
+    // The position of each vertex with a normal; the others stay with their triangle.
     let mut moved = vec![None; positions.len() / 3];
     for triangle in &mut triangles {
         let flat = flat_normal(triangle.map(position));
@@ -115,9 +115,9 @@ pub(crate) fn mesh(model: tobj::Model, default_material: usize) -> Mesh {
     Mesh { name: model.name, vertices, triangles, material }
 }
 
-/// The normal of a counter-clockwise triangle; any direction if it has no area, as no ray meets it.
+/// The normal of a counter-clockwise triangle; any direction if it has no area, because no ray hits it.
 fn flat_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
-    // Products of 32-bit numbers that are large or small enough overflow or vanish in 32 bits.
+    // Products of very large or very small 32-bit numbers overflow or vanish in 32 bits.
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     let normal = (b - a).cross(c - a);
     let length = normal.length();

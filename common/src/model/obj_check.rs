@@ -1,8 +1,7 @@
-//! An OBJ file of somebody else's, which is not to be trusted.
+//! Checks of an untrusted OBJ file.
 //!
-//! The text is checked statement by statement, so that whatever is wrong has a line number, and written out
-//! again in a plain form, which tobj then parses: only `v`, `vt`, `vn`, `f`, `o` and `usemtl`, every corner with
-//! all three indices.
+//! The text is checked statement by statement, so that every fault has a line number, and rewritten in a plain
+//! form, which tobj then parses: only `v`, `vt`, `vn`, `f`, `o` and `usemtl`, every corner with all three indices.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -23,8 +22,8 @@ use super::warnings::{Kind, Warnings};
 use crate::scene::material::Material;
 use crate::scene::mesh::{LEAST, Mesh, REACH, around};
 
-/// Corners that are given no normal or no texture coordinates index these; what they mean is decided
-/// where the parsed mesh is turned into one for shaders.
+/// The indices of corners without normal or texture coordinates; they are replaced when the parsed mesh is
+/// converted for shaders.
 const PREAMBLE: &str = "mtllib all\nvn 0 0 0\nvt 0 1\n";
 
 /// The most corners of one face.
@@ -32,20 +31,20 @@ const CORNERS: usize = 1024;
 
 /// Reads an OBJ file with its MTL files and PNG textures.
 ///
-/// A new object, a new group in a file without objects, or another material starts a new mesh.
-/// Polygons become fans of triangles. A corner without a normal gets its triangle's: a cube must
-/// not be shaded like a ball, and OBJ smooths only where a file says so. Texture coordinates are turned to
-/// Vulkan's, v downwards; a corner without them gets (0, 0). A face without material gets
-/// [`Material::default`]. Lines, points, curved surfaces and vertex colours are passed over.
+/// A new object, a new group in a file without objects, or another material starts a new mesh. Polygons become
+/// fans of triangles. A corner without a normal gets its triangle's: a cube must not be shaded like a ball, and
+/// OBJ smooths only if the file says so. Texture coordinates are converted to Vulkan's, v downwards; a corner
+/// without them gets (0, 0). A face without material gets [`Material::default`]. Lines, points, curved surfaces
+/// and vertex colours are ignored.
 ///
-/// Files of the world are often incomplete. An MTL file that is not there, a texture that is not there or
-/// outside the OBJ file's folder, a material that is not defined, a normal or texture coordinate out of range, a statement of another format: the model
-/// comes without, and with a line in [`Model::warnings`].
+/// Real files are often incomplete. For a missing MTL file, a texture that is missing or outside the OBJ file's
+/// folder, an undefined material, a normal or texture coordinate out of range, or a statement of another format,
+/// the model is loaded without it, with a line in [`Model::warnings`].
 ///
 /// # Errors
-/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it reaches
-/// too far or is too small, takes too much memory, or one of the files is too large, or an MTL file outside the OBJ file's
-/// folder; the message is one line with file and line number.
+/// If the file is missing or has no faces, if a vertex or a number in any of the files is wrong, if it extends too
+/// far or is too small, needs too much memory, one of the files is too large, or an MTL file is outside the OBJ
+/// file's folder; the message is one line with file and line number.
 pub fn load(path: &Path) -> Result<Model> {
     let model = load_within(path, &Limits::DEFAULT)?;
     let reach = model.meshes.iter().map(Mesh::reach).fold(0.0, f32::max);
@@ -72,7 +71,7 @@ pub(crate) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     let (mut materials, textures) = library.finish(limits, &mut warnings);
 
     let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
-    // Only names and positions: what the materials hold was read in the check.
+    // Only names and positions: the contents of materials were read in the check.
     let names =
         materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
     let names = |_: &Path| Ok((Vec::new(), names.clone().collect()));
@@ -93,23 +92,23 @@ pub(crate) fn load_within(path: &Path, limits: &Limits) -> Result<Model> {
     Ok(Model { meshes, materials, textures, warnings })
 }
 
-/// The uses of a material that was not defined when it was met.
+/// The uses of a material that was undefined when it was first used.
 struct Undefined {
     count: usize,
-    /// How many others were met before it.
+    /// Number of others found before it.
     order: usize,
     place: String,
 }
 
-/// One walk through the statements of an OBJ file.
+/// The state of a check, statement by statement.
 pub(crate) struct Check<'a> {
-    /// The text that tobj parses.
+    /// The text for tobj.
     pub plain: String,
-    /// The materials of the MTL files that were met.
+    /// The materials of the MTL files so far.
     pub library: MaterialLibrary,
-    /// What is wrong, but not so wrong that the model cannot be shown.
+    /// Faults that do not prevent the model from being shown.
     pub warnings: Warnings,
-    /// The materials that were used before any MTL file defined them, each with how often and where first.
+    /// The materials used before any MTL file defined them, each with the number of uses and the first.
     undefined: HashMap<String, Undefined>,
     tally: Tally,
     libraries: usize,
@@ -118,10 +117,10 @@ pub(crate) struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    /// Checks a whole file and the MTL files that it names.
+    /// Checks a whole file and its MTL files.
     ///
     /// # Errors
-    /// On whatever is wrong first, with file and line.
+    /// On the first fault, with file and line.
     pub fn run(text: &Text, folder: &Folder, limits: &'a Limits) -> Result<Self> {
         let mut check = Self {
             plain: PREAMBLE.to_owned(),
@@ -150,11 +149,11 @@ impl<'a> Check<'a> {
             }
             check.tally.text += check.plain.len() - before;
             if check.tally.bytes() > limits.memory {
-                // The rest is read only to say what all of it would take.
+                // The rest is read only to state the total.
                 check.plain = String::new();
             }
         }
-        // What is without faces and of other statements is no OBJ file: that is what to tell.
+        // A file without faces but with other statements is not an OBJ file: report that instead.
         match stray {
             Some(stray) if check.tally.triangles == 0 => return Err(stray),
             _ => ensure!(check.tally.triangles > 0, "{}: has no faces", text.shown),
@@ -164,20 +163,20 @@ impl<'a> Check<'a> {
         Ok(check)
     }
 
-    /// The bytes that reading takes.
+    /// The bytes needed for reading.
     #[cfg(test)]
     pub fn counted(&self) -> u64 {
         self.tally.bytes()
     }
 
-    /// The MTL files that a statement names: one with spaces in its name, or several.
+    /// The MTL files named by a statement: one with spaces in its name, or several.
     fn libraries(
         &mut self,
         rest: &str,
         statement: &Statement,
         folder: &Folder,
     ) -> Result<Vec<Named>> {
-        // One with spaces in its name, or so many.
+        // One with spaces in its name, or several.
         self.libraries += rest.split_whitespace().count();
         let most = self.limits.libraries;
         ensure!(
@@ -194,7 +193,7 @@ impl<'a> Check<'a> {
             let (found, parts): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
             files.extend(found.into_iter().flatten());
             let parts: Vec<_> = parts.into_iter().filter_map(Result::err).collect();
-            // If none of several is there, it was perhaps one with spaces in its name.
+            // If none of several exists, it was perhaps one with spaces in its name.
             if !files.is_empty() || parts.iter().any(|error| !is_missing(error)) {
                 missing = parts;
             }
@@ -208,7 +207,7 @@ impl<'a> Check<'a> {
         Ok(files)
     }
 
-    /// Takes note of a material that is not defined; MTL files may still come.
+    /// Records a use of an undefined material; MTL files may still follow.
     fn uses(&mut self, material: &str, statement: &Statement) {
         if !self.library.defines(material) {
             let order = self.undefined.len();
@@ -217,7 +216,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Warns of the materials that no MTL file defines.
+    /// Adds warnings about the materials that no MTL file defines.
     fn tell_undefined(&mut self) {
         let mut uses: Vec<_> = self.undefined.iter().collect();
         uses.retain(|(name, _)| !self.library.defines(name));
@@ -228,7 +227,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Takes a statement other than `mtllib`; gives back what is wrong if it is none of an OBJ file.
+    /// Handles a statement other than `mtllib`; returns the fault if it is not an OBJ statement.
     fn statement(
         &mut self,
         keyword: &str,
@@ -239,7 +238,7 @@ impl<'a> Check<'a> {
             "v" => {
                 let mut values = [0.0; 7];
                 let words = match numbers(rest, &mut values)? {
-                    // The rest of 6 or 7 is a colour.
+                    // The last 3 of 6 or 7 are a colour.
                     3 | 6 | 7 => 3,
                     4 => {
                         let point = Vec3::from_slice(&values) / values[3];
@@ -288,7 +287,7 @@ impl<'a> Check<'a> {
             | "bevel" | "c_interp" | "d_interp" | "lod" | "usemap" | "maplib" | "shadow_obj"
             | "trace_obj" | "ctech" | "stech" => {}
             _ => {
-                // Text, not an error: that would note the calls that led here, for each of a million lines.
+                // Text, not an error: that would capture a backtrace for each of a million lines.
                 return Ok(Some(format!(
                     "{} is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are",
                     quoted(keyword)
@@ -340,7 +339,7 @@ impl<'a> Check<'a> {
             let Tally { positions, coordinates, normals, .. } = self.tally;
             let v = position(v, positions)
                 .with_context(|| out_of_range(v, "face", positions, "positions"))?;
-            // The preamble's come first, and stand for what is not given or out of range.
+            // The preamble's come first, and replace missing ones and those out of range.
             let mut other = |word: &str, kind, count, of: &str, what| -> Result<usize> {
                 if word.is_empty() {
                     return Ok(1);
@@ -362,7 +361,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Whether a file is not there: a model may do without, but not name materials outside its folder.
+/// True if a file is missing: a model may do without it, but must not name materials outside its folder.
 fn is_missing(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(Unavailable::Missing(_)))
 }

@@ -1,7 +1,7 @@
-//! The text of a model's files, which are not to be trusted.
+//! The text of a model's files, which are untrusted.
 //!
-//! Text is read in bounds, line by line, so that whatever is wrong has a line number; files are
-//! opened only inside the folder of the OBJ file.
+//! Text is read within limits, line by line, so that every fault has a line number; files are opened only inside
+//! the folder of the OBJ file.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -16,12 +16,12 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 /// Bytes of one statement; a polygon of 1024 corners needs about half.
 const STATEMENT_BYTES: usize = 64 << 10;
 
-/// Bytes of a name. Meshes hold copies of theirs.
+/// Bytes of a name. Each mesh has its own copy.
 const NAME_BYTES: usize = 1024;
 
 /// A text file in memory.
 pub struct Text {
-    /// The path as error messages show it.
+    /// The path in error messages.
     pub shown: String,
     bytes: Vec<u8>,
 }
@@ -30,7 +30,7 @@ impl Text {
     /// Reads a file of at most `limit` bytes.
     ///
     /// # Errors
-    /// If it is missing, larger, no regular file, or not text.
+    /// If it is missing, larger, not a regular file, or not text.
     pub fn read(path: &Path, shown: String, limit: u64) -> Result<Self> {
         let mut bytes = Vec::new();
         open(path, &shown, limit)?
@@ -44,7 +44,7 @@ impl Text {
         Ok(Self { shown, bytes })
     }
 
-    /// How many bytes it has.
+    /// Its size in bytes.
     pub fn size(&self) -> usize {
         self.bytes.len()
     }
@@ -56,15 +56,15 @@ impl Text {
     }
 }
 
-/// Every file that was opened: what a picture depends on.
+/// Every opened file: the inputs of a picture.
 static OPENED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// The files that [`open`] has opened, in this process.
+/// The files opened by [`open`] in this process.
 pub fn opened() -> Vec<PathBuf> {
     OPENED.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
 }
 
-/// Opens a file of a scene as [`regular`] does, and takes note of it.
+/// Opens a file of a scene like [`regular`], and records it.
 ///
 /// # Errors
 /// As [`regular`].
@@ -74,16 +74,16 @@ pub fn open(path: &Path, shown: &str, limit: u64) -> Result<File> {
     Ok(file)
 }
 
-/// Takes note of files of a scene that were opened otherwise.
+/// Records files of a scene that were opened in another way.
 pub fn note_opened<'a>(paths: impl IntoIterator<Item = &'a Path>) {
     let paths = paths.into_iter().map(Path::to_owned);
     OPENED.lock().unwrap_or_else(PoisonError::into_inner).extend(paths);
 }
 
-/// Opens a regular file of at most `limit` bytes; a pipe or a device could deliver without end.
+/// Opens a regular file of at most `limit` bytes; a pipe or a device might never end.
 ///
 /// # Errors
-/// If it is missing, larger, or no regular file.
+/// If it is missing, larger, or not a regular file.
 pub fn regular(path: &Path, shown: &str, limit: u64) -> Result<File> {
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => anyhow!("{shown}: there is no such file"),
@@ -99,7 +99,7 @@ pub fn regular(path: &Path, shown: &str, limit: u64) -> Result<File> {
     File::open(path).map_err(failed)
 }
 
-/// Goes through a text's statements, leaving out comments and empty lines.
+/// Iterates over a text's statements, without comments and empty lines.
 pub struct Statements<'a> {
     shown: &'a str,
     rest: &'a [u8],
@@ -123,7 +123,7 @@ impl<'a> Iterator for Statements<'a> {
     type Item = Statement<'a>;
 
     fn next(&mut self) -> Option<Statement<'a>> {
-        // A comment may end in a backslash, a Windows folder for one: it continues nothing.
+        // A comment may end in a backslash, for example a Windows folder: it does not continue the line.
         let continued = |line: &[u8]| line.ends_with(b"\\") && !line.contains(&b'#');
         let line = loop {
             if self.rest.is_empty() {
@@ -151,7 +151,7 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// A keyword and what follows it, with its place.
+/// A keyword and its arguments, with their place.
 pub struct Statement<'a> {
     shown: &'a str,
     line: usize,
@@ -168,7 +168,7 @@ impl Statement<'_> {
     /// The keyword and the rest, without white space around it.
     ///
     /// # Errors
-    /// If the statement is too long to be one.
+    /// If the statement is too long.
     pub fn split(&self) -> Result<(&str, &str)> {
         let length = self.text.len();
         ensure!(
@@ -180,19 +180,19 @@ impl Statement<'_> {
         Ok((keyword, rest.trim()))
     }
 
-    /// The error with its place before it, and a hint if the file ends within this line.
+    /// The error with the place in front, and a hint if the file ends within this line.
     pub fn at(&self, error: impl Display) -> anyhow::Error {
         let hint = if self.cut { "; the file ends in this line, perhaps cut off" } else { "" };
         anyhow!("{}: {error}{hint}", self.place())
     }
 }
 
-/// What stands before a comment. Names may hold a `#` ("Material #25"), numbers never do.
+/// The part before a comment. Names may contain a `#` ("Material #25"), numbers never do.
 pub fn uncommented(rest: &str) -> &str {
     rest.split('#').next().unwrap_or_default()
 }
 
-/// A name: what follows the keyword, spaces and all.
+/// A name: everything after the keyword, including spaces.
 ///
 /// # Errors
 /// If there is none, or it is too long.
@@ -206,7 +206,7 @@ pub(crate) fn name<'a>(keyword: &str, rest: &'a str) -> Result<&'a str> {
     Ok(rest)
 }
 
-/// Reads the numbers after a keyword into `values` and says how many there are.
+/// Reads the numbers after a keyword into `values` and returns their count.
 ///
 /// # Errors
 /// If one is not a number, not finite, or there are more than `values` has room for.
@@ -223,7 +223,7 @@ pub(crate) fn numbers(rest: &str, values: &mut [f32]) -> Result<usize> {
     Ok(count)
 }
 
-/// A word of the file on one line, however long and strange it is.
+/// A word of the file on one line, shortened and escaped.
 pub fn quoted(word: &str) -> String {
     let mut start: String = word.chars().take(60).collect();
     if start.len() < word.len() {
@@ -232,19 +232,19 @@ pub fn quoted(word: &str) -> String {
     format!("{start:?}")
 }
 
-/// The folder of the OBJ file. Nothing outside it is opened: a model from elsewhere has no business
-/// with the reader's other files.
+/// The folder of the OBJ file. Nothing outside it is opened: a model from elsewhere must not access the user's
+/// other files.
 pub struct Folder {
     given: PathBuf,
     root: PathBuf,
 }
 
-/// Why a file that is named cannot be had.
+/// The reason why a named file is unavailable.
 #[derive(Debug)]
 pub(crate) enum Unavailable {
-    /// It is not there, or cannot be read: a model may do without.
+    /// It does not exist, or cannot be read: a model may do without it.
     Missing(String),
-    /// It lies out of the model's folder, and is not opened.
+    /// It is outside the model's folder, and is not opened.
     Outside(String),
 }
 
@@ -257,13 +257,13 @@ impl Display for Unavailable {
 
 impl std::error::Error for Unavailable {}
 
-/// A file that a model names.
+/// A file named by a model.
 pub struct Named {
     /// Its path, links resolved.
     pub path: PathBuf,
     /// Its path relative to the OBJ file's folder, with `/` between the parts.
     pub name: String,
-    /// Its path as error messages show it.
+    /// Its path in error messages.
     pub shown: String,
 }
 
@@ -282,12 +282,11 @@ impl Folder {
         Ok(Self { given: given.to_owned(), root })
     }
 
-    /// Finds the file that `keyword` names; relative paths start at the file `from`, or else at the
-    /// OBJ file.
+    /// Finds the file named by `keyword`; relative paths start at the file `from`, or else at the OBJ file.
     ///
     /// # Errors
-    /// `Unavailable` if it is not there, no name is given, or it is outside the folder, directly or
-    /// through a symbolic link; another if the name is too long.
+    /// `Unavailable` if it does not exist, no name is given, or it is outside the folder, directly or through a
+    /// symbolic link; another if the name is too long.
     pub fn find(&self, keyword: &str, named: &str, from: Option<&Named>) -> Result<Named> {
         let missing = |what: String| anyhow!(Unavailable::Missing(format!("{keyword} {what}")));
         ensure!(!named.is_empty(), missing("is not followed by a name".to_owned()));
@@ -298,7 +297,7 @@ impl Folder {
                 "{keyword} names {name}, outside the OBJ file's folder; copy it into the folder"
             )))
         };
-        // Exporters on Windows write backslashes, and drives that are relative paths elsewhere.
+        // Exporters on Windows write backslashes, and drive letters, which are relative paths elsewhere.
         let relative = name.replace('\\', "/");
         let drive = relative.as_bytes().get(1) == Some(&b':');
         let parts = Path::new(&relative).components();

@@ -1,4 +1,4 @@
-//! A texture: an image as the device takes it, and the PNG files that textures come from.
+//! A texture: an image in its form for the device, and the PNG files textures are read from.
 
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -13,32 +13,32 @@ use super::limits::Limits;
 use super::text::{Named, note_opened, open};
 use super::warnings::{Kind, Warnings};
 
-/// What decoding may take beside the texels: a few rows, and profiles and texts, which nothing here reads. A
-/// small file can hold a profile that unpacks to gigabytes; one that is larger is passed over.
+/// Limit on memory for decoding besides the texels: a few rows, and profiles and texts, which are not used here. A
+/// small file may contain a profile that unpacks to gigabytes; one that is larger is skipped.
 const BESIDE_BYTES: u64 = 16 << 20;
 
-/// An image of 8 bits a channel.
+/// An image of 8 bits per channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// The file's path relative to the OBJ file's folder.
     pub name: String,
-    /// Texels in a row.
+    /// Texels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Four bytes a texel, rows from the top. Alpha is the file's; without an alpha channel it is the
-    /// luminance where a material takes its opacity from the file, and 255 elsewhere.
+    /// Four bytes per texel, rows from top to bottom. Alpha is the file's; without an alpha channel it is the
+    /// luminance if a material uses the file for opacity, and 255 otherwise.
     pub rgba: Vec<u8>,
-    /// Whether RGB is sRGB encoded: so for colours, not for a file that only holds opacity. Alpha is
-    /// linear always.
+    /// True if RGB is sRGB encoded: for colours, but not for a file that is used only for opacity. Alpha is always
+    /// linear.
     pub srgb: bool,
 }
 
 impl Texture {
-    /// Reads a PNG file of the project's own, which has colours and an alpha channel.
+    /// Reads one of the project's own PNG files, which has colours and an alpha channel.
     ///
     /// # Errors
-    /// If it is missing or none.
+    /// If it is missing or not such a file.
     pub(crate) fn open(path: &Path, name: String) -> Result<Self> {
         let image = image::open(path)?.into_rgba8();
         note_opened([path]);
@@ -47,7 +47,7 @@ impl Texture {
     }
 }
 
-/// What a material reads from a texture.
+/// The use of a texture in a material.
 pub(crate) enum Role {
     /// RGB.
     Color,
@@ -55,10 +55,10 @@ pub(crate) enum Role {
     Opacity,
 }
 
-/// The texture files that materials name.
+/// The texture files named by materials.
 ///
-/// One file is one texture even if it gives both colour and opacity: shaders read RGB for the one
-/// and alpha for the other, which sRGB encoding leaves alone.
+/// One file is one texture even if it provides both colour and opacity: shaders read RGB for the former and alpha
+/// for the latter, which sRGB encoding does not affect.
 #[derive(Default)]
 pub(crate) struct TextureFiles {
     files: Vec<TextureFile>,
@@ -67,14 +67,14 @@ pub(crate) struct TextureFiles {
 
 struct TextureFile {
     named: Named,
-    /// The first statement that names it.
+    /// The first statement naming it.
     place: String,
     color: bool,
     opacity: bool,
 }
 
 impl TextureFiles {
-    /// Takes note of a file and gives the position that its texture will have.
+    /// Records a file and returns the position that its texture will have.
     pub fn add(&mut self, named: Named, role: Role, place: String) -> usize {
         let files = &mut self.files;
         let index = *self.indices.entry(named.path.clone()).or_insert_with(|| {
@@ -88,8 +88,8 @@ impl TextureFiles {
         index
     }
 
-    /// Decodes all of them, in order, and says which texture each file has become. One that cannot be
-    /// decoded, or is too large beside those before it, is warned of with the line that names it.
+    /// Decodes all of them, in order, and returns the texture of each file. One that cannot be decoded, or is too
+    /// large in addition to those before it, causes a warning with the line that names it.
     pub fn load(
         self,
         limits: &Limits,
@@ -117,7 +117,7 @@ impl TextureFiles {
 }
 
 impl TextureFile {
-    /// Decodes the file, taking its size off the bytes that are left.
+    /// Decodes the file, subtracting its size from the remaining bytes.
     fn decode(self, left: &mut u64, limits: &Limits) -> Result<Texture> {
         let shown = &self.named.shown;
         let mut file = BufReader::new(open(&self.named.path, shown, limits.texture_bytes)?);
@@ -130,7 +130,7 @@ impl TextureFile {
             anyhow!("{shown}: cannot be decoded, it is damaged or cut off: {what}")
         };
         check_palette(&mut file).map_err(|error| damaged(&error))?;
-        // The decoder would say of a row that is too long for it only that it is too long for it.
+        // The decoder's error for a row that is too long does not name the limit.
         if let [.., a, b, c, d, e, f, g, h] = head[8..]
             && head.len() == 24
         {
@@ -155,7 +155,7 @@ impl TextureFile {
         let texels = u64::from(width) * u64::from(height);
         let (color, decoded) = (decoder.color_type(), decoder.total_bytes());
         let wants_luminance = self.opacity && !color.has_alpha();
-        // What the file has, 16 bits a channel perhaps, stands beside the 8 bits that are made of it.
+        // The file's own data, perhaps 16 bits per channel, coexists with the 8 bits made from it.
         let converted = if color == ColorType::Rgba8 { 0 } else { 4 * texels };
         let need = decoded + converted + if wants_luminance { texels } else { 0 };
         ensure!(
@@ -178,14 +178,14 @@ impl TextureFile {
     }
 }
 
-/// Holds that a PNG file begins as one and that its palette has whole colours, which the decoder takes for
-/// granted. Leaves the file at its start.
+/// Checks that a PNG file begins as one and that its palette has whole colours, which the decoder assumes. Leaves
+/// the file at its start.
 fn check_palette(file: &mut BufReader<impl Read + Seek>) -> Result<()> {
     file.seek(SeekFrom::Start(8))?;
     let mut is_first = true;
     loop {
         let mut head = [0; 8];
-        // What is cut off, the decoder tells of.
+        // The decoder reports truncated files.
         if file.read_exact(&mut head).is_err() {
             break;
         }

@@ -1,19 +1,19 @@
-//! What is wrong with a model, but not so wrong that it cannot be shown: a line for each kind.
+//! Faults of a model that do not prevent it from being shown: one line per kind.
 
 use std::fmt::Display;
 
 use super::text::Statement;
 
-/// A kind of fault, and what is done about it.
+/// A kind of fault, and its replacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// An MTL file that is named and not there.
+    /// A missing MTL file.
     Library,
     /// A second definition of a material.
     Definition,
     /// A material that no MTL file defines.
     Material,
-    /// A texture that is missing, outside the model's folder, or no picture.
+    /// A texture that is missing, outside the model's folder, or not a picture.
     Texture,
     /// An option or a form of a statement that is not supported.
     Option,
@@ -26,7 +26,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// What stands for what is missing.
+    /// The replacement for the missing part.
     fn instead(self) -> &'static str {
         match self {
             Self::Library => "its materials are not known",
@@ -41,8 +41,8 @@ impl Kind {
     }
 }
 
-/// The faults that a model was shown in spite of. A file may have millions: of each kind, the first is
-/// told and the others are counted.
+/// The faults of a model that is still shown. A file may have millions: of each kind, the first is reported and
+/// the others are counted.
 #[derive(Default)]
 pub(crate) struct Warnings(Vec<Warning>);
 
@@ -53,12 +53,12 @@ struct Warning {
 }
 
 impl Warnings {
-    /// Notes a fault of a statement.
+    /// Records a fault of a statement.
     pub fn add<E: Display>(&mut self, kind: Kind, statement: &Statement, what: impl FnOnce() -> E) {
         self.add_many(kind, 1, || statement.at(what()).to_string());
     }
 
-    /// Notes `count` faults of a kind; `first` says where the first is and what, on one line.
+    /// Records `count` faults of a kind; `first` is one line with the first and its place.
     pub fn add_many(&mut self, kind: Kind, count: usize, first: impl FnOnce() -> String) {
         match self.0.iter_mut().find(|warning| warning.kind == kind) {
             Some(warning) => warning.count += count,
@@ -66,7 +66,7 @@ impl Warnings {
         }
     }
 
-    /// A line for each kind, in the order of their firsts.
+    /// A line for each kind, in the order of their first occurrence.
     pub fn lines(&self) -> Vec<String> {
         let line = |Warning { kind, first, count }: &Warning| {
             format!("{first}; {} ({count} in all)", kind.instead())

@@ -1,4 +1,4 @@
-//! What lies on the plane: a board of squares, or one colour.
+//! The surface of the plane: a board of squares, or one colour.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -7,19 +7,19 @@ use super::plane::{HalfSpace, Plane};
 use crate::gpu::Number;
 
 crate::shader_enum! {
-    /// How the squares are drawn.
+    /// The filtering of the squares.
     pub enum Checker: CHECKER {
         /// Averaged over the pixel.
         Filtered,
-        /// As they are at its middle.
+        /// Sampled at the pixel's centre.
         Point,
-        /// There are none.
+        /// No squares.
         Off,
     }
 }
 
 crate::shader_struct! {
-    /// The board as shaders get it.
+    /// The board in its form for shaders.
     pub struct Board {
         /// Colour of the light squares, linear RGB.
         pub light: Vec3,
@@ -31,9 +31,9 @@ crate::shader_struct! {
         pub specular: f32,
         /// Width of the highlight: 0 is a point, 1 is none.
         pub roughness: f32,
-        /// What part of the light is mirrored, looked at straight.
+        /// The part of the light mirrored at normal incidence.
         pub reflection: f32,
-        /// How the squares are drawn.
+        /// The filtering of the squares.
         pub checker: Number<Checker>,
         /// Length of a square's side.
         pub square: f32,
@@ -41,7 +41,7 @@ crate::shader_struct! {
         pub u: Vec3,
         /// Along the other.
         pub v: Vec3,
-        /// On which square the plane's anchor lies.
+        /// The square that contains the plane's anchor.
         pub anchor: Vec2,
     }
 }
@@ -66,11 +66,10 @@ impl Default for Board {
 }
 
 impl Board {
-    /// The board where a scene's placement puts it, on this plane. Which side of it is the inside
-    /// changes no square.
+    /// The board after a scene's placement, on this plane. The choice of the inside changes no square.
     ///
-    /// Its pattern repeats every two squares. So an even number of squares is left out here: the pattern
-    /// is the same, and the shader gets a small number.
+    /// The pattern repeats every two squares, so an even number of squares is subtracted here: the pattern stays
+    /// the same, and the shader gets a small number.
     pub fn placed(&self, placement: &Placement, side: &HalfSpace, plane: &Plane) -> Self {
         let square = f64::from(self.square) * placement.size;
         let normal = side.normal.as_dvec3().normalize_or(DVec3::Y);

@@ -1,10 +1,10 @@
-//! A pinhole camera: where rays begin and which way they go.
+//! A pinhole camera: the origin and directions of rays.
 
 use std::ops::RangeInclusive;
 
 use glam::{DVec3, Vec3};
 
-/// A camera in world space, in f64: the basis that shaders get is rounded once, at the end.
+/// A camera in world space, in f64: the basis for shaders is rounded once, at the end.
 ///
 /// ```
 /// use raybook::prelude::*;
@@ -16,19 +16,19 @@ use glam::{DVec3, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where rays begin.
+    /// The origin of rays.
     pub eye: DVec3,
-    /// What is in the middle of the picture.
+    /// The point in the middle of the picture.
     pub target: DVec3,
-    /// Which way is up; need not be perpendicular to the view.
+    /// The up direction; need not be perpendicular to the view.
     pub up: DVec3,
     /// Angle between the top and the bottom of the picture, in degrees.
     pub fov_y: f64,
 }
 
 common::shader_struct! {
-    /// What a shader needs to make the ray of a pixel:
-    /// `direction = forward + x·right + y·up`, with x and y from -1 to 1 across the picture.
+    /// The basis from which a shader computes the ray of a pixel: `direction = forward + x·right + y·up`, with x
+    /// and y from -1 to 1 across the picture.
     pub struct CameraBasis {
         /// The eye.
         pub origin: Vec3,
@@ -48,7 +48,7 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// The least and the most that `fov_y` may be: from a telescope's to a wide-angle lens's.
+    /// The range of `fov_y`: from a telescope's to a wide-angle lens's.
     pub const FIELD_OF_VIEW: RangeInclusive<f32> = 1e-4..=150.0;
 
     /// A camera that looks from `eye` at `target`, y up, with a vertical field of view in degrees.
@@ -56,15 +56,15 @@ impl Camera {
         Self { eye, target, up: DVec3::Y, fov_y }
     }
 
-    /// Whether eye and target are so far apart that there is a direction from one to the other.
+    /// True if eye and target are far enough apart to define a direction.
     pub fn looks_somewhere(&self) -> bool {
         (self.target - self.eye).try_normalize().is_some()
     }
 
     /// The unit vectors right, up and forward.
     ///
-    /// Where the view is along `up` or has no length, any perpendicular basis is taken, so that no
-    /// setting gives a NaN.
+    /// If the view is parallel to `up` or has no length, any perpendicular basis is used, so that no setting
+    /// produces a NaN.
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
         let right = forward
@@ -74,7 +74,7 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
-    /// The basis of a picture whose width is `aspect` times its height.
+    /// The basis for a picture whose width is `aspect` times its height.
     pub fn basis(&self, aspect: f64) -> CameraBasis {
         let [right, up, forward] = self.axes();
         let half_height = (self.fov_y.to_radians() / 2.0).tan();

@@ -20,7 +20,7 @@ pub fn assets() -> &'static Path {
 impl Scene {
     /// The chess set in mid-game: pieces, board and frame, and the fretwork screen behind them.
     ///
-    /// The board lies in the plane y = 0, a unit a square, its middle at the origin; White is at +z.
+    /// The board is in the plane y = 0, one unit per square, its middle at the origin; White is at +z.
     ///
     /// # Errors
     /// If the project's own model is missing or wrong.
@@ -48,7 +48,7 @@ impl Scene {
 
     /// The chess set with kings and queens of metal, White's of gold and Black's of silver, from low down.
     ///
-    /// What metals reflect, in linear RGB: Akenine-Möller et al., Real-Time Rendering, 4th ed., table 9.2.
+    /// Linear RGB reflectances of metals: Akenine-Möller et al., Real-Time Rendering, 4th ed., table 9.2.
     ///
     /// # Errors
     /// If the project's own model is missing or wrong.
@@ -74,10 +74,10 @@ impl Scene {
     }
 }
 
-/// As `place_pieces`, of a position that is not to be trusted.
+/// As `place_pieces`, for an untrusted position.
 ///
 /// # Errors
-/// If it is none: eight ranks of eight squares.
+/// If it is not a position of eight ranks of eight squares.
 pub fn place_position(model: &Model, position: &str, instances: &mut Vec<Instance>) -> Result<()> {
     let files = |rank: &str| -> u32 { rank.chars().map(|c| c.to_digit(10).unwrap_or(1)).sum() };
     let ranks: Vec<&str> = position.split('/').take(9).collect();
@@ -89,7 +89,7 @@ pub fn place_position(model: &Model, position: &str, instances: &mut Vec<Instanc
     place_pieces(model, position, instances)
 }
 
-/// Adds the pieces of a position: capitals are white, ranks from the eighth down.
+/// Adds the pieces of a position: upper case is white, ranks from the eighth down.
 fn place_pieces(model: &Model, position: &str, instances: &mut Vec<Instance>) -> Result<()> {
     let [white, black] = ["white", "black"].map(|name| {
         let found = model.materials.iter().position(|material| material.name == name);

@@ -1,10 +1,10 @@
-//! Lights: what they are on the host and what shaders get.
+//! Lights on the host, and in their form for shaders.
 
 use glam::Vec3;
 
 use crate::gpu::Number;
 
-/// A light so far away that its rays are parallel, placed by two angles as one places the sun.
+/// A light so far away that its rays are parallel, positioned like the sun by two angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sun {
     /// Degrees around the vertical; 0 is +z, 90 is +x.
@@ -16,7 +16,7 @@ pub struct Sun {
 }
 
 common::shader_struct! {
-    /// A directional light as shaders get it.
+    /// A directional light in its form for shaders.
     pub struct DirectionalLight {
         /// Unit vector towards the light.
         pub direction: Vec3,
@@ -41,27 +41,27 @@ impl Sun {
     }
 }
 
-/// A light that shines from one place equally in all directions.
+/// A light that shines equally in all directions from one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
-    /// Where it is, in the world.
+    /// Its position in the world.
     pub position: Vec3,
-    /// Linear RGB intensity: what arrives at distance 1, a quarter of it at distance 2.
+    /// Linear RGB intensity: the irradiance at distance 1; at distance 2, a quarter of it arrives.
     pub intensity: Vec3,
 }
 
 common::shader_enum! {
-    /// What kind of light it is (`shaders/common/light.glsl`).
+    /// The kind of light (`shaders/common/light.glsl`).
     pub enum LightKind: LIGHT {
         /// So far away that its rays are parallel.
         Directional,
-        /// At a place.
+        /// At a point.
         Point,
     }
 }
 
 common::shader_struct! {
-    /// A light of either kind, as shaders get it (`shaders/common/light.glsl`).
+    /// A light of either kind, in its form for shaders (`shaders/common/light.glsl`).
     pub struct Light {
         /// Directional: unit vector towards the light. Point: its position.
         pub place: Vec3,
@@ -73,13 +73,13 @@ common::shader_struct! {
 }
 
 common::shader_struct! {
-    /// A disk that shines, around a light and facing whoever looks at it (`shaders/common/disk.glsl`).
+    /// A disk that shines, around a light and facing the point it lights (`shaders/common/disk.glsl`).
     pub struct DiskLight {
-        /// Its middle, and how strong all of it is.
+        /// Its middle, and the strength of the whole disk.
         pub light: Light,
         /// Point: in the world. Directional: as seen from distance 1; the true sun's is 0.0047.
         pub radius: f32,
-        /// Shadow rays a hit, where the radius is not 0.
+        /// Shadow rays per hit, if the radius is not 0.
         pub samples: u32,
     }
 }

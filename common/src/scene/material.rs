@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// How a surface looks, in the terms of an MTL file.
+/// The appearance of a surface, in the terms of an MTL file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name, after `newmtl`.
@@ -15,13 +15,13 @@ pub struct Material {
     pub shininess: f32,
     /// Emitted radiance, linear RGB (`Ke`).
     pub emission: Vec3,
-    /// 1 is opaque, 0 is not there (`d`, or else 1 - `Tr`).
+    /// 1 is opaque, 0 is invisible (`d`, or else 1 - `Tr`).
     pub opacity: f32,
     /// The number of the illumination model, 0 to 10 (`illum`).
     pub illumination: u32,
     /// Index of refraction (`Ni`).
     pub refraction: f32,
-    /// What passes through, linear RGB (`Tf`).
+    /// Transmitted part of the light, linear RGB (`Tf`).
     pub transmission: Vec3,
     /// The texture whose RGB multiplies `base_color`, by position in the model (`map_Kd`).
     pub base_texture: Option<usize>,
@@ -30,13 +30,12 @@ pub struct Material {
 }
 
 impl Material {
-    /// Whether rays may pass through some of the surface.
+    /// True if rays may pass through part of the surface.
     pub fn has_cutout(&self) -> bool {
         self.opacity < 1.0 || self.opacity_texture.is_some()
     }
 
-    /// Whether the surface reflects what is around it: the illumination model says so, and some light is
-    /// reflected.
+    /// True if the surface reflects its surroundings: the illumination model says so, and its reflectance is not 0.
     pub fn is_mirror(&self) -> bool {
         self.illumination >= 3 && self.specular.max_element() > 0.0
     }

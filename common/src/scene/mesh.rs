@@ -15,11 +15,10 @@ common::shader_struct! {
     }
 }
 
-/// The farthest coordinate: the length of a normal, which is a product of two edges, is a root of products of
-/// four.
+/// The largest coordinate: a normal is a product of two edges, so its squared length contains products of four.
 pub const REACH: f32 = 1e9;
 
-/// The least that a model measures from end to end: intersection multiplies two lengths.
+/// The smallest extent of a model: intersection tests multiply two lengths.
 pub const LEAST: f32 = 1e-18;
 
 /// Triangles of one material.
@@ -51,18 +50,18 @@ pub struct Mesh {
 impl Mesh {
     /// Lowest and highest corner of the box around all vertices, used by a triangle or not.
     ///
-    /// Without vertices the box is inside out: +∞ and -∞.
+    /// Without vertices, the box is inverted: +∞ and -∞.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         around(self.vertices.iter().map(|vertex| vertex.position))
     }
 
-    /// How far it goes from the origin along any axis.
+    /// The largest absolute coordinate.
     pub fn reach(&self) -> f32 {
         let (low, high) = self.bounds();
         low.abs().max(high.abs()).max_element()
     }
 
-    /// Whether any triangle has an area. Otherwise no ray meets the mesh.
+    /// True if any triangle has an area. Otherwise no ray hits the mesh.
     ///
     /// # Panics
     /// If a triangle indexes beyond `vertices`.

@@ -9,14 +9,15 @@ use crate::gpu::{AccelerationStructure, Address, Buffer, BuildOptions, Geometry,
 
 /// Every mesh of a model in device memory, without a bottom level.
 pub(super) struct MeshBuffers {
-    /// Where each mesh lies: what the record of an instance says, but for its material.
+    /// The addresses of each mesh: the record of an instance, still without its material.
     pub records: Vec<InstanceRecord>,
-    /// What the records point into, vertices last.
+    /// The buffers the records point into, vertices last.
     pub buffers: Vec<Buffer>,
 }
 
 impl MeshBuffers {
-    /// Uploads meshes. Primitive `i` of mesh `m`, as whatever finds it numbers them, is triangle `orders[m][i]`.
+    /// Uploads meshes. Primitive `i` of mesh `m`, in the numbering of the intersection code, is triangle
+    /// `orders[m][i]`.
     pub(super) fn new(
         gpu: &Gpu,
         meshes: &[Mesh],
@@ -41,11 +42,11 @@ impl MeshBuffers {
 
 /// Every mesh of a model in device memory, and its bottom level.
 pub(super) struct MeshesOnGpu {
-    /// One bottom level a mesh.
+    /// One bottom level per mesh.
     pub blas: Vec<AccelerationStructure>,
-    /// Where each mesh lies: what the record of an instance says, but for its material.
+    /// The addresses of each mesh: the record of an instance, still without its material.
     pub records: Vec<InstanceRecord>,
-    /// What the records point into.
+    /// The buffers the records point into.
     pub buffers: Vec<Buffer>,
 }
 
@@ -90,8 +91,8 @@ fn in_order((mesh, order): (&Mesh, &Vec<u32>)) -> Vec<[u32; 3]> {
     order.iter().map(|&i| mesh.triangles[i as usize]).collect()
 }
 
-/// Of each mesh, whether no material that it is placed with has holes: an any-hit shader is worth calling only
-/// where it can say no.
+/// For each mesh, true if no material it is placed with has holes. An any-hit shader is worth calling only where it
+/// can ignore a hit.
 fn opaque(scene: &Scene) -> Vec<bool> {
     let mut opaque = vec![true; scene.model.meshes.len()];
     for instance in &scene.instances {
@@ -100,8 +101,8 @@ fn opaque(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-/// Which triangle of a mesh each primitive of the build is. A device may offer a triangle more than once,
-/// unless that is ruled out.
+/// For each primitive of the build, its triangle of the mesh. A device may call any-hit shaders more than once for
+/// a triangle, unless that is ruled out.
 pub fn triangle_order(gpu: &Gpu, mesh: &Mesh, options: SceneOptions) -> Vec<u32> {
     let order = order::for_build(gpu, &mesh.triangle_bounds(), options.ordering);
     if options.no_duplicate_any_hit { order } else { gpu.driver_shim.candidates(order) }

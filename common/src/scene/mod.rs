@@ -1,4 +1,4 @@
-//! What is rendered: camera, lights, meshes, materials, the chess world, and their upload.
+//! The scene to render: camera, lights, meshes, materials, the chess world, and their upload.
 
 pub mod board;
 mod camera;

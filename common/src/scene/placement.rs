@@ -1,24 +1,24 @@
-//! Where a whole scene stands: scaled and moved, worked out in f64 and rounded once at the end.
+//! The placement of a whole scene: scaled and moved in f64, and rounded once at the end.
 
 use glam::{Affine3A, DVec3};
 
 use super::{Camera, Instance, Scene};
 
 crate::shader_enum! {
-    /// How many times as large a scene is, to find out what rounding makes of it.
+    /// The scale of a scene, for experiments with rounding errors.
     pub enum Size {
         /// A thousandth.
         Small = "0.001",
-        /// As it is.
+        /// Unchanged.
         Usual = "1",
         /// A thousand times.
         Large = "1000",
     }
-    /// How far a scene is from the origin.
+    /// The distance of a scene from the origin.
     pub enum Moved {
-        /// As it is.
+        /// Unchanged.
         Not = "0",
-        /// 10000 units, and no axis is spared.
+        /// 10000 units, along all axes.
         Far = "10000",
     }
 }
@@ -28,21 +28,21 @@ const FAR: DVec3 = DVec3::new(6000.0, 4800.0, 6400.0);
 /// A change of scale about the origin, then a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// How many times as large.
+    /// Scale factor.
     pub size: f64,
-    /// Where the origin goes, in the world's units.
+    /// The new position of the origin, in world units.
     pub moved: DVec3,
 }
 
 impl Default for Placement {
-    /// The scene as it is.
+    /// The scene unchanged.
     fn default() -> Self {
         Self { size: 1.0, moved: DVec3::ZERO }
     }
 }
 
 impl Placement {
-    /// A scene so large, and so far away.
+    /// A placement with this scale and distance.
     pub fn new(size: Size, moved: Moved) -> Self {
         let size = match size {
             Size::Small => 1e-3,
@@ -52,7 +52,7 @@ impl Placement {
         Self { size, moved: if moved == Moved::Far { FAR } else { DVec3::ZERO } }
     }
 
-    /// The scene with its instances and its camera there; the meshes stay as they are.
+    /// The scene with its instances and its camera moved; the meshes stay unchanged.
     pub fn scene(&self, scene: &Scene) -> Scene {
         let instances = scene.instances.iter().map(|instance| self.instance(instance)).collect();
         Scene { model: scene.model.clone(), instances, camera: self.camera(&scene.camera) }
@@ -70,7 +70,7 @@ impl Placement {
         Instance { transform: Affine3A { matrix3, translation }, ..*instance }
     }
 
-    /// A camera that sees there what this one sees here.
+    /// The camera moved with the scene, so that it shows the same view.
     pub fn camera(&self, camera: &Camera) -> Camera {
         Camera { eye: self.point(camera.eye), target: self.point(camera.target), ..*camera }
     }

@@ -7,20 +7,20 @@ use super::Placement;
 /// A half-space: its surface is the plane, and its normal points out of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
-    /// How it is given.
+    /// The form in which it is given.
     pub form: PlaneForm,
     /// `<A,B,C>`, of any length but 0.
     pub normal: Vec3,
-    /// `D`: how far the plane is from the world's origin, along the normal.
+    /// `D`: the distance of the plane from the world's origin, along the normal.
     pub distance: f32,
     /// A point of the plane, instead of the distance.
     pub point: Vec3,
-    /// Whether inside and outside are exchanged.
+    /// True if inside and outside are exchanged.
     pub inverse: bool,
 }
 
 crate::shader_enum! {
-    /// How a plane is given.
+    /// The form in which a plane is given.
     pub enum PlaneForm {
         /// POV-Ray's `plane { <A,B,C>, D }`.
         NormalAndDistance,
@@ -30,13 +30,13 @@ crate::shader_enum! {
 }
 
 crate::shader_struct! {
-    /// The plane as shaders get it (`shaders/common/plane.glsl`).
+    /// The plane in its form for shaders (`shaders/common/plane.glsl`).
     pub struct Plane {
         /// N, pointing to the outside.
         pub normal: Vec3,
-        /// D·|N| in two parts, the second what rounding the first left over.
+        /// D·|N| in two parts: the rounded value, and its rounding error.
         pub distance: Vec2,
-        /// The point of the plane that is nearest to the camera, rounded.
+        /// The point of the plane nearest to the camera, rounded.
         pub anchor: Vec3,
         /// D·|N| - N·anchor.
         pub rest: f32,
@@ -44,15 +44,15 @@ crate::shader_struct! {
 }
 
 impl HalfSpace {
-    /// The one whose surface is the plane `{normal, distance}`.
+    /// The half-space bounded by the plane `{normal, distance}`.
     pub fn new(normal: Vec3, distance: f32) -> Self {
         let form = PlaneForm::NormalAndDistance;
         Self { form, normal, distance, point: Vec3::ZERO, inverse: false }
     }
 
-    /// The normal that points out, and D·|N| of the plane where a scene's placement puts it.
+    /// The outward normal, and D·|N| of the plane after a scene's placement.
     ///
-    /// `None` if the normal is 0: there is no such plane.
+    /// `None` if the normal is 0, which defines no plane.
     pub fn placed(&self, placement: &Placement) -> Option<(DVec3, f64)> {
         let sign = if self.inverse { -1.0 } else { 1.0 };
         let normal = self.normal.as_dvec3() * sign;
@@ -68,7 +68,7 @@ impl HalfSpace {
 impl Plane {
     /// The plane N·p = D·|N| for shaders whose camera is at `eye`.
     ///
-    /// N is scaled by a power of two, which rounds nothing, so that its square is no 0 and not infinite.
+    /// N is scaled by a power of two, which causes no rounding, so that its square is neither 0 nor infinite.
     pub fn new((normal, distance): (DVec3, f64), eye: Vec3) -> Self {
         let scale = normal.abs().max_element().log2().floor().exp2().recip();
         let (normal, distance) = (normal * scale, distance * scale);

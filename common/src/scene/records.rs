@@ -1,4 +1,4 @@
-//! What shaders read of a scene, by address: the same structures as in `shaders/common/scene.glsl`.
+//! A scene's data, read by shaders by address: the same structures as in `shaders/common/scene.glsl`.
 
 use glam::Vec3;
 
@@ -6,7 +6,7 @@ use super::{Material, Vertex};
 use crate::gpu::Address;
 
 common::shader_struct! {
-    /// Where a shader finds the mesh and the material of an instance.
+    /// The mesh and material of an instance, for shaders.
     pub struct InstanceRecord {
         /// Address of the mesh's [`Vertex`] array.
         pub vertices: Address<Vertex>,
@@ -14,19 +14,19 @@ common::shader_struct! {
         pub triangles: Address,
         /// Address of the permutation: primitive `i` of the build is triangle `original[i]`.
         pub original: Address,
-        /// Which [`MaterialRecord`].
+        /// Index of its [`MaterialRecord`].
         pub material: u32,
-        /// Which mesh of the model.
+        /// Index of the mesh in the model.
         pub mesh: u32,
     }
 }
 
 common::shader_struct! {
-    /// A [`Material`] as shaders read it.
+    /// A [`Material`] in its form for shaders.
     pub struct MaterialRecord {
         /// Diffuse reflectance, linear RGB.
         pub base_color: Vec3,
-        /// 1 is opaque, 0 is not there.
+        /// 1 is opaque, 0 is invisible.
         pub opacity: f32,
         /// Specular reflectance, linear RGB.
         pub specular: Vec3,
@@ -34,9 +34,9 @@ common::shader_struct! {
         pub shininess: f32,
         /// Emitted radiance, linear RGB.
         pub emission: Vec3,
-        /// Which texture multiplies the base colour; -1 for none.
+        /// Index of the texture that multiplies the base colour; -1 for none.
         pub base_texture: i32,
-        /// Which texture's alpha multiplies the opacity; -1 for none.
+        /// Index of the texture whose alpha multiplies the opacity; -1 for none.
         pub opacity_texture: i32,
         /// The illumination model of the MTL file.
         pub illumination: u32,

@@ -1,4 +1,4 @@
-//! A scene on the device: buffers that shaders reach by address, acceleration structures, textures.
+//! A scene on the device: buffers that shaders read by address, acceleration structures, textures.
 
 use std::mem;
 use std::sync::Arc;
@@ -24,31 +24,30 @@ use crate::model::Model;
 /// }
 /// ```
 pub struct SceneOnGpu {
-    /// The top level, all instances.
+    /// The top level, with all instances.
     pub tlas: AccelerationStructure,
-    /// One bottom level a mesh, in the model's order.
+    /// One bottom level per mesh, in the model's order.
     pub blas: Vec<AccelerationStructure>,
-    /// Where each mesh lies, in the model's order: the record of an instance, whose material is still to be
-    /// filled in.
+    /// The addresses of each mesh, in the model's order: the record of an instance, still without its material.
     pub meshes: Vec<InstanceRecord>,
     /// Every texture of the model.
     pub textures: Arc<TextureTable>,
-    /// Where shaders find the rest.
+    /// The addresses of the scene's arrays, for shaders.
     pub addresses: SceneAddresses,
-    /// What it was built with.
+    /// The options it was built with.
     pub options: SceneOptions,
     _buffers: Vec<Buffer>,
 }
 
-/// How a scene is uploaded and its acceleration structures are built.
+/// Options for uploading a scene and building its acceleration structures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneOptions {
-    /// Order primitives and instances in space before the build.
+    /// Sort primitives and instances in space before the build.
     pub ordering: bool,
-    /// Promise that an any-hit shader runs at most once for each triangle that a ray crosses.
+    /// Guarantee that an any-hit shader runs at most once per triangle and ray.
     pub no_duplicate_any_hit: bool,
-    /// Keep positions in the bottom levels alone: hit shaders fetch corners from there, and vertices are
-    /// freed after the build.
+    /// Keep positions only in the bottom levels: hit shaders fetch corners from there, and vertices are freed
+    /// after the build.
     pub position_fetch: bool,
     /// Make all mip levels of the textures.
     pub mipmaps: bool,
@@ -61,7 +60,7 @@ impl Default for SceneOptions {
     }
 }
 
-/// Buffers that shaders read by address and builds read their input from: for samples that ask for ray tracing.
+/// Usage of buffers that shaders read by address and that are input of builds: for samples that require ray tracing.
 pub fn input_usage() -> vk::BufferUsageFlags {
     Buffer::ADDRESSED | vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
 }
@@ -70,13 +69,13 @@ impl SceneOnGpu {
     /// Uploads a scene and builds its acceleration structures.
     ///
     /// # Errors
-    /// If memory is short, or an instance's index or record offset takes more than 24 bits.
+    /// If memory is short, or an instance's index or record offset needs more than 24 bits.
     pub fn new(gpu: &Gpu, scene: &Scene, options: SceneOptions) -> Result<Self> {
         let textures = textures(gpu, &scene.model, options.mipmaps)?;
         Self::build(gpu, scene, options, textures)
     }
 
-    /// As [`SceneOnGpu::new`], with textures that are on the device already.
+    /// As [`SceneOnGpu::new`], with textures already on the device.
     ///
     /// # Errors
     /// As [`SceneOnGpu::new`].
@@ -101,11 +100,11 @@ impl SceneOnGpu {
         Ok(())
     }
 
-    /// Uploads a scene without acceleration structures, for a sample that finds hits by itself: where shaders find
-    /// all that they read of a hit, the textures, and the buffers, which are to be kept.
+    /// Uploads a scene without acceleration structures, for a sample that finds hits by itself. Returns the
+    /// addresses for shaders, the textures, and the buffers, which the caller must keep.
     ///
-    /// Primitive `i` of mesh `m`, as the sample numbers them, is triangle `orders[m][i]` of the model: what a shader
-    /// finds in the record's `original`. Textures that are `kept` are not uploaded again, and pipelines stay valid.
+    /// Primitive `i` of mesh `m`, in the sample's numbering, is triangle `orders[m][i]` of the model: shaders find
+    /// it in the record's `original`. `kept` textures are not uploaded again, and pipelines stay valid.
     ///
     /// # Errors
     /// If memory is short.
@@ -142,7 +141,7 @@ impl SceneOnGpu {
         Ok(Self { tlas, blas, meshes, textures, addresses, options, _buffers: buffers })
     }
 
-    /// Builds a top level of a scene's instances, each with the bottom level that `blas` has for its position.
+    /// Builds a top level of a scene's instances; `blas` returns the bottom level for each instance's index.
     ///
     /// # Errors
     /// If memory is short.
@@ -155,7 +154,7 @@ impl SceneOnGpu {
         let order = order::for_build(gpu, &scene.bounds_of_instances(), options.ordering);
         let placed = order.into_iter().map(|index| {
             let (index, instance) = (index as usize, &scene.instances[index as usize]);
-            // The custom index stays the scene's, whatever the order of the build.
+            // The custom index is the scene's, whatever the order of the build.
             instance_on_gpu(&instance.transform, index, instance.record_offset, blas(index))
         });
         build_top(gpu, &placed.collect::<Vec<_>>())
@@ -173,7 +172,7 @@ fn textures(gpu: &Gpu, model: &Model, mipmaps: bool) -> Result<Arc<TextureTable>
     Ok(Arc::new(TextureTable::new(gpu, &textures.collect::<Vec<_>>(), mipmaps)?))
 }
 
-/// The records of instances and materials in one buffer, and where each kind lies.
+/// The records of instances and materials in one buffer, and the address of each array.
 fn records(
     gpu: &Gpu,
     Scene { model, instances, .. }: &Scene,
@@ -192,7 +191,7 @@ fn records(
     Ok((records, addresses))
 }
 
-/// Builds a top level from instances that are in the order of the build.
+/// Builds a top level from instances already in the order of the build.
 ///
 /// ```no_run
 /// use raybook::prelude::*;
@@ -231,7 +230,7 @@ pub fn build_top(
     let asked = |i: &vk::AccelerationStructureInstanceKHR| {
         // SAFETY: the instances of a build on the device name bottom levels by address.
         let level = unsafe { i.acceleration_structure_reference.device_handle };
-        // One that not every ray sees may be hidden just because there is no hit group for it.
+        // An instance with a partial mask may be hidden because it has no hit group.
         let is_seen = i.instance_custom_index_and_mask.high_8() == 0xff;
         let kind = gpu.level_at(level).filter(|_| is_seen);
         (i.instance_shader_binding_table_record_offset_and_flags.low_24(), kind)
@@ -240,13 +239,13 @@ pub fn build_top(
     Ok(top)
 }
 
-/// An instance as the device reads it: 64 bytes.
+/// An instance in its device form, 64 bytes.
 pub fn instance_bytes(instance: &vk::AccelerationStructureInstanceKHR) -> [u8; 64] {
     // SAFETY: it is 64 bytes without padding, as Vulkan lays it out, and any bytes are an array of bytes.
     unsafe { mem::transmute(*instance) }
 }
 
-/// A bottom level in its place, seen by every ray: its custom index, and its first hit record.
+/// An instance of a bottom level, visible to every ray, with its custom index and first hit record.
 ///
 /// ```no_run
 /// use raybook::prelude::*;
@@ -279,11 +278,11 @@ pub fn transform(transform: &glam::Affine3A) -> vk::TransformMatrixKHR {
     vk::TransformMatrixKHR { matrix: [x.x, x.y, x.z, t.x, y.x, y.y, y.z, t.y, z.x, z.y, z.z, t.z] }
 }
 
-/// Boxes for an intersection shader, each its low and its high corner, where a build reads them.
+/// Boxes for an intersection shader, each as its low and high corner, in a buffer for a build.
 ///
-/// A device may enlarge a box as it likes, and so call the shader for rays that pass far from it: "AABB
-/// primitive bounds consist of all points within an implementation-defined bound which includes the
-/// specified box" (Vulkan specification, Ray Intersection Candidate Determination).
+/// A device may enlarge a box at will, and so call the shader for rays that pass far from it: "AABB primitive
+/// bounds consist of all points within an implementation-defined bound which includes the specified box" (Vulkan
+/// specification, Ray Intersection Candidate Determination).
 ///
 /// ```no_run
 /// use raybook::prelude::*;

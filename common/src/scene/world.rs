@@ -12,11 +12,11 @@ use crate::model::obj;
 /// Meshes, materials and textures with their placements.
 #[derive(Clone)]
 pub struct Scene {
-    /// What there is to place.
+    /// The model whose meshes are placed.
     pub model: Model,
-    /// What is placed where. Several instances of a mesh share its memory.
+    /// The placed meshes. Several instances of a mesh share its memory.
     pub instances: Vec<Instance>,
-    /// A view that shows it.
+    /// A view of the scene.
     pub camera: Camera,
 }
 
@@ -29,13 +29,12 @@ pub struct Instance {
     pub transform: Affine3A,
     /// The material, by position in the model.
     pub material: usize,
-    /// The first hit record of the shader binding table that is its own, below 2^24:
-    /// `instanceShaderBindingTableRecordOffset`.
+    /// Its first hit record in the shader binding table, below 2^24: `instanceShaderBindingTableRecordOffset`.
     pub record_offset: u32,
 }
 
 impl Scene {
-    /// Opens an OBJ file: each mesh once, where the file puts it, seen whole.
+    /// Opens an OBJ file: each mesh once, at its place in the file, with a camera that shows all of it.
     ///
     /// # Errors
     /// As [`obj::load`].
@@ -62,8 +61,8 @@ impl Scene {
         })
     }
 
-    /// Corners of the box around each instance, in world space, in the order of `instances`: each mesh is looked
-    /// at once, however often it stands somewhere.
+    /// Corners of the box around each instance, in world space, in the order of `instances`. Each mesh is examined
+    /// once, however many instances it has.
     pub fn bounds_of_instances(&self) -> Vec<(Vec3, Vec3)> {
         let meshes: Vec<_> = self.model.meshes.iter().map(Mesh::bounds).collect();
         let around = |instance: &Instance| moved_bounds(meshes[instance.mesh], &instance.transform);
@@ -86,7 +85,7 @@ impl Scene {
     }
 }
 
-/// Corners of the box around a box that a transform has moved.
+/// Corners of the box around a transformed box.
 pub fn moved_bounds((low, high): (Vec3, Vec3), transform: &Affine3A) -> (Vec3, Vec3) {
     let middle = transform.transform_point3a(((low + high) * 0.5).into());
     let half = (high - low) * 0.5;

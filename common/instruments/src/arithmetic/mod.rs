@@ -1,5 +1,5 @@
-//! `--arithmetic`: whose arithmetic a run is done in, the driver's or the worst that the specification lets any
-//! driver have; and traversal that offers more than it must.
+//! `--arithmetic`: the arithmetic of a run, the driver's own or the worst-case rounding allowed by Vulkan; the latter
+//! also makes traversal report more candidates than necessary.
 
 mod operations;
 mod rewrite;
@@ -15,31 +15,31 @@ use common::gpu::shader::StageText;
 use common::gpu::{DriverShim, Requirements, contraction};
 use glam::Vec3;
 
-/// The name of a shader's own `main` while another calls it.
+/// The new name of a shader's own `main`, called by the added one.
 const MAIN: &str = "shader_main";
 
-/// How shaders compute.
+/// The arithmetic of shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Arithmetic {
-    /// As the driver does.
+    /// The driver's own
     #[default]
     Driver,
-    /// As inexactly as Vulkan allows: the same operation on the same operands gives the same result.
+    /// Worst-case rounding allowed by Vulkan; the same operation on the same operands gives the same result
     Worst,
-    /// The same, but the result also depends on the place of the operation in the code
-    // If there is a `seed`, on the pipeline, too.
+    /// The same, but the result also depends on the position of the operation in the code
+    // With a `seed`, it also depends on the pipeline.
     WorstByPlace,
 }
 
-/// The number that `ARITHMETIC_SEED` gives tests: every pipeline is then another compiler's work, and every
-/// build in another order. Vulkan promises equal results of *identical* pipelines alone (appendix Invariance,
-/// rules 4 and 7).
+/// The number in the environment variable `ARITHMETIC_SEED`, for tests: every pipeline then behaves as if built by
+/// another compiler, and every build has another order. Vulkan guarantees equal results only for *identical* pipelines
+/// (appendix Invariance, rules 4 and 7).
 pub fn seed() -> Option<u64> {
     std::env::var("ARITHMETIC_SEED").ok()?.parse().ok()
 }
 
 impl Arithmetic {
-    /// This, or `worst-by-place` where nothing else is asked for and there is a [`seed`].
+    /// This, or `worst-by-place` if it is the default and there is a [`seed`].
     pub fn or_seeded(self) -> Self {
         match self {
             Self::Driver if seed().is_some() => Self::WorstByPlace,
@@ -47,16 +47,16 @@ impl Arithmetic {
         }
     }
 
-    /// Whether shaders are rewritten.
+    /// True if shaders are rewritten.
     pub fn is_worst(self) -> bool {
         self != Self::Driver
     }
 
-    /// A shader's text with all that its words, compiled before, will call: worst.glsl, and in place of the
-    /// shader's `main` one that mentions it, as glslang leaves out what nothing mentions.
+    /// A shader's text extended for its SPIR-V, compiled before: worst.glsl, and a new `main` that mentions every
+    /// function it will call, because glslang removes unused ones.
     ///
     /// # Errors
-    /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
+    /// If the words are not SPIR-V, or contain an operation that worst.glsl does not have.
     fn prepared(text: &str, words: &[u32]) -> Result<String> {
         let worst = include_str!("worst.glsl");
         let rewrite::Needs { calls, declared, meets_triangles } = rewrite::needs(words)?;
@@ -71,11 +71,11 @@ impl Arithmetic {
         ))
     }
 
-    /// The stage's module as the driver gets it; its path tells one module's places from another's, and where
-    /// there is a [`seed`], so does the pipeline that it is for.
+    /// The stage's module as passed to the driver. The seed of its operations includes its path and, if there is a
+    /// [`seed`], the pipeline.
     ///
     /// # Errors
-    /// If the words are no SPIR-V, or hold an operation that worst.glsl does not have.
+    /// If the words are not SPIR-V, or contain an operation that worst.glsl does not have.
     pub fn applied(self, stage: &StageText, words: Vec<u32>) -> Result<Vec<u32>> {
         let seed = match self {
             Self::Driver => return Ok(words),
@@ -92,7 +92,7 @@ impl Arithmetic {
         let rewritten = rewrite::worst(&words, seed).with_context(|| {
             format!("shader '{}' cannot be had in the worst arithmetic", stage.path)
         })?;
-        // What the worst arithmetic computes itself, the driver must not rearrange.
+        // The driver must not rearrange the emulated arithmetic itself.
         contraction::without(&rewritten)
     }
 }
@@ -121,12 +121,12 @@ impl DriverShim for Arithmetic {
         self.applied(stage, words)
     }
 
-    /// By place, the device cannot, so that both kinds of shaders are tried.
+    /// By place, it claims not to support it, so that both kinds of shaders are tested.
     fn rounds_to_nearest_even(&self) -> bool {
         *self != Self::WorstByPlace
     }
 
-    /// Turned round, or shuffled if there is a [`seed`].
+    /// Reversed, or shuffled if there is a [`seed`].
     fn order(&self, mut primitives: Vec<u32>) -> Vec<u32> {
         match seed() {
             _ if !self.is_worst() => {}
@@ -136,13 +136,13 @@ impl DriverShim for Arithmetic {
         primitives
     }
 
-    /// Each twice. Opaque ones are, too: a ray may ask any-hit shaders about them.
+    /// Each twice, including opaque ones: a ray's flags may make them call any-hit shaders.
     fn candidates(&self, triangles: Vec<u32>) -> Vec<u32> {
         let times = if self.is_worst() { 2 } else { 1 };
         triangles.into_iter().flat_map(|i| std::iter::repeat_n(i, times)).collect()
     }
 
-    /// Larger by half of the longest side, each way.
+    /// Larger by half of the longest side in each direction.
     fn boxes(&self, mut boxes: Vec<[Vec3; 2]>) -> Vec<[Vec3; 2]> {
         for [low, high] in boxes.iter_mut().filter(|_| self.is_worst()) {
             let by = 0.5 * (*high - *low).max_element();
@@ -152,7 +152,7 @@ impl DriverShim for Arithmetic {
     }
 }
 
-/// Puts a list in an order that the seed, the list and the program decide: another program's build is another's.
+/// Permutes a list depending on the seed, the list and the program, so that each program's builds differ.
 fn shuffle(order: &mut [u32], seed: u64) {
     let program =
         std::env::args_os().next().and_then(|path| Some(Path::new(&path).file_name()?.to_owned()));
@@ -162,7 +162,7 @@ fn shuffle(order: &mut [u32], seed: u64) {
         hasher.finish()
     };
     let mut keyed: Vec<(u64, u32)> = order.iter().map(|i| (key(i), *i)).collect();
-    // Neighbours stay near each other, for time's sake: whole runs change places, and so do those within.
+    // Neighbours stay close to each other, to save time: whole runs are permuted, and the elements within each.
     keyed.chunks_mut(16).for_each(|run| run.sort_unstable());
     let mut runs: Vec<_> = keyed.chunks(16).collect();
     runs.sort_unstable();

@@ -1,11 +1,10 @@
-//! Which instruction of SPIR-V is which function of worst.glsl.
+//! The mapping from SPIR-V instructions to functions of worst.glsl.
 
 use anyhow::{Context, Result, bail};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{GlslStd450Op, Op, Word};
 
-/// The function for an instruction and the operands that it takes; `None` if it computes nothing that
-/// could be inexact.
+/// The function for an instruction and its operands; `None` if its result is always exact.
 pub fn operation(instruction: &Instruction) -> Result<Option<(&'static str, Vec<Word>)>> {
     let mut operands = ids(&instruction.operands);
     let name = match instruction.class.opcode {
@@ -49,7 +48,7 @@ pub fn operation(instruction: &Instruction) -> Result<Option<(&'static str, Vec<
         | Op::FUnordGreaterThan
         | Op::FUnordGreaterThanEqual
         | Op::QuantizeToF16) => bail!("worst.glsl has no {op:?}"),
-        // A change of sign is exact; so is what neither adds nor rounds.
+        // A change of sign is exact, and so are operations that neither add nor round.
         _ => return Ok(None),
     };
     Ok(Some((name, operands)))
@@ -96,7 +95,7 @@ fn extended(number: u32) -> Result<Option<&'static str>> {
         GlslStd450Op::FaceForward => "worst_faceforward",
         GlslStd450Op::Reflect => "worst_reflect",
         GlslStd450Op::Refract => "worst_refract",
-        // Of whole numbers and of bits.
+        // Integer and bit operations.
         GlslStd450Op::SAbs
         | GlslStd450Op::SSign
         | GlslStd450Op::UMin

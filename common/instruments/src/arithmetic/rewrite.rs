@@ -1,9 +1,9 @@
-//! Every operation of a module becomes a call of the function of worst.glsl that bears its name.
+//! Replaces every operation of a module by a call of the corresponding function of worst.glsl.
 //!
-//! glslang compiles those functions together with the shader, so nothing needs to be linked: an
-//! instruction keeps its result's id and turns into `OpFunctionCall`. Which overload it calls, its operands'
-//! types say, in the names that glslang gives functions: `worst_add(vf3;vf3;u1;`. As glslang leaves out
-//! what nothing calls, a first look at the module finds which functions it will need.
+//! glslang compiles those functions together with the shader, so no linking is needed: an instruction keeps its
+//! result's id and turns into `OpFunctionCall`. The types of its operands select the overload, by the names that
+//! glslang gives functions: `worst_add(vf3;vf3;u1;`. Because glslang removes unused functions, a first pass over
+//! the module collects the functions it will need.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -15,20 +15,20 @@ use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, Stor
 use super::operations::{ids, operation};
 use super::signature::{glsl_call, type_name};
 
-/// What the names of worst.glsl's functions begin with.
+/// Prefix of worst.glsl's functions.
 const PREFIX: &str = "worst_";
 
-/// What worst.glsl needs to know of a module.
+/// Properties of a module that worst.glsl depends on.
 pub struct Needs {
-    /// The functions that it will call, each as a call in GLSL.
+    /// The functions it will call, each as a call in GLSL.
     pub calls: Vec<String>,
-    /// What its entry point declares: a macro and whether it does.
+    /// Declarations of its entry point: a macro, and true if it is declared.
     pub declared: [(&'static str, bool); 3],
-    /// Whether it is told of the device's own triangles.
+    /// True if it receives the device's own triangle hits.
     pub meets_triangles: bool,
 }
 
-/// Looks at a module before it is compiled with worst.glsl.
+/// Examines a module before it is compiled with worst.glsl.
 ///
 /// # Errors
 /// As [`worst`].
@@ -49,10 +49,10 @@ pub fn needs(words: &[u32]) -> Result<Needs> {
     Ok(Needs { calls, declared, meets_triangles })
 }
 
-/// The words of a module, rewritten. With a `seed`, the place of an operation changes its errors, too.
+/// Rewrites a module. With a `seed`, the errors also depend on the position of an operation.
 ///
 /// # Errors
-/// If the words are no SPIR-V, or an operation is not among worst.glsl's.
+/// If the words are not SPIR-V, or an operation is missing in worst.glsl.
 pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
     let mut module = rspirv::dr::load_words(words).ok().context("not a SPIR-V module")?;
     let mut rewriter = Rewriter::new(&module, seed)?;
@@ -69,19 +69,19 @@ pub fn worst(words: &[u32], seed: Option<u32>) -> Result<Vec<u32>> {
     Ok(module.assemble())
 }
 
-/// What is known of a module while it is rewritten.
+/// State of a module while it is rewritten.
 struct Rewriter {
     /// The functions of worst.glsl, by name and parameters.
     own: HashMap<String, Word>,
-    /// Those that are called, or may be.
+    /// The called functions, or those that may be called.
     needed: BTreeSet<String>,
     /// The types of ids.
     types: HashMap<Word, Word>,
-    /// A type as glslang names it.
+    /// A type in glslang's notation.
     names: HashMap<Word, String>,
-    /// The instructions that may not be rearranged.
+    /// The instructions that must not be rearranged.
     precise: HashSet<Word>,
-    /// The variables that hold a hit's distance, and the weights of its triangle's corners.
+    /// The variables with a hit's distance, and the barycentrics of a triangle.
     distances: HashSet<Word>,
     weights: HashSet<Word>,
     /// RoundingModeRTE and DenormPreserve.
@@ -115,7 +115,7 @@ impl Rewriter {
                 names.insert(id, name);
             }
         }
-        // A module without operations may be without numbers, too.
+        // A module without operations may have no number types either.
         let uint = names.iter().find(|(_, name)| *name == "u1").map_or(0, |(id, _)| *id);
         let decorated = |wanted: Decoration, builtin: Option<BuiltIn>| -> HashSet<Word> {
             let found = module.annotations.iter().filter_map(|i| match i.operands[..] {
@@ -135,7 +135,7 @@ impl Rewriter {
             .filter(|i| i.class.opcode == Op::TypePointer)
             .filter_map(|i| Some((i.result_id?, names.get(ids(&i.operands).first()?)?)))
             .collect();
-        // The attributes of a procedural hit are no weights.
+        // The attributes of a procedural hit are not barycentrics.
         let attributes = module.types_global_values.iter().filter(|i| {
             let of = i.result_type.and_then(|of| pointees.get(&of));
             i.class.opcode == Op::Variable
@@ -193,7 +193,7 @@ impl Rewriter {
         if op == Op::Load || op == Op::AccessChain {
             return self.load(instruction, out);
         }
-        // A query of boxes would have to be asked which of the two it has met.
+        // For a query of boxes, the shader would have to determine which of the two it hit.
         match op {
             Op::RayQueryGetIntersectionTKHR => {
                 return self.moved(instruction, "worst_query_t", out);
@@ -229,8 +229,8 @@ impl Rewriter {
         Ok(())
     }
 
-    /// What a sum may become with another that it is of, or with a product: not where NoContraction says
-    /// that either stays as it is.
+    /// The rearranged form of a sum together with a sum or a product among its terms; none where NoContraction
+    /// forbids changing either.
     fn rearranged(
         &mut self,
         sum: &Instruction,
@@ -271,7 +271,7 @@ impl Rewriter {
         None
     }
 
-    /// Whether an operation rounds to the nearest float anyway, as RoundingModeRTE is declared.
+    /// True if an operation rounds to the nearest float anyway, because RoundingModeRTE is declared.
     fn is_flushed_only(&self, instruction: &Instruction) -> bool {
         let op = instruction.class.opcode;
         let of = instruction.result_type.and_then(|of| self.names.get(&of));
@@ -279,8 +279,8 @@ impl Rewriter {
         is_single && matches!(op, Op::FAdd | Op::FSub | Op::FMul)
     }
 
-    /// The operation itself, and where its result is denormalized, zero: a two-float has hundreds of
-    /// operations, and a call for each would take the driver's compiler a minute.
+    /// The operation itself, and zero if its result is denormalized: a two-float has hundreds of operations, and a
+    /// call for each would take the driver's compiler a minute.
     fn flushed(&mut self, mut exact: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
         let (of, result) = (exact.result_type, exact.result_id);
         if self.declares_denormals || self.skips_a_place() {
@@ -314,13 +314,13 @@ impl Rewriter {
         Ok(())
     }
 
-    /// Every other place keeps denormalized results, where places differ.
+    /// With differences by place, every other position keeps denormalized results.
     fn skips_a_place(&mut self) -> bool {
         self.place += 1;
         self.seed.is_some_and(|seed| (seed ^ self.place.wrapping_mul(0x9e37_79b9)) & 1 == 1)
     }
 
-    /// A type by the name that glslang gives it, which the module may not have yet.
+    /// A type by its name in glslang's notation; it may still be missing in the module.
     fn type_named(&mut self, wanted: &str) -> Result<Word> {
         if let Some((id, _)) = self.names.iter().find(|(_, name)| *name == wanted) {
             return Ok(*id);
@@ -341,7 +341,7 @@ impl Rewriter {
         Ok(id)
     }
 
-    /// A constant of whole numbers, the same in all components of a vector.
+    /// An integer constant, the same in all components of a vector.
     fn splat(&mut self, of: Word, size: Option<u32>, value: u32) -> Result<Word> {
         if let Some(known) = self.splats.get(&(of, value)) {
             return Ok(*known);
@@ -371,7 +371,7 @@ impl Rewriter {
         result
     }
 
-    /// A hit's distance and the weights of a triangle's corners, as inexact as they may be.
+    /// A hit's distance and barycentrics, as inexact as allowed.
     fn load(&mut self, load: Instruction, out: &mut Vec<Instruction>) -> Result<()> {
         let Some(Operand::IdRef(variable)) = load.operands.first().cloned() else {
             bail!("a load of nothing");
@@ -390,7 +390,7 @@ impl Rewriter {
         self.moved(load, name, out)
     }
 
-    /// What an instruction reads, and then a call that moves it.
+    /// The operands an instruction reads, followed by a call that perturbs the result.
     fn moved(
         &mut self,
         mut read: Instruction,
@@ -406,7 +406,7 @@ impl Rewriter {
         Ok(())
     }
 
-    /// The call that takes an instruction's place, and its result's id.
+    /// The call that replaces an instruction, and its result's id.
     fn call(
         &mut self,
         replaced: &Instruction,
@@ -429,7 +429,7 @@ impl Rewriter {
         Ok(Instruction::new(Op::FunctionCall, result_type, result, arguments))
     }
 
-    /// The constant that tells the next operation how it is done.
+    /// The constant with the mode of the next operation.
     fn how(&mut self) -> Word {
         let how = match self.seed {
             None => 0,
@@ -453,7 +453,7 @@ impl Rewriter {
         self.bound - 1
     }
 
-    /// Adds the new constants, and takes off calls what decorated the instructions before.
+    /// Adds the new constants, and removes decorations of instructions that became calls.
     fn finish(self, module: &mut Module) {
         module.types_global_values.extend(self.constants);
         module.annotations.retain(|annotation| match annotation.operands[..] {
@@ -468,13 +468,13 @@ impl Rewriter {
     }
 }
 
-/// Whether the entry point declares a mode for 32-bit floats.
+/// True if the entry point declares a mode for 32-bit floats.
 fn declares(module: &Module, mode: ExecutionMode) -> bool {
     let wanted = [Operand::ExecutionMode(mode), Operand::LiteralBit32(32)];
     module.execution_modes.iter().any(|i| i.operands[1..] == wanted)
 }
 
-/// Whether the module is of a stage that is told of the device's own triangles.
+/// True if the module's stage receives the device's own triangle hits.
 fn meets_triangles(module: &Module) -> bool {
     let model = module.entry_points.first().and_then(|entry| entry.operands.first());
     let stages = [ExecutionModel::ClosestHitKHR, ExecutionModel::AnyHitKHR];

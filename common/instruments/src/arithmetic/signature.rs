@@ -1,5 +1,5 @@
-//! Functions and types in the names that glslang gives them: `worst_add(vf3;vf3;u1;` takes two vectors of
-//! three floats and a whole number.
+//! Functions and types in glslang's notation: `worst_add(vf3;vf3;u1;` has two vectors of three floats and an
+//! unsigned integer as parameters.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Op, Word};
 
-/// `worst_add(vf3;vf3;u1;` as a call that GLSL understands.
+/// `worst_add(vf3;vf3;u1;` as a call in GLSL.
 pub fn glsl_call(signature: &str) -> Result<String> {
     let (name, types) = signature.split_once('(').context("no parameters")?;
     let arguments = types.split_terminator(';').map(|of| {
@@ -25,7 +25,7 @@ pub fn glsl_call(signature: &str) -> Result<String> {
     Ok(format!("{name}({});", arguments.collect::<Result<Vec<_>>>()?.join(", ")))
 }
 
-/// A type as glslang writes it in a function's name; `None` of what no operation takes.
+/// A type in glslang's notation for function names; `None` for types that no operation uses.
 pub fn type_name(of: &Instruction, names: &HashMap<Word, String>) -> Option<String> {
     Some(match (of.class.opcode, &of.operands[..]) {
         (Op::TypeBool, _) => "b1".to_owned(),

@@ -1,13 +1,13 @@
-//! `--compare`: what a choice costs. Several values of one control, timed in turns within one run.
+//! `--compare`: the cost of a choice. Several values of one control, timed in turn within one run.
 //!
-//! Times of separate runs differ by the machine's mood. Here every round renders one frame of each
-//! value, in an order that changes from round to round, and only times of the same round are divided
-//! by each other. The first value is timed twice a round: the second time against the first is the
-//! noise floor, which no smaller difference can beat.
+//! Times of separate runs vary with the state of the machine. Here every round renders one frame for each value,
+//! in an order that changes from round to round, and only times of the same round are divided by each other. The
+//! first value is timed twice per round: the ratio of these two times is the noise floor, below which no
+//! difference is significant.
 //!
-//! A small launch keeps a GPU busy for less time than it takes to begin one, and its clocks stay low. So values
-//! are rendered until their times stop falling, and while one takes less than [`LEAST`] the picture is made twice as
-//! wide and as high, and timed again: more rays of the same kind. How long it takes is not computed from the small
+//! A small launch keeps a GPU busy for less time than it takes to start one, and its clocks stay low. So values
+//! are rendered until their times stop falling, and while one takes less than [`LEAST`], the picture is doubled in
+//! width and height, and timed again: more rays of the same kind. The time is not extrapolated from the small
 //! picture: that leaves most of the GPU idle, so 64 times the rays may take 12 times as long.
 
 use std::collections::HashMap;
@@ -19,37 +19,37 @@ use common::app::{Bands, Progress, Run, controls};
 use common::gpu::Image;
 use serde::Serialize;
 
-/// Milliseconds that a launch has to take to be worth timing.
+/// The shortest launch worth timing, in milliseconds; the picture is enlarged until it takes as long.
 const LEAST: f64 = 5.0;
-/// How many times as wide and as high as asked for a picture is made for that, at most.
+/// The largest factor by which width and height of a picture are enlarged for that.
 const WIDEST: u32 = 16;
-/// How many pixels it has for that, at most: a gigabyte of four 32-bit floats.
+/// The most pixels of a picture enlarged for that: a gigabyte of four 32-bit floats.
 const MOST_PIXELS: u64 = 1 << 26;
-/// How many frames warm up a value, at most, and how much less than the least before is less.
+/// The most warm-up frames of a value, and the ratio to the shortest time so far below which times still fall.
 const WARMING: u32 = 20;
 const FALLING: f64 = 0.97;
 
-/// What is to be compared.
+/// The options of `--compare`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Time a control's values in turns, --frames rounds, and print a table
+    /// Time a control's values in turn for --frames rounds, and print a table
     #[arg(long, value_name = "NAME=A|B|…", conflicts_with_all = ["list_controls", "animate"])]
     pub compare: Option<String>,
 }
 
-/// A control's values, measured against the first.
+/// A control's values, measured relative to the first.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Comparison {
     /// The control.
     pub control: String,
-    /// How many rounds were timed, after some frames to warm up.
+    /// Number of rounds that were timed, after some frames of warm-up.
     pub rounds: u32,
-    /// How many frames were rendered, those that warm up among them.
+    /// Number of frames rendered, including the warm-up.
     pub frames: u32,
-    /// The size of the picture, where a device is too fast for the one asked for.
+    /// The size of the picture, if the device is too fast for the requested one.
     pub widened: Option<[u32; 2]>,
-    /// The first value against itself.
+    /// The first value relative to itself.
     pub noise: Ratio,
     /// Each value, in the order given.
     pub values: Vec<Measured>,
@@ -60,20 +60,20 @@ pub struct Comparison {
 pub struct Measured {
     /// The control's value.
     pub value: String,
-    /// The median of the device's milliseconds for a frame.
+    /// The median of the device times of a frame, in milliseconds.
     pub milliseconds: f64,
-    /// Its time over the first value's, of the same round.
+    /// Its time divided by the first value's in the same round.
     pub ratio: Ratio,
 }
 
-/// The middle of the rounds' ratios.
+/// Quartiles of the rounds' ratios.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Ratio {
-    /// A quarter of the rounds lie below.
+    /// A quarter of the rounds are below.
     pub low: f64,
     /// The median.
     pub median: f64,
-    /// A quarter of the rounds lie above.
+    /// A quarter of the rounds are above.
     pub high: f64,
 }
 
@@ -100,15 +100,15 @@ pub fn parse(text: &str) -> Result<(String, Vec<String>), UsageError> {
     }
 }
 
-/// Times the values of a control of a run, as many rounds as it has frames.
+/// Times the values of a control, with as many rounds as the run has frames.
 ///
 /// # Errors
-/// If a value is none of the control's, or the sample or the device fails.
+/// If the control does not have a value, or the sample or the device fails.
 pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Comparison> {
     let rounds = run.args.frames;
     let turns = u64::from(rounds) * (values.len() as u64 + 1);
     let mut progress = Progress::new(turns, "frames");
-    // What a picture costs is known of each value.
+    // The cost per pixel is known for each value.
     let mut bands = HashMap::<_, Bands>::new();
     let mut frames = 0;
     let mut frame = |run: &mut Run, value: &str| {
@@ -116,7 +116,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         controls::set_beside(&run.args.sets, control, value, |c| run.sample.controls(c))?;
         run.time(bands.entry(value.to_owned()).or_default())
     };
-    // A software driver begins at once, and has no clock that rises: there any picture is wide enough.
+    // A software driver starts at once, and its clock does not rise: any picture is wide enough.
     let mut asked = None;
     while !run.gpu.software && has_room(run, asked.as_ref()) {
         let mut quickest = LEAST;
@@ -130,7 +130,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         let extent = vk::Extent2D { width, height };
         let Ok(wide) = Image::storage(&run.gpu, "wide picture", extent) else { break };
         let before = std::mem::replace(&mut run.image, wide);
-        // A chapter may have no room for what it keeps of so many pixels.
+        // A chapter may lack memory for so many pixels.
         if values.iter().any(|value| frame(run, value).is_err()) {
             run.image = before;
             break;
@@ -142,7 +142,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
         progress.step();
         frame(run, value)
     })?;
-    // What is rendered after it has the size that was asked for.
+    // Later frames have the requested size again.
     if let Some(asked) = asked {
         run.image = asked;
     }
@@ -150,7 +150,7 @@ pub fn of_run(run: &mut Run, control: &str, values: &[String]) -> Result<Compari
     Ok(comparison)
 }
 
-/// Whether a picture may be made twice as wide and as high again; `asked` is the first one, if it was made larger.
+/// True if a picture may be doubled again in width and height; `asked` is the first one, if it was enlarged.
 fn has_room(run: &Run, asked: Option<&Image>) -> bool {
     let [width, height] = twice(run.image.extent);
     let first = asked.map_or(run.image.extent, |image| image.extent);
@@ -164,7 +164,7 @@ fn twice(extent: vk::Extent2D) -> [u32; 2] {
     [extent.width, extent.height].map(|pixels| pixels.saturating_mul(2))
 }
 
-/// Renders frames until they take no less time than those before; the least.
+/// Renders frames until their times stop falling; returns the shortest.
 fn warm_up(mut frame: impl FnMut() -> Result<f64>) -> Result<f64> {
     let mut least = frame()?;
     for _ in 1..WARMING {
@@ -188,7 +188,7 @@ pub fn compare(
     rounds: u32,
     mut frame: impl FnMut(&str) -> Result<f64>,
 ) -> Result<Comparison> {
-    // The first value stands at the end once more, for the noise.
+    // The first value is repeated at the end, for the noise.
     let turns: Vec<&str> = values.iter().chain(&values[..1]).map(String::as_str).collect();
     for value in values {
         warm_up(|| frame(value))?;
@@ -222,7 +222,7 @@ pub fn compare(
 }
 
 impl Comparison {
-    /// The comparison as a Markdown table, as the pages show it.
+    /// The comparison as a Markdown table, for the pages.
     pub fn table(&self) -> String {
         let first = self.values.first().map_or("", |measured| &measured.value);
         let mut table = format!(
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn ratios_are_of_the_same_round() {
-        // A machine that slows down by half a percent a frame: medians of times would be skewed.
+        // A machine that slows down by half a percent per frame: medians of times would be skewed.
         let mut slow = 1.0;
         let comparison = compare("rung", &["a".into(), "b".into()], 30, |value| {
             slow *= 1.005;
@@ -282,7 +282,7 @@ mod tests {
             Ok(1.0)
         })
         .unwrap();
-        // Two frames of each warm up.
+        // Two warm-up frames for each.
         let rounds: Vec<_> = order[4..].chunks(3).map(|round| round[0].as_str()).collect();
         assert!(rounds.contains(&"a") && rounds.contains(&"b"), "{rounds:?}");
     }
@@ -295,7 +295,7 @@ mod tests {
         }
     }
 
-    /// A sample that notes what it was asked to build, and of which frames it was asked for.
+    /// A sample that records the builds and frames requested of it.
     #[derive(Default)]
     struct Noting {
         preset: u32,
@@ -335,7 +335,7 @@ mod tests {
         let options = crate::Options::from_arg_matches(&found).unwrap();
         crate::start::<Noting>("test", &args, options).unwrap();
         let mut notes = std::mem::take(&mut *NOTES.lock().unwrap());
-        // A frame is asked for once for each of its bands.
+        // `render` is called once per band.
         notes.dedup();
         for pair in notes.chunks(2) {
             assert!(pair[0].starts_with("build ") && pair[1] == "frame 0", "{pair:?}");

@@ -1,9 +1,8 @@
-//! A GPU's own compiler without the GPU: Mesa's RADV on a card that is not there.
+//! A GPU's own compiler without the GPU: Mesa's RADV on an emulated card.
 //!
-//! Mesa's `drm-shim` takes the place of the kernel's driver: preloaded, it shows RADV a card of whatever family
-//! `AMDGPU_GPU_ID` names, with all that such a card has. What is submitted to it is never executed. Mesa before
-//! 26 has another way for compilers alone: with `RADV_FORCE_FAMILY` RADV shows "Null hardware" of that family,
-//! without memory or images.
+//! Mesa's `drm-shim` replaces the kernel's driver: preloaded, it shows RADV a card of the family named by
+//! `AMDGPU_GPU_ID`, with all its features. Submitted work is never executed. Mesa before 26 has another way for
+//! compiling only: with `RADV_FORCE_FAMILY` RADV shows "Null hardware" of that family, without memory or images.
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
@@ -13,7 +12,7 @@ use common::gpu::{
     Executable, Gpu, GpuOptions, PipelineDesc, Requirements, TextureTable, Vulkan, device,
 };
 
-/// What an absent card's driver has to say.
+/// The result from the driver of a card that is not installed.
 #[derive(Serialize, Deserialize)]
 pub struct Answer {
     /// The driver's name and version.
@@ -22,13 +21,13 @@ pub struct Answer {
     pub pipelines: Vec<Vec<Executable>>,
 }
 
-/// What RADV makes of each pipeline for a family, by RADV's name for it; `None` if there is no such card.
+/// RADV's statistics for each pipeline, for a family by RADV's name; `None` if there is no such card.
 ///
-/// To be called in a process of its own, whose environment brings the card: it may crash, and may hide the
-/// cards that are there. Mesa keeps what it has compiled, with its figures, for the next time.
+/// Call it in a separate process whose environment provides the card: it may crash, and may hide the installed
+/// cards. Mesa caches compiled pipelines with their statistics for the next time.
 ///
 /// # Errors
-/// If the card lacks what the sample needs, or if its compiler refuses.
+/// If the card lacks something the sample needs, or its compiler refuses.
 pub fn compile(
     requirements: &Requirements,
     family: &str,
@@ -46,7 +45,7 @@ pub fn compile(
     let gpu = Gpu::open(vulkan, card, GpuOptions { requirements, ..GpuOptions::default() })?;
     let pipelines: Result<_> = descs.iter().map(|desc| one(&gpu, desc)).collect();
     let compiler = gpu.driver.clone();
-    // "Null hardware" crashes where its queue is waited for: the device goes with the process.
+    // "Null hardware" crashes when its queue is waited for: the process frees the device.
     std::mem::forget(gpu);
     Ok(Some(Answer { compiler, pipelines: pipelines? }))
 }

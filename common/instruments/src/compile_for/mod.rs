@@ -1,8 +1,8 @@
-//! `--compile-for`: what a GPU's own compiler makes of a sample's pipelines, on a machine without that GPU.
+//! `--compile-for`: a GPU compiler's statistics for a sample's pipelines, on a machine without that GPU.
 //!
-//! The sample runs on whatever device there is and makes its pipelines. What they were made from goes to
-//! a child process for each family, in which Mesa's RADV compiles it for a card that is not there
-//! ([`absent`]). The figures are that compiler's estimates, not times.
+//! The sample runs on any device and creates its pipelines. Their descriptions are passed to a child process for
+//! each family, in which Mesa's RADV compiles them for an emulated card ([`absent`]). The numbers are that
+//! compiler's estimates, not times.
 
 pub mod absent;
 
@@ -22,20 +22,20 @@ use common::output;
 
 use common::exit::child::{self, Crashed};
 
-/// What is asked of compilers.
+/// The options of `--compile-for`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Have Mesa's compiler for AMD GPUs make the pipelines too, and print what it says; no such GPU is needed
+    /// Also compile the pipelines with Mesa's compiler for AMD GPUs and print its statistics; no such GPU is needed
     #[arg(long, value_name = "FAMILY", value_enum)]
     pub compile_for: Option<Family>,
 
-    /// Make the pipelines on standard input for the family there: the child of --compile-for
+    /// Compile the pipelines on standard input for the family given there: the child process of --compile-for
     #[arg(long, hide = true)]
     pub answer_compile_for: bool,
 }
 
-/// A family of GPUs that RADV compiles ray tracing pipelines for.
+/// A GPU family for which RADV compiles ray tracing pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Family {
     /// RDNA2
@@ -49,7 +49,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// The families that are meant, by RADV's names.
+    /// RADV's names of the selected families.
     fn names(self) -> &'static [&'static str] {
         match self {
             Self::Navi21 => &["navi21"],
@@ -60,44 +60,44 @@ impl Family {
     }
 }
 
-/// What RADV says of one program of a pipeline. All figures are its compiler's: comparable between programs
-/// of one shape, and no times.
+/// RADV's statistics for one program of a pipeline. All numbers are its compiler's: comparable between similar
+/// programs, but they are not times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CompiledFor {
     /// RADV's name for the family.
     pub family: &'static str,
-    /// The driver whose compiler it is, with its version, on which the figures depend.
+    /// The driver of that compiler, with its version, on which the numbers depend.
     pub compiler: String,
-    /// The pipeline, where the sample has several: its name and its number.
+    /// The pipeline, if the sample has several: its name and its number.
     pub pipeline: String,
     /// The driver's name for the program.
     pub executable: String,
-    /// The stages that the program was made of.
+    /// The stages in the program.
     pub stage: String,
-    /// Vector registers a lane.
+    /// Vector registers per lane.
     pub registers: u64,
-    /// Registers, scalar and vector, that did not fit and live in memory.
+    /// Registers, scalar and vector, spilled to memory.
     pub spilled_registers: u64,
-    /// Bytes of memory a wave, for spilled registers, stack and arrays.
+    /// Bytes of memory per wave, for spilled registers, stack and arrays.
     pub scratch_bytes: u64,
     /// Bytes of machine code.
     pub code_bytes: u64,
     /// Machine instructions.
     pub instructions: u64,
-    /// Waves that one SIMD unit can hold at a time: more hide more waiting.
+    /// Waves that one SIMD unit can hold at a time: more of them hide more latency.
     pub waves: u64,
-    /// Invocations a wave.
+    /// Invocations per wave.
     pub wave_size: u32,
-    /// Estimated cycles from the program's start to its end, loops counted as the compiler assumes.
+    /// Estimated cycles from the program's start to its end, with loop counts assumed by the compiler.
     pub latency: u64,
-    /// Estimated cycles between the ends of two waves where there are many.
+    /// Estimated cycles between the ends of two waves when there are many.
     pub inverse_throughput: u64,
 }
 
-/// What the compiler of each family makes of these pipelines, each counted once: the rows of [`table`].
+/// The statistics of each family's compiler for these pipelines, each counted once: the rows of [`table`].
 ///
 /// # Errors
-/// If there is no RADV, with what to install, or if it refuses a pipeline.
+/// If there is no RADV (says what to install), or if it refuses a pipeline.
 pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<CompiledFor>> {
     let mut different: Vec<&PipelineDesc> = Vec::new();
     for desc in descs {
@@ -119,8 +119,8 @@ pub fn compile_for(family: Family, descs: &[Arc<PipelineDesc>]) -> Result<Vec<Co
     Ok(all)
 }
 
-/// What the compiler of each family makes of each pipeline: the programs of the first, of the second, and
-/// so on. However many pipelines there are, each family has one child process.
+/// The statistics of each family's compiler for each pipeline: the programs of the first, of the second, and so
+/// on. Each family has one child process, however many pipelines there are.
 ///
 /// # Errors
 /// As [`compile_for`].
@@ -142,7 +142,7 @@ pub fn programs(family: Family, descs: &[&PipelineDesc]) -> Result<Vec<Vec<Compi
     Ok(all)
 }
 
-/// The child's part: reads a family and pipelines from standard input, and prints what RADV makes of them.
+/// The child's part: reads a family and pipelines from standard input, and prints RADV's statistics.
 ///
 /// # Errors
 /// If it refuses.
@@ -155,8 +155,8 @@ pub fn answer(requirements: &Requirements) -> Result<()> {
     output::print(&serde_json::to_string(&answer)?)
 }
 
-/// What brings a card of this family into a child's environment, the best way first: Mesa's drm-shim, which
-/// the system's own linker finds wherever it is installed, and RADV's own null hardware.
+/// Environment variables that provide a card of this family to a child process, the best first: Mesa's drm-shim,
+/// which the system's linker finds wherever it is installed, and RADV's own null hardware.
 pub fn ways(family: &str) -> [Vec<(&'static str, OsString)>; 2] {
     let mut preloaded = OsString::from("libamdgpu_noop_drm_shim.so");
     if let Some(others) = std::env::var_os("LD_PRELOAD") {
@@ -181,7 +181,7 @@ fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
             .env_remove("RADV_FORCE_FAMILY")
             .envs(way);
         let answer = match child::ask(&mut command, question) {
-            // drm-shim aborts the process where it does not know the card.
+            // drm-shim aborts the process if it does not know the card.
             Err(error) if error.downcast_ref().is_some_and(is_unknown) => continue,
             answer => answer?,
         };
@@ -202,24 +202,24 @@ fn is_unknown(crashed: &Crashed) -> bool {
     crashed.said.contains("Failed to find amdgpu GPU named")
 }
 
-/// RADV's manifest, by which the loader finds it.
+/// The manifest with which the loader finds RADV.
 ///
 /// # Errors
-/// If there is none, with what to install.
+/// If there is none; says what to install.
 pub fn manifest() -> Result<PathBuf> {
-    // Where the loader itself looks: the variable takes the place of the usual folders.
+    // The loader's own search path: the variable replaces the usual folders.
     let shared = std::env::var("XDG_DATA_DIRS").unwrap_or_default();
     let shared = if shared.is_empty() { "/usr/local/share:/usr/share" } else { &shared };
     manifest_in(["/etc"].into_iter().chain(shared.split(':').filter(|folder| !folder.is_empty())))
 }
 
-/// RADV's manifest in one of these folders of configuration and shared data.
+/// RADV's manifest in one of these configuration and shared-data folders.
 fn manifest_in<'a>(folders: impl Iterator<Item = &'a str>) -> Result<PathBuf> {
     let mut manifests: Vec<PathBuf> = folders
         .filter_map(|folder| Path::new(folder).join("vulkan/icd.d").read_dir().ok())
         .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
         .collect();
-    // On systems of several architectures there is one for each: radeon_icd.x86_64.json.
+    // With several architectures there is one for each: radeon_icd.x86_64.json.
     let fit = format!("radeon_icd.{}.json", std::env::consts::ARCH);
     manifests.sort();
     let named = |wanted: &str| manifests.iter().find(|path| path.ends_with(wanted)).cloned();
@@ -279,7 +279,7 @@ fn stages(flags: u32) -> String {
     found.map(|(_, name)| name).collect::<Vec<_>>().join(" + ")
 }
 
-/// The figures as a table that reads as text and as Markdown.
+/// The statistics as a table, readable as text and as Markdown.
 pub fn table(rows: &[CompiledFor]) -> String {
     let mut text = String::from(
         "| family | pipeline | program | stage | registers | spilled | scratch, bytes | code, bytes \
@@ -330,7 +330,7 @@ mod tests {
         assert!(refused.contains("install mesa-vulkan-drivers"), "{refused}");
         write("radeon_icd.json");
         assert_eq!(found().unwrap(), "radeon_icd.json");
-        // Of several architectures, this program's own.
+        // With several architectures, this program's own.
         let own = format!("radeon_icd.{}.json", std::env::consts::ARCH);
         write("radeon_icd.i686.json");
         write(&own);

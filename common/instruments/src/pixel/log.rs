@@ -1,42 +1,42 @@
-//! What shaders have written down of a pixel's rays, as text.
+//! The rays of a pixel as text, from the log that shaders write.
 
 use std::fmt::Write;
 
 use super::float::both;
 use super::stages::Known;
 
-/// Words that the log has room for.
+/// Capacity of the log, in words.
 pub const WORDS: u64 = 1 << 18;
 
-/// An entry's kind: a ray begins, its trace has returned, a closest hit, any-hit or miss shader is called, a shader
-/// prints.
+/// Kinds of entries: the start of a ray, the return of its trace, the call of a closest hit, any-hit or miss shader,
+/// the output of a shader.
 pub const RAY: u32 = 1;
 pub const BACK: u32 = 2;
 pub const HIT: u32 = 3;
 pub const ANY_HIT: u32 = 4;
 pub const MISS: u32 = 5;
 pub const PRINT: u32 = 6;
-/// A ray begins, of one pixel among several.
+/// The start of a ray, with several pixels.
 pub const MANY: u32 = 7;
 
 /// `gl_RayFlagsSkipClosestHitShaderEXT`.
 const SKIPS_CLOSEST_HIT: u32 = 8;
 
-/// The deepest indentation. No device lets more rays nest than 31, but words may be anything.
+/// The deepest indentation. No device allows more than 31 nested rays, but the words are untrusted.
 const DEEPEST: usize = 31;
 
-/// A ray that is under way.
+/// An unfinished ray.
 struct Open {
-    /// Whether a closest hit or miss shader was called.
+    /// True if a closest hit or miss shader was called.
     ended: bool,
     flags: u32,
 }
 
-/// What was written down.
+/// The words that shaders logged.
 pub struct Log<'a> {
     words: &'a [u32],
     known: &'a [Known],
-    /// What the layer has printed, if that is a line for each `PRINT`.
+    /// The lines printed by the layer, if there is one for each `PRINT`.
     printed: std::slice::Iter<'a, String>,
     open: Vec<Open>,
     rays: usize,
@@ -44,7 +44,7 @@ pub struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// The text of a log's words, with what was printed in its place; and how many rays it has.
+    /// The text of a log, including the printed lines; and the number of rays.
     pub fn text(words: &'a [u32], known: &'a [Known], printed: &'a [String]) -> (String, usize) {
         let (open, text) = (Vec::new(), String::new());
         let mut log = Self { words, known, printed: [].iter(), open, rays: 0, text };
@@ -69,12 +69,12 @@ impl<'a> Log<'a> {
         (log.text, log.rays)
     }
 
-    /// Whether several pixels were traced.
+    /// True if several pixels were traced.
     pub fn is_of_many(words: &'a [u32]) -> bool {
         words.iter().take(1).any(|head| head & 0xff == MANY)
     }
 
-    /// Each entry: its kind, its shader, the words after them.
+    /// The entries: kind, shader, and the words after them.
     fn entries(&self) -> impl Iterator<Item = (u32, &'a str, &'a [u32])> + use<'a> {
         let (mut rest, known) = (self.words, self.known);
         std::iter::from_fn(move || {
@@ -180,7 +180,7 @@ mod tests {
         };
         let any: Vec<u32> = (0..WORDS).map(|_| next()).collect();
         let kinds = any.iter().map(|word| word % 8).collect();
-        // Zeros, the same word over and over, and rays that begin and never come back.
+        // Zeros, the same word repeated, and rays that begin but never return.
         for words in [vec![0; WORDS as usize], vec![RAY; WORDS as usize], any, kinds] {
             let (text, _) = Log::text(&words, &[], &[]);
             assert!(text.len() < 100 * words.len(), "{} bytes", text.len());

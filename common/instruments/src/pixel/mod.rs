@@ -1,7 +1,7 @@
-//! `--pixel`: the rays of one pixel as text, with the numbers that shaders saw, and what shaders print there.
+//! `--pixel`: the rays of one pixel as text, with the values in shaders, and the output of `PRINT`.
 //!
-//! The pixel is traced alone, so no shader has to ask which pixel is meant. Each shader is compiled with lines of
-//! [`stages`] around it, which write down what it does; files of shaders stay as they are.
+//! The pixel is traced alone, so shaders need not compare pixels. Each shader is compiled with additional lines from
+//! [`stages`], which log its work; the files of shaders are not changed.
 
 mod float;
 mod log;
@@ -19,12 +19,12 @@ use common::output;
 use self::log::{Log, WORDS};
 use self::stages::Stages;
 
-/// What is asked of a pixel.
+/// The options of `--pixel`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Print the rays of this pixel, and what shaders PRINT there, instead of a picture; `click`: of each pixel
-    /// that is clicked in the window with Ctrl held
+    /// Print the rays of this pixel, and the output of PRINT in its shaders, instead of a picture; `click`: of each
+    /// pixel clicked in the window with Ctrl held
     #[arg(
         long,
         value_name = "X,Y|click",
@@ -37,12 +37,12 @@ pub struct Options {
     pub pixel: Option<Which>,
 }
 
-/// Which pixels are asked for.
+/// The selected pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// The one in this column and row.
+    /// The pixel in this column and row.
     At([u32; 2]),
-    /// Those that are clicked.
+    /// The pixels clicked in the window.
     Clicked,
 }
 
@@ -57,10 +57,10 @@ fn which(text: &str) -> Result<Which, String> {
 }
 
 impl Options {
-    /// Refuses a pixel that there is not.
+    /// Refuses a pixel outside the picture.
     ///
     /// # Errors
-    /// With what is wrong.
+    /// States the mistake.
     pub fn check(&self, args: &Args) -> Result<(), UsageError> {
         let (width, height) = (args.size.width, args.size.height);
         match self.pixel {
@@ -78,7 +78,7 @@ impl Options {
     }
 }
 
-/// What watches a pixel.
+/// Logs the rays of a pixel.
 #[derive(Default)]
 pub struct Probe {
     stages: Arc<Stages>,
@@ -91,7 +91,7 @@ impl Drop for Probe {
 }
 
 impl Probe {
-    /// Changes what a device is opened with.
+    /// Changes the options for opening the device.
     pub fn device(&self, options: &mut GpuOptions) {
         options.prints = true;
         options.driver_shim = self.stages.clone();
@@ -117,7 +117,7 @@ impl Probe {
         Ok(())
     }
 
-    /// Prints the rays of a pixel that was clicked, and says so.
+    /// Prints the rays of a clicked pixel, and returns a message.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -131,7 +131,7 @@ impl Probe {
         })
     }
 
-    /// What shaders write down while `trace` traces a pixel.
+    /// The text of the shaders' log while `trace` traces a pixel.
     fn told(&self, trace: &mut dyn FnMut() -> Result<Clicked>) -> Result<String> {
         let opened = self.stages.opened();
         let Some((gpu, log)) = &*opened else { bail!("no device was opened") };

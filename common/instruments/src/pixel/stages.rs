@@ -1,4 +1,4 @@
-//! Shaders that write down what they do: the chapter's text, with lines before and after it.
+//! Shaders that log their work: the chapter's text, with lines before and after it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -10,10 +10,10 @@ use common::gpu::{Buffer, DriverShim, Gpu, contraction};
 
 use super::log::{ANY_HIT, BACK, HIT, MANY, MISS, PRINT, RAY, WORDS};
 
-/// What the shaders call.
+/// The logging functions that shaders call.
 const LOG: &str = include_str!("log.glsl");
 
-/// What [`LOG`] asks of the compiler, for the line after `#version`.
+/// The extensions [`LOG`] needs, inserted after `#version`.
 const EXTENSIONS: [&str; 4] = [
     "GL_EXT_buffer_reference",
     "GL_EXT_buffer_reference_uvec2",
@@ -21,24 +21,24 @@ const EXTENSIONS: [&str; 4] = [
     "GL_EXT_debug_printf",
 ];
 
-/// A shader that was changed.
+/// A modified shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Known {
     /// Its path below `shaders/`.
     pub path: String,
     /// The variables of its payloads, by location.
     pub payloads: Vec<(u32, String)>,
-    /// Whether it prints.
+    /// True if it prints.
     pub prints: bool,
 }
 
-/// The driver that there is, with every shader changed.
+/// The actual driver, with every shader modified.
 #[derive(Default)]
 pub struct Stages {
-    /// Where the log lies on the device.
+    /// Address of the log on the device.
     address: AtomicU64,
     known: Mutex<Vec<Known>>,
-    /// The log and its device, which holds this: [`Stages::close`] parts them.
+    /// The log and its device, which owns this: [`Stages::close`] breaks the cycle.
     opened: Mutex<Option<(Gpu, Buffer)>>,
 }
 
@@ -53,7 +53,7 @@ impl Stages {
         self.opened().take();
     }
 
-    /// The shaders that were changed until now; an entry of the log names one by its number.
+    /// The modified shaders so far; an entry of the log refers to one by its number.
     pub fn known(&self) -> Vec<Known> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -88,17 +88,17 @@ impl DriverShim for Stages {
     fn words(&self, stage: &StageText) -> Result<Vec<u32>> {
         let address = self.address.load(Ordering::Relaxed);
         let text = logging(shader::stage(stage.path)?, &stage.text, self.number(stage), address);
-        // Not from the cache: the address is another in each run.
+        // Not from the cache: the address differs in each run.
         let words = to_spirv(stage.path, &text, stage.defines)?;
         if stage.as_written { contraction::without(&words) } else { Ok(words) }
     }
 }
 
-/// The text of a shader that writes down what it does, in a log at an address.
+/// The text of a shader that logs its work at an address.
 fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let is = |line: &&str, word: &str| line.trim_start().starts_with(word);
-    // An include may ask for more, where a condition may leave it out: that stays where it is.
+    // An include may have extension lines under a condition: those stay in place.
     let begins = |line: &&&str| {
         line.is_empty()
             || ["#version", "#extension", "#line", "//"].iter().any(|word| is(line, word))
@@ -107,7 +107,7 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     let version = begun.iter().position(|line| is(line, "#version")).unwrap_or_default();
     let extension = begun.iter().rposition(|line| is(line, "#extension"));
     let head = extension.unwrap_or(version);
-    // The place of the line that follows, which `#line` may have set before.
+    // The position of the next line, which `#line` may have set before.
     let place = lines[..=head].iter().rposition(|line| is(line, "#line")).map(|at| {
         let mut words = lines[at].splitn(3, ' ').skip(1);
         let first: usize = words.next().and_then(|word| word.parse().ok()).unwrap_or_default();
@@ -151,14 +151,14 @@ fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     new.join("\n") + "\n"
 }
 
-/// Whether a line calls `PRINT`.
+/// True if a line calls `PRINT`.
 fn prints(line: &str) -> bool {
     let code = line.split("//").next().unwrap_or_default();
     let before = code.split("PRINT(").next().filter(|before| before.len() < code.len());
     before.is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
-/// The variables that are declared as payloads, by location.
+/// The variables declared as payloads, by location.
 fn payloads(text: &str) -> Vec<(u32, String)> {
     let payload = |line: &str| {
         let (before, after) = line.split_once("rayPayload")?;

@@ -1,35 +1,35 @@
-//! The limits of a device that chapters heed, as a report tells them and a report card keeps them.
+//! The limits of a device that chapters depend on, for reports and report cards.
 
 use ash::vk;
 use common::gpu::Gpu;
 use serde::{Deserialize, Serialize};
 
-/// Properties of the device that decide sizes, alignments and depths.
+/// Properties of the device that determine sizes, alignments and depths.
 ///
-/// As text, a limit that an older program did not know of may be left out.
+/// In JSON, a limit may be missing if an older program wrote it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Limits {
-    /// The version of Vulkan that the device has: major, minor, patch.
+    /// The device's Vulkan version: major, minor, patch.
     pub vulkan: [u32; 3],
-    /// Who made the device, by its number at PCI-SIG or Khronos, and its maker's number for it.
+    /// The device's maker, by its PCI-SIG or Khronos number, and the maker's number for the device.
     pub vendor_and_device: [u32; 2],
-    /// Bytes of an opaque shader group handle (32 on every known device); this and what else is of ray tracing is 0
-    /// on a device without.
+    /// Bytes of an opaque shader group handle (32 on every known device); this and other values of ray tracing are
+    /// 0 on a device without it.
     pub shader_group_handle_size: u64,
-    /// What the stride of a shader binding table's region is a multiple of.
+    /// Alignment of the stride of a shader binding table's region.
     pub shader_group_handle_alignment: u64,
-    /// What each region's address is a multiple of.
+    /// Alignment of each region's address.
     pub shader_group_base_alignment: u64,
     /// The largest stride of a region.
     pub max_shader_group_stride: u64,
-    /// How deep `traceRayEXT` may nest; the pipeline declares how deep it does.
+    /// The maximum nesting of `traceRayEXT`; the pipeline declares its own depth.
     pub max_ray_recursion_depth: u32,
     /// The most rays of one `vkCmdTraceRaysKHR`.
     pub max_ray_dispatch_invocation_count: u32,
     /// The most invocations of a compute shader's workgroup.
     pub max_compute_work_group_invocations: u32,
-    /// What the scratch address of an acceleration structure build is a multiple of.
+    /// Alignment of the scratch address of an acceleration structure build.
     pub min_scratch_offset_alignment: u64,
     /// The most instances of a top level.
     pub max_instance_count: u64,
@@ -39,33 +39,33 @@ pub struct Limits {
     pub max_image_dimension: u32,
     /// The largest side of an image that is drawn to.
     pub max_attachment_side: u32,
-    /// Bits of a pixel's fraction that the rasteriser rounds a vertex to.
+    /// Bits of subpixel precision, to which the rasteriser rounds a vertex.
     pub sub_pixel_precision_bits: u32,
     /// The most bytes of push constants.
     pub max_push_constants_size: u32,
-    /// The most textures of a table: descriptors that may be written after they are bound.
+    /// The largest table of textures: descriptors that may be updated after they are bound.
     pub max_textures: u32,
-    /// The most bytes of a buffer that is bound as a descriptor.
+    /// The largest buffer bound as a descriptor, in bytes.
     pub max_storage_buffer_range: u64,
-    /// The most bytes of a buffer in device memory: by the limits of buffers and of allocations, and by the
-    /// memory that there is.
+    /// The largest buffer in device memory, in bytes: by the limits for buffers and allocations, and by the
+    /// available memory.
     pub max_buffer_size: u64,
-    /// Nanoseconds a tick of a timestamp.
+    /// Nanoseconds per tick of a timestamp.
     pub timestamp_period: f32,
-    /// The bits of a timestamp that count; none where the queue has no timestamps.
+    /// Number of valid bits of a timestamp; 0 if the queue has no timestamps.
     pub timestamp_mask: u64,
-    /// Whether shaders may compute with 64-bit floats, if the sample asks for it.
+    /// True if shaders may use 64-bit floats, if the sample requests them.
     pub float64: bool,
-    /// Whether rays may skip all triangles or all boxes, if the sample asks for it.
+    /// True if rays may skip all triangles or all boxes, if the sample requests it.
     pub primitive_culling: bool,
-    /// Whether a shader may demand that 32-bit floats are rounded to nearest even.
+    /// True if a shader may require 32-bit floats to be rounded to nearest even.
     pub rounding_to_nearest_even: bool,
-    /// Whether a shader may demand that signs of zeros, infinities and NaN are kept.
+    /// True if a shader may require signs of zeros, infinities and NaN to be preserved.
     pub signed_zero_inf_nan: bool,
 }
 
 impl Limits {
-    /// Those of an open device.
+    /// The limits of an open device.
     pub fn of(gpu: &Gpu) -> Self {
         let mut culling = vk::PhysicalDeviceRayTracingPipelineFeaturesKHR::default();
         let mut offered = vk::PhysicalDeviceFeatures2::default();

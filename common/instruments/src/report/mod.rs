@@ -1,4 +1,4 @@
-//! `--report`: what a run found out about itself, as JSON: for scripts, tests and the tables on the pages.
+//! `--report`: a run's facts and measurements as JSON, for scripts, tests and the tables on the pages.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ mod limits;
 
 pub use limits::Limits;
 
-/// What is to be told.
+/// The options of `--report`.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
@@ -26,26 +26,26 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 
-    /// Ask the device's own compiler about the pipelines, for the report, where it tells
+    /// Add statistics from the device's own compiler to the report, if the driver offers them
     #[arg(long, hide = true)]
     pub compiler_figures: bool,
 }
 
 impl Options {
-    /// The file that is to be written, if it is one.
+    /// The output file; `None` for standard output.
     pub fn file(&self) -> Option<&Path> {
         self.report.as_deref().filter(|path| *path != Path::new("-"))
     }
 
-    /// Whether standard output is the report's.
+    /// True if the report goes to standard output.
     pub fn takes_output(&self) -> bool {
         self.report.as_deref() == Some(Path::new("-"))
     }
 
-    /// Refuses a file that is no JSON by its name.
+    /// Refuses a file whose name does not end in .json.
     ///
     /// # Errors
-    /// [`UsageError`], with what would be right.
+    /// [`UsageError`], with the correct form.
     pub fn check(&self) -> Result<(), UsageError> {
         let is_json =
             |path: &Path| path.extension().is_some_and(|it| it.eq_ignore_ascii_case("json"));
@@ -68,31 +68,31 @@ pub struct Report {
     pub device: String,
     /// Its driver, in its maker's words.
     pub driver: String,
-    /// What it has, and how much of it.
+    /// The device's features and limits.
     pub limits: Limits,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of shaders: the value of `--arithmetic`.
     pub arithmetic: String,
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// How many frames were rendered.
+    /// Number of frames rendered.
     pub frames: u32,
-    /// The device's time for a frame.
+    /// The device time of a frame.
     pub gpu_milliseconds: Milliseconds,
-    /// Bands of rows that the last frame was traced in.
+    /// Number of bands in the last frame.
     pub bands: usize,
-    /// The device's time for a band, of all frames.
+    /// The device time of a band, over all frames.
     pub band_milliseconds: Milliseconds,
-    /// Primary rays a second: pixels over the median time.
+    /// Primary rays per second: pixels over the median time.
     pub primary_rays_per_second: f64,
     /// From the start of the process to the end of the first frame.
     pub first_frame_milliseconds: f64,
-    /// Host time to build all acceleration structures, uploads left out.
+    /// Host time to build all acceleration structures, without uploads.
     pub acceleration_structure_milliseconds: f64,
-    /// Bytes of all acceleration structures that are there after the last frame.
+    /// Bytes of all acceleration structures after the last frame.
     pub acceleration_structure_bytes: u64,
-    /// Host time to compile shaders and make pipelines.
+    /// Host time to compile shaders and create pipelines.
     pub pipeline_milliseconds: f64,
     /// Shader stages compiled, by path below `shaders/`.
     pub stages: Vec<String>,
@@ -100,15 +100,15 @@ pub struct Report {
     pub groups: usize,
     /// Device memory in use after the last frame.
     pub bytes_allocated: u64,
-    /// What validation said; empty where it is off.
+    /// Validation messages; empty if validation is off.
     pub validation_messages: Vec<String>,
-    /// What `--compare` measured.
+    /// Measurements of `--compare`.
     pub comparison: Option<Comparison>,
-    /// What `--compile-for` found out, a row a program.
+    /// Results of `--compile-for`, one row per program.
     pub compiled_for: Vec<CompiledFor>,
-    /// What the device's own compiler says of the last pipeline, where it was asked and tells.
+    /// Statistics from the device's own compiler for the last pipeline, if requested and supported.
     pub executables: Vec<Executable>,
-    /// What the chapter itself has to tell.
+    /// The chapter's own report.
     pub chapter: serde_json::Value,
 }
 
@@ -134,10 +134,10 @@ impl Milliseconds {
 }
 
 impl Report {
-    /// The report of a run that is done, but for what other instruments have found.
+    /// The report of a completed run, without the results of other instruments.
     ///
     /// # Errors
-    /// If the sample cannot tell.
+    /// If the sample's own report fails.
     pub fn of(run: &Run) -> Result<Self> {
         let Run { gpu, args, .. } = run;
         let (width, height) = (args.size.width, args.size.height);

@@ -1,7 +1,7 @@
-//! A long render: samples of one picture, added up exactly, kept in a file, and gone on with another day.
+//! A long render: samples of one picture, summed exactly, stored in a file, and continued another day.
 //!
-//! A frame is one sample of every pixel, found from its number alone. A compute shader adds it to the sums
-//! of all. So it does not matter who renders which sample, when, or in how many pieces.
+//! A frame is one sample of every pixel and depends on its number alone. A compute shader adds it to the sums. So
+//! it does not matter which machine renders which sample, when, or in how many pieces.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -24,19 +24,19 @@ use common::gpu::{
 use common::model::text::{opened, shown};
 use common::{files, output};
 
-/// Which samples are rendered, and where their sums are kept.
+/// The samples to render, and the file for their sums.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[group(skip)]
 pub struct Options {
-    /// Render the samples A to B-1 of a picture that is the mean of many, without a window; their exact mean is the picture
+    /// Without a window, render the samples A to B-1 of a picture that is the mean of many; the output is their exact mean
     #[arg(long, value_name = "A..B", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["frames", "compare", "animate"])]
     pub samples: Option<Range<u32>>,
 
-    /// With --samples, keep their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
+    /// With --samples, store their exact sums in this file: every --save-every seconds, at the end, and at Ctrl-C
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
 
-    /// With --samples, begin with the sums of this file and render what it lacks; with --save of the same name, it need not be there yet
+    /// With --samples, start from the sums in this file and render the missing samples; with --save of the same name, it need not exist yet
     #[arg(long, value_name = "FILE", requires = "samples")]
     pub resume: Option<PathBuf>,
 
@@ -50,11 +50,11 @@ fn seconds(text: &str) -> Result<u64, String> {
 }
 
 impl Options {
-    /// Refuses sums of no samples; sums where one would look for a picture, which no viewer opens; and a render that
-    /// would keep nothing of its samples, perhaps after days.
+    /// Refuses sums of no samples; sums under the name of a picture, which no viewer could open; and a render that
+    /// would lose its samples, perhaps after days.
     ///
     /// # Errors
-    /// [`UsageError`], with what would be right.
+    /// [`UsageError`], with the correct form.
     pub fn check(&self, is_kept: bool) -> Result<(), UsageError> {
         if let (Some(path), None) = (&self.save, &self.samples) {
             let path = path.display();
@@ -86,34 +86,34 @@ impl Options {
 const WORKGROUP: [u32; 2] = [8, 8];
 
 common::shader_struct! {
-    /// What the shader that adds up is told.
+    /// Push constants of the shader that adds samples.
     struct Push {
         sums: Address,
         size: UVec2,
     }
 }
 
-/// Sums on the device, and what is to become of them.
+/// Sums on the device, and their destination.
 pub struct Gather {
     header: Header,
-    /// What is still to be rendered.
+    /// The samples still to be rendered.
     missing: SampleSet,
     sums: Buffer,
     pipeline: ComputePipeline,
-    /// The file, and how often it is written.
+    /// The file, and the interval at which it is written.
     save: Option<(PathBuf, Duration)>,
     saved: Instant,
     interrupt: Option<Arc<Interrupt>>,
-    /// What is gone on with, for messages.
+    /// The name of the resumed file, for messages.
     resumed: String,
-    /// Whether this run has added a sample; the shaders are checked then.
+    /// True if this run has added a sample; the shaders are checked then.
     has_added: Arc<AtomicBool>,
 }
 
-/// Reads what `--resume` names, and refuses before the work what would be refused after it.
+/// Reads the file of `--resume`, and refuses options early that would fail after the work.
 ///
 /// # Errors
-/// If that is no file of sums, or `--save` would write over samples that are not resumed.
+/// If it is not a file of sums, or `--save` would overwrite samples that are not resumed.
 pub fn resumed(options: &Options) -> Result<Option<Sums>> {
     let (save, resume) = (options.save.as_deref(), options.resume.as_deref());
     let is_there = |path: &Path| path.symlink_metadata().is_ok();
@@ -121,20 +121,18 @@ pub fn resumed(options: &Options) -> Result<Option<Sums>> {
         save.filter(|save| !resume.is_some_and(|it| files::same(it, save)) && is_there(save))
     {
         let name = shown(save);
-        match Sums::begins(save) {
-            true => bail!("'{name}' is there already: --resume '{name}' goes on with it"),
-            false => {
-                bail!("'{name}' is there already, and is no file of sums: choose another name")
-            }
+        if Sums::begins(save) {
+            bail!("'{name}' is there already: --resume '{name}' goes on with it");
         }
+        bail!("'{name}' is there already, and is no file of sums: choose another name");
     }
-    // The command that goes on is that which begins: a batch system repeats it as it stands.
+    // The same command starts and continues a render: a batch system repeats it unchanged.
     let resume = resume.filter(|resume| save != Some(resume) || is_there(resume));
     resume.map(Sums::open).transpose()
 }
 
 impl Gather {
-    /// Begins what `--samples` asks for, with the sums of an earlier run if there are any.
+    /// Begins a run of `--samples`, with the sums of an earlier run if there are any.
     ///
     /// # Errors
     /// If the sample does not gather, the earlier sums do not fit, or memory is short.
@@ -146,7 +144,7 @@ impl Gather {
     ) -> Result<Self> {
         let (name, args) = (run.name, run.args);
         if !run.sample.gathers() {
-            // All chapters that gather do so as they are: where nothing is set, this is none of them.
+            // All chapters that support it do so by default: without settings, this is not one of them.
             let when = if args.sets.is_empty() { "" } else { " with these values of --set" };
             let why = "each of its frames is a picture of its own, not a sample of one";
             let which = "docs/long-renders.md names the chapters that gather samples";
@@ -181,15 +179,15 @@ impl Gather {
         })
     }
 
-    /// What is still to be rendered.
+    /// The samples still to be rendered.
     pub fn missing(&self) -> &SampleSet {
         &self.missing
     }
 
-    /// For [`Run::between_bands`]: the first sample of a run need not be waited for.
+    /// For [`Run::between_bands`]: allows stopping during the first sample of a run.
     ///
     /// # Errors
-    /// [`Stopped`] if a signal has come before there is anything new to save.
+    /// [`Stopped`] if a signal came before there is anything new to save.
     pub fn stop(&self) -> Box<dyn Fn() -> Result<()>> {
         let interrupt = self.interrupt.as_ref().map_or_else(Weak::new, Arc::downgrade);
         let has_added = self.has_added.clone();
@@ -203,11 +201,11 @@ impl Gather {
         })
     }
 
-    /// Adds the sample of this number, which is the picture; writes the file if that is due.
+    /// Adds the sample of this number, the current picture; writes the file if that is due.
     ///
     /// # Errors
-    /// If the device or the disk fails, or the shaders are not those of the sums so far; [`Stopped`] if a
-    /// signal has come, and the file is written.
+    /// If the device or the disk fails, or the shaders differ from those of the sums so far; [`Stopped`] if a
+    /// signal came, after writing the file.
     pub fn add(&mut self, gpu: &Gpu, picture: &Image, index: u32) -> Result<()> {
         self.check_shaders(gpu)?;
         let extent = picture.extent;
@@ -237,7 +235,7 @@ impl Gather {
         Ok(())
     }
 
-    /// Holds the shaders against those of the sums so far. They are known only now: a sample makes its
+    /// Compares the shaders with those of the sums so far. They are known only now, because a sample creates its
     /// pipelines when it renders.
     fn check_shaders(&mut self, gpu: &Gpu) -> Result<()> {
         if self.has_added.swap(true, Ordering::Relaxed) {
@@ -250,7 +248,7 @@ impl Gather {
         Ok(())
     }
 
-    /// Writes the file, if there is to be one, and gives the sums.
+    /// Writes the file, if there is one, and returns the sums.
     ///
     /// # Errors
     /// If the disk or the device fails.
@@ -280,7 +278,7 @@ impl Gather {
 }
 
 impl Sums {
-    /// Writes the file, unless another run has put more into it: then that stays. Gives what it has.
+    /// Writes the file, unless another run has put more into it: then that stays. Returns its contents.
     fn save_unless_behind(&self, path: &Path) -> Result<SampleSet> {
         let there = Header::open(path).ok();
         let there = there.filter(|there| self.header.origin.difference(&there.origin).is_none());
@@ -292,7 +290,7 @@ impl Sums {
     }
 }
 
-/// Sums as the device has them: notes first.
+/// Sums in their form for the device, after the notes.
 fn buffer(gpu: &Gpu, sums: &Sums) -> Result<Buffer> {
     let Spoiled { count, first } = sums.header.spoiled;
     let notes = i128::from(count) | i128::from(!first.unwrap_or(u32::MAX)) << 64;
@@ -315,14 +313,14 @@ fn pipeline(gpu: &Gpu) -> Result<ComputePipeline> {
         .build_compute(gpu)
 }
 
-/// All that a picture depends on, but for the shaders, which are not compiled yet.
+/// Everything a picture depends on, except the shaders, which are not compiled yet.
 fn origin(run: &mut Run) -> Result<Origin> {
     let controls = controls::list(|c| run.sample.controls(c));
     let Run { name, args, gpu, .. } = run;
     let args: &Args = args;
     let mut settings: BTreeMap<_, _> =
         controls.into_iter().map(|control| (control.name, control.value)).collect();
-    // Where a name is given twice, one control has chosen what the next was about, and shows it no longer.
+    // If a name is given twice, one control decided what the next applied to, and no longer shows that.
     let names = || args.sets.iter().map(|(name, _)| name);
     if names().enumerate().any(|(i, name)| names().take(i).any(|before| before == name)) {
         let sets: Vec<_> =
@@ -333,7 +331,7 @@ fn origin(run: &mut Run) -> Result<Origin> {
     for path in opened() {
         let crc = Sums::crc_of(&path)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        // Two of one name, from two folders, count together.
+        // Two files of one name, from two folders, are counted together.
         let both = |known: &mut u32| {
             *known = crc32fast::hash(&[known.to_le_bytes(), crc.to_le_bytes()].concat());
         };
@@ -363,7 +361,7 @@ fn crc_of(pipelines: &[Arc<PipelineDesc>]) -> u32 {
     hasher.finalize()
 }
 
-/// Fails if a file's origin is not that of this run.
+/// Fails if a file's origin differs from that of this run.
 fn fit(file: &str, theirs: &Origin, ours: &Origin) -> Result<()> {
     let difference = theirs.difference(ours);
     let line = difference.map(|difference| difference.line(["in it", "here"]));

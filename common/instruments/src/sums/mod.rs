@@ -1,9 +1,9 @@
-//! `--samples`: exact sums of samples, and the files that keep them.
+//! `--samples`: exact sums of samples, and their files.
 //!
-//! A colour's sum is a whole number of 2^-64 in 128 bits. Whole numbers do not round, so a sum does not
-//! depend on the order of the samples, nor on how a render was cut: 24_accuracy, rung A3, with more bits.
+//! A colour's sum is an integer in units of 2^-64, in 128 bits. Integers do not round, so a sum does not depend on
+//! the order of the samples, nor on how a render was split: 24_accuracy, rung A3, with more bits.
 //!
-//! A file is `RTSUMS`, its version and the length of its header in little-endian; the header, JSON; the
+//! A file consists of `RTSUMS`, its version and the length of its header in little-endian; the header, JSON; the
 //! sums, deflated; and a CRC-32 of all of it.
 
 mod gather;
@@ -27,35 +27,35 @@ pub use gather::{Gather, Options, resumed};
 pub use origin::{Difference, Origin};
 pub use sample_set::{SampleSet, range};
 
-/// What a file begins with.
+/// The first bytes of a file.
 const MAGIC: &[u8; 6] = b"RTSUMS";
-/// The form that this program reads and writes.
+/// The file version that this program reads and writes.
 const FORM: u16 = 1;
-/// Magic, form and the header's length.
+/// Magic, version and the header's length.
 const BEGINNING: usize = 12;
-/// Bytes of a header at most: names and values of controls, a line a file.
+/// The most bytes of a header: names and values of controls, and a line per file.
 const HEADER_BYTES: u32 = 1 << 20;
-/// Bytes of a file at most: more than [`PIXELS`] take that no compression makes smaller.
+/// The most bytes of a file: more than [`PIXELS`] incompressible pixels need.
 const FILE_BYTES: u64 = 5 << 30;
-/// Pixels of a picture at most, of 64 bytes each.
+/// The most pixels of a picture, of 64 bytes each.
 const PIXELS: u64 = 1 << 26;
-/// Bits of a sum that stand for its fraction; the same number is in `sum.glsl`.
+/// Number of fraction bits of a sum; `sum.glsl` has the same number.
 const FRACTION: i32 = 64;
-/// Bits of a colour's whole part: what is not below 2^31 is added as black.
+/// Bits of a colour's integer part: a value of 2^31 or more is added as black.
 const COLOR: i32 = 31;
 
-/// Samples that had a colour that is no number to add, and were added as black.
+/// Samples that were not numbers or too large, and were added as black.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spoiled {
-    /// How many.
+    /// Number of them.
     pub count: u64,
-    /// The first pixel that has one, counted row by row.
+    /// The first pixel with one, counted row by row.
     pub first: Option<u32>,
 }
 
 impl Spoiled {
-    /// What is to be told of a picture of this width, if there is anything.
+    /// A warning about a picture of this width, if there is one.
     pub fn warning(&self, width: u32) -> Option<String> {
         let (first, count) = (self.first?, self.count);
         let (x, y) = (first % width, first / width);
@@ -64,29 +64,29 @@ impl Spoiled {
     }
 }
 
-/// What stands before the sums.
+/// The part of a file before the sums.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
-    /// What the samples have in common.
+    /// The common origin of the samples.
     pub origin: Origin,
-    /// Which they are.
+    /// The samples.
     pub samples: SampleSet,
-    /// Those that could not be added.
+    /// The samples that could not be added.
     pub spoiled: Spoiled,
 }
 
 /// Sums of samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sums {
-    /// Of what.
+    /// The origin and numbers of the samples.
     pub header: Header,
-    /// Four a pixel, in units of 2^-64, rows from the top.
+    /// Four per pixel, in units of 2^-64, rows from top to bottom.
     pub values: Vec<i128>,
 }
 
 impl Header {
-    /// How many sums follow it.
+    /// Number of sums that follow it.
     fn len(&self) -> usize {
         let [width, height] = self.origin.size;
         4 * width as usize * height as usize
@@ -95,7 +95,7 @@ impl Header {
     /// Reads the header of a file, and nothing after it.
     ///
     /// # Errors
-    /// If there is no such file, or it is none of sums.
+    /// If the file does not exist, or is not a file of sums.
     pub fn open(path: &Path) -> Result<Self> {
         Self::read(&mut regular(path, &shown(path), FILE_BYTES)?, &shown(path))
     }
@@ -111,7 +111,7 @@ impl Header {
         let mut text = vec![0; length as usize];
         file.read_exact(&mut text).map_err(|_| damaged(name, "it ends within its header"))?;
         let header: Self = serde_json::from_slice(&text).map_err(|error| {
-            // What it quotes of the file may hold line breaks.
+            // Parts quoted from the file may contain line breaks.
             let error = error.to_string().replace(char::is_control, "\u{fffd}");
             damaged(name, &format!("its header: {error}"))
         })?;
@@ -138,10 +138,10 @@ impl Sums {
     /// Reads a file.
     ///
     /// # Errors
-    /// If there is no such file, or it is none of sums, cut off or damaged.
+    /// If the file does not exist, is not a file of sums, or is truncated or damaged.
     pub fn open(path: &Path) -> Result<Self> {
         let name = shown(path);
-        // What follows the header: its sums, which are hardly longer for being deflated, and a CRC-32.
+        // The rest after the header: its sums, which deflating hardly enlarges, and a CRC-32.
         let header = Header::open(path)?;
         let most = u64::from(HEADER_BYTES) + 17 * header.len() as u64 + 1024;
         let file = regular(path, &name, most)?;
@@ -151,13 +151,13 @@ impl Sums {
         Self::parse(&bytes, &name)
     }
 
-    /// Whether a file begins as one of sums.
+    /// True if a file begins like a file of sums.
     pub fn begins(path: &Path) -> bool {
         Header::open(path).is_ok()
     }
 
     fn parse(bytes: &[u8], name: &str) -> Result<Self> {
-        // What it is comes before whether it is whole: a picture that is given by mistake is no damage.
+        // Check the type before the checksum: a picture given by mistake is not damaged.
         let mut all = bytes;
         let header = Header::read(&mut all, name)?;
         let (content, crc) =
@@ -167,12 +167,12 @@ impl Sums {
             found == u32::from_le_bytes(*crc),
             damaged(name, "it is cut off, or its bytes are not those that were written")
         );
-        // A header may be so long that the checksum is its end.
+        // A header may be so long that it includes the checksum.
         let packed = all.len().checked_sub(crc.len());
         let packed =
             packed.with_context(|| damaged(name, "it ends within its header").to_string())?;
         let mut sums = ZlibDecoder::new(&all[..packed]);
-        // It grows as there is something to put in, whatever the header promises.
+        // It grows with the actual data, whatever size the header claims.
         let mut values = Vec::new();
         let mut some = [0; 4096];
         let mut left = 16 * header.len();
@@ -185,14 +185,14 @@ impl Sums {
         }
         let more = sums.read(&mut some[..1]).unwrap_or(1);
         ensure!(more == 0, damaged(name, "it has too many sums"));
-        // So bounded, no union of files overflows.
+        // With these bounds, no union of files overflows.
         let most = u128::from(header.samples.count()) << (FRACTION + COLOR);
         let fits = values.iter().all(|value| value.unsigned_abs() <= most);
         ensure!(fits, damaged(name, "a sum is larger than its samples can be"));
         Ok(Self { header, values })
     }
 
-    /// The bytes of a file: of equal sums, equal bytes.
+    /// The bytes of a file: equal sums give equal bytes.
     ///
     /// # Errors
     /// If memory is short.
@@ -221,10 +221,10 @@ impl Sums {
         write_whole(path, &self.bytes()?)
     }
 
-    /// Adds the samples of `other`, which has the same origin; none may be there already.
+    /// Adds the samples of `other`, which has the same origin; none may be present already.
     ///
     /// # Errors
-    /// With those that are; then nothing is added. Sums that no render can have are refused, too.
+    /// Names those that are; then nothing is added. Sums that no render can produce are refused as well.
     pub fn add(&mut self, other: &Self) -> Result<(), String> {
         let mut samples = self.header.samples.clone();
         samples.add(&other.header.samples).map_err(|both| format!("samples {both}"))?;
@@ -238,7 +238,7 @@ impl Sums {
         Ok(())
     }
 
-    /// The mean of all samples: each sum divided by their number and rounded once, to nearest even.
+    /// The mean of all samples: each sum divided by their number, rounded once to nearest even.
     pub fn mean(&self) -> Picture {
         let [width, height] = self.header.origin.size;
         let count = self.header.samples.count();
@@ -269,13 +269,13 @@ fn damaged(name: &str, how: &str) -> anyhow::Error {
     anyhow!("{name}: is damaged: {how}")
 }
 
-/// A sum over a count, as a float: rounded once, to nearest, ties to even.
+/// A sum divided by a count, as a float: rounded once to nearest, ties to even.
 fn quotient(sum: i128, count: u64) -> f32 {
     let size = sum.unsigned_abs();
     if size == 0 || count == 0 {
         return 0.0;
     }
-    // As far up as it goes: the quotient has more digits than a float by far.
+    // Shifted up as far as possible: the quotient has many more digits than a float.
     let up = size.leading_zeros();
     let (dividend, divisor) = (size << up, u128::from(count));
     let (digits, rest) = (dividend / divisor, dividend % divisor);
@@ -283,16 +283,16 @@ fn quotient(sum: i128, count: u64) -> f32 {
     let (kept, below) = (digits >> dropped, digits & ((1 << dropped) - 1));
     let half = 1 << (dropped - 1);
     let is_above = below > half || (below == half && (rest > 0 || kept & 1 == 1));
-    // 24 bits, or a power of two: exact, and so is the scaling, for no sum is so small or large.
+    // 24 bits, or a power of two: exact, and so is the scaling, because no sum is so small or large.
     let kept = (kept + u128::from(is_above)) as f64;
     let value = (kept * 2f64.powi(dropped as i32 - up as i32 - FRACTION)) as f32;
     if sum < 0 { -value } else { value }
 }
 
-/// The union of files that lie together.
+/// The union of files that belong together.
 ///
 /// # Errors
-/// On files that do not fit together, or have samples in common: by name.
+/// On files that do not match, or have samples in common; names them.
 pub fn merge(files: &[&Path]) -> Result<Sums> {
     let [first, others @ ..] = files else { bail!("no files of sums") };
     let mut sums = Sums::open(first)?;
@@ -319,7 +319,7 @@ pub fn merge(files: &[&Path]) -> Result<Sums> {
 /// Fails if samples of `whole` are missing.
 ///
 /// # Errors
-/// With those that are.
+/// Names the missing ones.
 pub fn check_complete(samples: &SampleSet, whole: Range<u32>) -> Result<()> {
     let missing = samples.missing(whole);
     ensure!(missing.count() == 0, "samples {missing} are missing");

@@ -1,10 +1,10 @@
-//! Of what a file keeps sums, and what two files do not have in common.
+//! The origin of a file's sums, and the differences between two origins.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// What samples must have in common to be added: all that a picture depends on.
+/// Everything a picture depends on, which samples must have in common to be added.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
@@ -18,7 +18,7 @@ pub struct Origin {
     pub settings: BTreeMap<String, String>,
     /// The files of the scene, by name, each with a CRC-32 of its bytes.
     pub scene: BTreeMap<String, u32>,
-    /// Whether acceleration structures are built in the model's order.
+    /// True if acceleration structures are built in the model's order.
     pub unordered: bool,
     /// A CRC-32 of the SPIR-V of all shaders, once they are compiled.
     pub shaders: Option<u32>,
@@ -26,25 +26,25 @@ pub struct Origin {
     pub device: String,
     /// Its driver and that driver's version.
     pub driver: String,
-    /// How shaders computed: the value of `--arithmetic`.
+    /// The arithmetic of shaders: the value of `--arithmetic`.
     pub arithmetic: String,
 }
 
-/// What two origins do not have in common.
+/// A difference between two origins.
 pub struct Difference {
     what: String,
     values: [String; 2],
 }
 
 impl Difference {
-    /// One line, given where each of the two comes from, such as "in a.sums" and "here".
+    /// One line with both sources, such as "in a.sums" and "here".
     pub fn line(&self, [a, b]: [&str; 2]) -> String {
         format!("{} is {} {a} and {} {b}", self.what, self.values[0], self.values[1])
     }
 }
 
 impl Origin {
-    /// All of it, as names and values.
+    /// Everything, as names and values.
     fn facts(&self) -> Vec<(String, String)> {
         let Self { chapter, version, size: [width, height], device, driver, .. } = self;
         let named = |(name, value): (&str, &str)| (name.to_owned(), format!("'{value}'"));
@@ -52,7 +52,7 @@ impl Origin {
             .map(|(name, value)| named((name, value)))
             .into();
         facts.push(("the size".to_owned(), format!("{width}x{height}")));
-        // A scene brings settings of its own, and is named before them.
+        // A scene changes other settings, so it is compared before them.
         let (scene, others): (Vec<_>, Vec<_>) =
             self.settings.iter().partition(|(name, _)| *name == "scene");
         let set = |(name, value): (&String, &String)| (format!("'{name}'"), format!("'{value}'"));
@@ -69,7 +69,7 @@ impl Origin {
         facts
     }
 
-    /// The first thing that is not the same in `other`. Shaders that are not compiled yet fit any.
+    /// The first difference from `other`. Shaders that are not compiled yet match any.
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         let mut values = BTreeMap::<_, [Option<String>; 2]>::new();
         let (mine, others) = (self.facts(), other.facts());

@@ -1,20 +1,20 @@
-//! Which samples of a picture there are: numbers, as ranges.
+//! A set of a picture's samples: numbers, as ranges.
 
 use std::fmt;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-/// A set of numbers of samples.
+/// A set of sample numbers.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[u32; 2]>", into = "Vec<[u32; 2]>")]
 pub struct SampleSet {
-    /// In order, apart from each other, none empty.
+    /// In order, separate from each other, none empty.
     ranges: Vec<Range<u32>>,
 }
 
 impl SampleSet {
-    /// How many there are.
+    /// Number of samples.
     pub fn count(&self) -> u64 {
         self.ranges.iter().map(|range| u64::from(range.end - range.start)).sum()
     }
@@ -24,7 +24,7 @@ impl SampleSet {
         &self.ranges
     }
 
-    /// What is in both.
+    /// The intersection of both.
     pub fn overlap(&self, other: &Self) -> Self {
         let mut both = Self::default();
         let (mut mine, mut others) =
@@ -40,7 +40,7 @@ impl SampleSet {
         both
     }
 
-    /// What of `whole` is not there.
+    /// The part of `whole` that is missing.
     pub fn missing(&self, whole: Range<u32>) -> Self {
         let mut missing = Self::default();
         let mut next = whole.start;
@@ -52,7 +52,7 @@ impl SampleSet {
         missing
     }
 
-    /// What is not there between the first and the last.
+    /// The samples missing between the first and the last.
     pub fn gaps(&self) -> Self {
         match &self.ranges[..] {
             [] => Self::default(),
@@ -61,15 +61,15 @@ impl SampleSet {
         }
     }
 
-    /// Whether all of `other` is there.
+    /// True if it contains all of `other`.
     pub fn contain(&self, other: &Self) -> bool {
         self.overlap(other).count() == other.count()
     }
 
-    /// Adds `other`, of which nothing may be there: no sample counts twice.
+    /// Adds `other`, none of which may be present: no sample counts twice.
     ///
     /// # Errors
-    /// With what is there already; then nothing is added.
+    /// Names those already present; then nothing is added.
     pub fn add(&mut self, other: &Self) -> Result<(), Self> {
         let both = self.overlap(other);
         if both.count() > 0 {
@@ -82,7 +82,7 @@ impl SampleSet {
         Ok(())
     }
 
-    /// Appends a range that begins where the last ends, or later; an empty one is nothing.
+    /// Appends a range that begins at the end of the last, or later; an empty one is ignored.
     fn push(&mut self, range: Range<u32>) {
         match self.ranges.last_mut() {
             _ if range.is_empty() => {}
@@ -131,10 +131,10 @@ impl fmt::Display for SampleSet {
     }
 }
 
-/// Reads `A..B`: from the sample A to the one before B, at least one.
+/// Reads `A..B`: from sample A to the one before B, at least one.
 ///
 /// # Errors
-/// With what would be right.
+/// States the correct form.
 pub fn range(text: &str) -> Result<Range<u32>, String> {
     let ends = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse::<u64>()));
     let end = u64::from(u32::MAX);
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn as_many_ranges_as_a_header_holds_are_compared_at_once() {
-        // Each with each takes ten thousand million steps.
+        // Comparing all pairs would take ten thousand million steps.
         let every = |first: u32| -> SampleSet {
             let pairs: Vec<_> = (0..100_000).map(|i| [first + 4 * i, first + 4 * i + 1]).collect();
             pairs.try_into().unwrap()

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Sums of a picture of two pixels, as a render of a few samples could have them.
+/// Sums of a picture of two pixels, like those of a render of a few samples.
 fn some(samples: Range<u32>) -> Sums {
     let origin = Origin {
         chapter: "04_jitter_camera".to_owned(),
@@ -18,12 +18,12 @@ fn some(samples: Range<u32>) -> Sums {
     Sums { header: Header { origin, samples: samples.into(), ..Header::default() }, values }
 }
 
-/// Why bytes are refused.
+/// The reason why bytes are refused.
 fn refused(bytes: &[u8]) -> String {
     Sums::parse(bytes, "a.sums").unwrap_err().to_string()
 }
 
-/// The bytes of a file with a header of its own making, and a checksum that is right.
+/// The bytes of a file with a custom header and a correct checksum.
 fn forged(header: &str, sums: &[u8]) -> Vec<u8> {
     let length = header.len() as u32;
     let mut bytes = [&MAGIC[..], &FORM.to_le_bytes(), &length.to_le_bytes()].concat();
@@ -84,7 +84,7 @@ fn a_file_that_promises_too_much_is_refused_before_memory_is_taken() {
     for size in [[0, 1], [8193, 8192], [u32::MAX, u32::MAX]] {
         assert!(refused(&forged(&header(size, some), b"")).contains("is too large or nothing"));
     }
-    // 4 GiB of sums, of which 16 bytes are there.
+    // 4 GiB of sums, of which 16 bytes exist.
     let line = refused(&forged(&header([8192, 8192], some), &[0; 16]));
     assert_eq!(line, "a.sums: is damaged: it has too few sums");
     let line = refused(&forged(&header([1, 1], some), &[0; 65]));
@@ -112,7 +112,7 @@ fn a_file_longer_than_its_picture_can_be_is_not_read() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("a.sums");
     some(0..4).save(&file).unwrap();
-    // Four gigabytes that are a hole in the file.
+    // Four gigabytes as a hole in the file.
     std::fs::File::options().write(true).open(&file).unwrap().set_len(4 << 30).unwrap();
     let line = Sums::open(&file).unwrap_err().to_string();
     assert!(line.contains("is too large: 4294967296 bytes, at most 1049736"), "{line}");
@@ -188,7 +188,7 @@ fn files_merge_in_any_order_and_no_sample_twice() {
 
 #[test]
 fn a_mean_is_rounded_once() {
-    // Of 2^k equal samples and of three, the mean is the sample; ties go to even, by hand.
+    // The mean of 2^k equal samples, or of three, is the sample; ties go to even, computed by hand.
     for value in [1.0f32, 0.1, 1e-9, 3.4e9, -0.3, f32::EPSILON] {
         let sum = (f64::from(value) * 2f64.powi(FRACTION)) as i128;
         for count in [1u64, 3, 4096, 1 << 31] {
@@ -202,7 +202,7 @@ fn a_mean_is_rounded_once() {
     assert_eq!(quotient(one + ulp + ulp / 2, 1), 1.0f32.next_up().next_up());
     assert_eq!(quotient(-(one + ulp + ulp / 2), 1), -1.0f32.next_up().next_up());
     assert_eq!(quotient(2 * one - 1, 1), 2.0);
-    // A third of it: the rest of the division decides.
+    // A third of it: the remainder of the division decides.
     assert_eq!(quotient(3 * (one + ulp / 2) + 1, 3), 1.0f32.next_up());
     assert_eq!(quotient(one, 3), (1.0f64 / 3.0) as f32);
     assert_eq!((quotient(0, 5), quotient(1, 1 << 32)), (0.0, 2f32.powi(-96)));

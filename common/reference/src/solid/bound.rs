@@ -1,4 +1,4 @@
-//! How far an f32 test of a ray with a solid may be off: where a renderer is free, and by how much.
+//! Error bounds of an f32 test of a ray with a solid: the cases in which a renderer is free, and by how much.
 //!
 //! # The question
 //! Along a ray, an answer in f32 and the exact one can part only where two changes are so close that
@@ -39,7 +39,7 @@ use super::super::sphere::Sphere;
 use super::super::transform::U;
 use super::Solid;
 
-/// What higher orders in u and the f64 of this computation may add.
+/// Allowance for higher orders in u and the f64 of this computation.
 const HIGHER_ORDERS: f64 = 1.01;
 
 /// A place where a ray's line goes through a half-space's or a ball's own surface.
@@ -51,11 +51,11 @@ pub struct Change {
     pub low: f64,
     /// The greatest.
     pub high: f64,
-    /// Whether f32 makes anything of it for sure.
+    /// True if f32 is certain to find it.
     pub sure: bool,
 }
 
-/// How far a ray may have strayed on its way to the solid's space: not at all, by default.
+/// The deviation of a ray on its way to the solid's space: none by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stray {
     /// Its origin, in the solid's units.
@@ -64,14 +64,14 @@ pub struct Stray {
     pub direction: f64,
 }
 
-/// What a renderer says of the first place where a ray goes through a solid's surface.
+/// A renderer's answer for the first crossing of a ray and a solid's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidAnswer {
     /// Ray parameter.
     pub t: f64,
     /// The half-space or ball whose surface it is.
     pub member: usize,
-    /// Whether the ray comes into the solid.
+    /// True if the ray enters the solid.
     pub enters: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Solids whose boundaries are known, and f64 held to exact.
+//! Solids with known boundaries, and f64 compared with exact arithmetic.
 
 use super::super::random::{Random, f32s, towards};
 use super::*;

@@ -166,8 +166,7 @@ fn wrong_names_and_values_say_what_there_is() {
     set_on(&mut sample, "normal", "0,-1e-40,0").unwrap();
 }
 
-/// What a comparison sets before each frame costs nothing once it is set, as a scene would that is opened
-/// again.
+/// A control set beside the compared one acts only once: a scene, for example, is not opened again in every frame.
 #[test]
 fn a_control_beside_the_compared_one_acts_once() {
     let (mut scene, mut rung, mut opened) = (0, 0, 0);

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec3, Vec3};
 
-/// How far a point may be along each axis: shaders square its distances, in 32 bits.
+/// Limit for a point's coordinates: shaders square distances in 32 bits.
 const FAR: f64 = 1e18;
 
 /// A control's value, borrowed from the sample, and what it may be.
@@ -42,7 +42,7 @@ impl Value<'_> {
         }
     }
 
-    /// What it may be, as an error or a table says it.
+    /// The possible values, in the words of an error or a table.
     pub fn possible(&self) -> String {
         match self {
             Self::Slider(_, range) => format!("{} to {}", range.start(), range.end()),

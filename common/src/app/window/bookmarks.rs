@@ -1,4 +1,4 @@
-//! Places of the camera that a chapter's reader keeps, one a digit.
+//! Camera bookmarks of a chapter's reader, one per digit.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,16 +8,16 @@ use glam::DVec3;
 use crate::files::{cache, read_cached, write_whole};
 use crate::scene::Camera;
 
-/// Cameras by digit, kept in the cache `bookmarks` from one run to the next.
+/// Cameras by digit, stored in the cache `bookmarks` between runs.
 pub struct Bookmarks {
-    /// None where the system has no place for caches.
+    /// `None` if the system has no place for caches.
     file: Option<PathBuf>,
     /// Eye, target, up, field of view.
     places: BTreeMap<usize, [f64; 10]>,
 }
 
 impl Bookmarks {
-    /// The bookmarks of a chapter; none if there is no file, or one that cannot be read.
+    /// The bookmarks of a chapter; empty if there is no file, or it cannot be read.
     pub fn open(name: &str) -> Self {
         Self::open_in(cache::folder("bookmarks").as_deref(), name)
     }
@@ -43,7 +43,7 @@ impl Bookmarks {
             part.copy_from_slice(&point.to_array());
         }
         self.places.insert(digit, place);
-        // Bookmarks that cannot be kept still serve this run.
+        // Bookmarks that cannot be written still work during this run.
         let Some(file) = &self.file else { return };
         let _ = file.parent().map(std::fs::create_dir_all);
         let _ = serde_json::to_vec(&self.places).map(|bytes| write_whole(file, &bytes));

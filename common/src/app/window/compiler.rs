@@ -1,11 +1,11 @@
-//! What the device's own compiler says of the pipeline, in its maker's words: folded away until asked for.
+//! Statistics from the device's own compiler, in its maker's words: folded until opened.
 
 use egui::{CollapsingHeader, RichText, Ui};
 
 use super::{rows, style};
 use crate::gpu::Executable;
 
-/// A line that unfolds to a table for each program; nothing where the driver tells nothing.
+/// A line that unfolds to a table for each program; nothing if the driver reports nothing.
 pub fn show(ui: &mut Ui, programs: &[Executable]) {
     if programs.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! A sample's own plot, as the panel draws it.
+//! A sample's own plot in the panel.
 
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Sense, Ui, pos2, vec2};
 
@@ -6,7 +6,7 @@ use super::style;
 use crate::app::chart::Chart;
 
 const HEIGHT: f32 = 150.0;
-/// Left and below, for the axes' labels.
+/// Margins on the left and below, for the axes' labels.
 const MARGIN: f32 = 26.0;
 const GRID: Color32 = Color32::from_rgba_premultiplied(14, 14, 14, 14);
 
@@ -52,7 +52,7 @@ fn axes(painter: &Painter, chart: &Chart, area: Rect, sheet: Rect) {
         let at = pos2(x, area.bottom() + 2.0);
         painter.text(at, Align2::CENTER_TOP, power(exponent), font.clone(), style::DIM);
     }
-    // No more labels than have room.
+    // As many labels as there is room for.
     let every = ((high - low) / 4).max(1) as usize;
     for exponent in (low..=high).step_by(every) {
         let y = place(chart, area, [1.0, 10f64.powi(exponent)]).y;

@@ -1,34 +1,34 @@
-//! What the panel and the title tell of the run.
+//! Facts about the run, shown in the panel and the title.
 
 use crate::gpu::Executable;
 
-/// What the panel tells of the run.
+/// Facts about the run, shown in the panel.
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
     /// The sample's name.
     pub name: String,
     /// The device's name.
     pub device: String,
-    /// Whether it is a driver that runs on the CPU.
+    /// True for a driver that runs on the CPU.
     pub software: bool,
-    /// Whose arithmetic it computes with.
+    /// The name of its arithmetic.
     pub arithmetic: &'static str,
-    /// Milliseconds of the last picture on the device.
+    /// Device time of the last picture, in milliseconds.
     pub milliseconds: f64,
     /// The last picture's width and height.
     pub rendered: [u32; 2],
     /// The window's.
     pub full: [u32; 2],
-    /// How many pictures have been accumulated, if the sample does that.
+    /// Number of accumulated pictures, if the sample accumulates.
     pub accumulated: Option<u32>,
-    /// What is no error and seldom meant about what is shown.
+    /// Warnings about likely mistakes in the current picture.
     pub warnings: Vec<String>,
-    /// What the driver says of the programs of the pipeline made last, if it does.
+    /// The driver's statistics for the programs of the newest pipeline, if it offers them.
     pub programs: Vec<Executable>,
 }
 
 impl Facts {
-    /// Primary rays a second.
+    /// Primary rays per second.
     pub fn rays(&self) -> f64 {
         let [width, height] = self.rendered.map(f64::from);
         if self.milliseconds > 0.0 { width * height / self.milliseconds * 1e3 } else { 0.0 }

@@ -1,4 +1,4 @@
-//! The last few device times, and their plot.
+//! The latest device times, and their plot.
 
 use std::collections::VecDeque;
 
@@ -6,11 +6,11 @@ use egui::{Align2, Color32, CornerRadius, FontId, Rect, Sense, Ui, pos2, vec2};
 
 use super::style;
 
-/// How many times are kept; one bar each.
+/// Number of stored times, one bar each.
 const LENGTH: usize = 96;
 const HEIGHT: f32 = 44.0;
 
-/// Milliseconds that full pictures took or would have taken, the newest at the end.
+/// Milliseconds that full pictures took or would have taken, the newest last.
 #[derive(Default)]
 pub struct History {
     times: VecDeque<Time>,
@@ -22,7 +22,7 @@ struct Time {
 }
 
 impl History {
-    /// Adds the time of a full picture: measured, or foretold from a smaller one.
+    /// Adds the time of a full picture: measured, or estimated from a smaller one.
     pub fn add(&mut self, milliseconds: f64, measured: bool) {
         if self.times.len() == LENGTH {
             self.times.pop_front();
@@ -30,7 +30,7 @@ impl History {
         self.times.push_back(Time { milliseconds, measured });
     }
 
-    /// Bars from the right, bright where the picture was full; the scale is written above them.
+    /// Bars from the right, bright for full pictures, with the scale above them.
     pub fn show(&self, ui: &mut Ui) {
         let (response, painter) =
             ui.allocate_painter(vec2(ui.available_width(), HEIGHT), Sense::hover());
@@ -38,7 +38,7 @@ impl History {
         painter.rect_filled(area, CornerRadius::same(3), style::WELL);
         let top = ceiling(self.times.iter().map(|time| time.milliseconds).fold(0.0, f64::max));
         let bar = area.width() / LENGTH as f32;
-        // The upper quarter is left to the scale's label.
+        // The upper quarter is reserved for the scale's label.
         let room = area.height() * 0.75;
         for (age, time) in self.times.iter().rev().enumerate() {
             let height = (room * (time.milliseconds / top) as f32).max(1.0);
@@ -70,7 +70,7 @@ fn ceiling(milliseconds: f64) -> f64 {
     let power = 10f64.powf(milliseconds.max(0.1).log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
     let found = steps.into_iter().find(|&step| step >= milliseconds).unwrap_or(10.0 * power);
-    // Powers below one are not exact; the label shall be.
+    // Powers below one are not exact, but the label should be.
     (found * 10.0).round() / 10.0
 }
 

@@ -1,10 +1,10 @@
-//! Every key and gesture of the window: one table, shown by the help overlay.
+//! Every key and gesture of the window in one table, which the help overlay shows.
 
 use egui::{Align2, Area, Context, Grid, Id, Key, RichText};
 
 use super::style;
 
-/// What a key asks of the window.
+/// A command that a key gives the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ask {
     /// Show or hide the help overlay.
@@ -19,7 +19,7 @@ pub enum Ask {
     Leave,
 }
 
-/// The keys that ask something of the window.
+/// The keys with a command for the window.
 const ASKS: [(Key, Ask); 8] = [
     (Key::F1, Ask::Help),
     (Key::H, Ask::Help),
@@ -54,7 +54,7 @@ const WINDOW: [(&str, &str); 8] = [
     ("Esc", "quit"),
 ];
 
-/// What the keys pressed since the last frame ask; a key pressed twice asks twice.
+/// The commands of all keys pressed since the last frame; a key pressed twice gives two.
 pub fn asked(context: &Context) -> Vec<Ask> {
     context.input(|input| {
         let presses = |&(key, ask)| std::iter::repeat_n(ask, input.num_presses(key));

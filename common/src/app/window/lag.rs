@@ -1,15 +1,15 @@
-//! How long someone waits for the frame that answers their input.
+//! The delay between an input and the frame that shows its effect.
 
 use std::time::{Duration, Instant};
 
-/// Waits, measured.
+/// Measures these delays.
 ///
-/// Input that came while a frame was drawn is seen after it, so it is taken to have come right after
-/// the frame before: an upper bound while input keeps coming. A single key that comes while a slow frame
-/// is drawn is counted from the end of that frame, which is too short.
+/// Input that arrives while a frame is drawn is seen only after it, so it is assumed to have arrived right after
+/// the frame before: an upper bound while input keeps arriving. A single key pressed while a slow frame is drawn
+/// is counted from the end of that frame, which is too short.
 #[derive(Default)]
 pub struct Lag {
-    /// The longest wait so far.
+    /// The longest delay so far.
     pub longest: Duration,
     awake: Option<Instant>,
     asleep: Option<Instant>,
@@ -17,12 +17,12 @@ pub struct Lag {
 }
 
 impl Lag {
-    /// The event loop has nothing left to do.
+    /// The event loop goes to sleep.
     pub fn sleep(&mut self) {
         self.asleep = Some(Instant::now());
     }
 
-    /// It goes on.
+    /// The event loop wakes up.
     pub fn wake(&mut self) {
         let now = Instant::now();
         let slept = self.asleep.take().is_some_and(|at| now - at > Duration::from_millis(2));
@@ -31,12 +31,12 @@ impl Lag {
         }
     }
 
-    /// Input has come.
+    /// Input has arrived.
     pub fn input(&mut self) {
         self.pending = true;
     }
 
-    /// A frame is shown; returns how long the last one stood, less the time asleep.
+    /// A frame is shown; returns how long the last one was visible, minus the time asleep.
     pub fn present(&mut self) -> Duration {
         let now = Instant::now();
         let waited = self.awake.map_or(Duration::ZERO, |awake| now - awake);

@@ -1,7 +1,7 @@
 //! A sample in a window: events in, pictures and panel out.
 //!
-//! One frame is in flight, and nothing is drawn while nothing changes: a redraw is asked for by input,
-//! by the panel's animations, by a picture that is to sharpen or accumulate, and by edited shaders.
+//! One frame is in flight, and nothing is drawn while nothing changes: redraws are requested by input, by the
+//! panel's animations, by a picture still to be sharpened or accumulated, and by edited shaders.
 
 mod bookmarks;
 mod compiler;
@@ -35,22 +35,21 @@ use super::{Args, Program, RunHooks};
 use crate::UsageError;
 use crate::exit::compile_process;
 
-/// Pixels of a window's side: X11 counts in signed 16 bits.
+/// The largest side of a window, in pixels: X11 uses signed 16-bit numbers.
 const MOST_SIDE: u32 = 32_767;
 
-/// What reaches the event loop from other threads.
+/// Events sent to the event loop by other threads.
 enum Wake {
-    /// A file below `shaders/` was written.
+    /// A file below `shaders/` was changed.
     Saved(String),
-    /// The shaders are compiled, or why they could not be.
+    /// The shaders are compiled, or the error.
     Compiled(Result<(), String>),
 }
 
 /// Opens a window for a sample and returns when it is closed.
 ///
 /// # Errors
-/// On wrong arguments ([`UsageError`]), without a display, if anything fails, or if validation had something
-/// to say.
+/// On wrong arguments ([`UsageError`]), without a display, if anything fails, or if validation reported a message.
 pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> {
     if args.out.is_some() || !args.files.outputs.is_empty() {
         let hint = "--out and --report go with --headless; in the window, F2 writes the picture";
@@ -63,7 +62,7 @@ pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> 
         return Err(UsageError(most).into());
     }
     log_if_asked();
-    // A shader that is edited may crash the compiler; the window stays.
+    // An edited shader may crash the compiler, but must not close the window.
     compile_process::want();
     let events = EventLoop::with_user_event().build().map_err(|_| no_display())?;
     let proxy = events.create_proxy();
@@ -73,7 +72,7 @@ pub fn open(program: &Program, args: &Args, hooks: &dyn RunHooks) -> Result<()> 
     shows.outcome
 }
 
-/// What is wrong with the display, and what to do.
+/// The error for a missing or unusable display, and its remedy.
 fn no_display() -> Error {
     let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked = value("WAYLAND_DISPLAY").or_else(|| value("DISPLAY"));
@@ -84,18 +83,18 @@ fn no_display() -> Error {
     anyhow!("{why} DISPLAY or WAYLAND_DISPLAY, or add --headless to render without a window")
 }
 
-/// `RUST_LOG=raybook=debug` tells of every frame, `info` of the longest wait; without it all is silent.
+/// `RUST_LOG=raybook=debug` logs every frame, `info` the longest delay; nothing is logged without it.
 fn log_if_asked() {
     use tracing_subscriber::{filter::Targets, fmt, prelude::*};
-    // An empty text would ask for the errors of all, and winit tells one in seven lines.
+    // An empty setting would enable all errors, and winit reports one in seven lines.
     let asked = std::env::var("RUST_LOG").ok().filter(|asked| !asked.is_empty());
     let Some(Ok(targets)) = asked.map(|asked| asked.parse::<Targets>()) else { return };
     let layer = fmt::layer().with_ansi(false).with_writer(std::io::stderr);
-    // A program that has set up its own keeps it.
+    // A program that has set up its own logger keeps it.
     let _ = tracing_subscriber::registry().with(layer.with_filter(targets)).try_init();
 }
 
-/// What a window is opened for.
+/// Arguments for opening a window.
 #[derive(Clone, Copy)]
 struct Of<'a> {
     program: &'a Program,

@@ -1,4 +1,4 @@
-//! The camera in the hand: orbit, pan, zoom, look and fly, home and bookmarks.
+//! Camera navigation: orbit, pan, zoom, look and fly, home and bookmarks.
 
 use egui::{InputState, Key, PointerButton, Response};
 use glam::{DQuat, DVec2, DVec3};
@@ -7,15 +7,15 @@ use super::bookmarks::Bookmarks;
 use super::transport::Transport;
 use crate::scene::Camera;
 
-/// How far a drag over the whole height of the window turns: half a circle.
+/// Rotation by a drag over the whole height of the window: half a circle.
 const TURN: f64 = std::f64::consts::PI;
-/// How near the orbit comes to the pole, in radians.
+/// The closest the orbit comes to the pole, in radians.
 const POLE: f64 = 0.02;
-/// Distances to the target that a second of flight covers.
+/// Speed of flight per second, in distances to the target.
 const SPEED: f64 = 0.6;
-/// How much Shift speeds up flight.
+/// Factor by which Shift speeds up flight.
 const HURRY: f64 = 4.0;
-/// The digits that store and recall places.
+/// The digits that store and recall bookmarks.
 const DIGITS: [Key; 9] = [
     Key::Num1,
     Key::Num2,
@@ -28,7 +28,7 @@ const DIGITS: [Key; 9] = [
     Key::Num9,
 ];
 
-/// What the hand asked of the camera since the last frame; drags in heights of the window.
+/// Camera input since the last frame; drags in heights of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Turn around the target.
@@ -37,9 +37,9 @@ pub struct Motion {
     pub look: DVec2,
     /// Move eye and target in the plane of the picture.
     pub pan: DVec2,
-    /// Come nearer (positive) or go away, as the logarithm of the distance.
+    /// Approach (positive) or retreat, as the logarithm of the distance.
     pub zoom: f64,
-    /// Move eye and target right, up and forward, in distances to the target.
+    /// Move eye and target to the right, up and forward, in distances to the target.
     pub fly: DVec3,
 }
 
@@ -65,7 +65,7 @@ impl Motion {
     }
 }
 
-/// `arm` turned sideways around the camera's up and then towards or away from it, short of the poles.
+/// `arm` rotated sideways around the camera's up and then towards or away from it, stopping before the poles.
 fn turned(camera: &Camera, arm: DVec3, drag: DVec2, rise: f64) -> DVec3 {
     let up = camera.up.try_normalize().unwrap_or(DVec3::Y);
     if drag == DVec2::ZERO || arm.length_squared() == 0.0 {
@@ -79,9 +79,9 @@ fn turned(camera: &Camera, arm: DVec3, drag: DVec2, rise: f64) -> DVec3 {
     DQuat::from_axis_angle(side, wanted - elevation) * arm
 }
 
-/// Reads the hand, remembers places, moves the camera.
+/// Reads input, stores bookmarks, moves the camera.
 pub struct Navigation {
-    /// The hand on an animation.
+    /// Input for an animation.
     pub transport: Transport,
     motion: Motion,
     home: Option<Camera>,
@@ -99,15 +99,15 @@ impl Navigation {
         Self { transport, motion, home: None, go_home: false, store: None, recall: None, bookmarks }
     }
 
-    /// The next camera seen is the chapter's own, to come back to.
+    /// The next camera seen is the chapter's own, and becomes home.
     pub fn forget_home(&mut self) {
         self.home = None;
     }
 
-    /// Takes up what was dragged and scrolled on the picture.
+    /// Reads drags and scrolling on the picture.
     pub fn drag(&mut self, picture: &Response, input: &InputState) {
         let height = f64::from(picture.rect.height().max(1.0));
-        // Of the response only flags are asked: what reads the input again would wait for itself.
+        // Only flags of the response are read: reading the input again here would deadlock.
         if picture.dragged() {
             let delta = input.pointer.delta();
             let drag = DVec2::new(delta.x.into(), delta.y.into()) / height;
@@ -126,7 +126,7 @@ impl Navigation {
         }
     }
 
-    /// Takes up the keys.
+    /// Reads the keys.
     pub fn keys(&mut self, input: &InputState) {
         let digit = DIGITS.iter().position(|&key| input.key_pressed(key));
         if input.modifiers.command {
@@ -143,7 +143,7 @@ impl Navigation {
         self.motion.fly += fly * SPEED * hurry * f64::from(input.stable_dt.min(0.1));
     }
 
-    /// Does to the camera what was asked since the last time; returns whether it moved.
+    /// Applies the collected input to the camera; returns true if it moved.
     pub fn apply(&mut self, camera: &mut Camera) -> bool {
         let home = *self.home.get_or_insert(*camera);
         let before = *camera;
@@ -197,7 +197,7 @@ mod tests {
     fn looking_keeps_the_eye_and_zooming_the_target() {
         let look = moved(Motion { look: DVec2::new(0.1, 0.1), ..Motion::default() });
         assert!((look.eye - camera().eye).length() < 1e-12);
-        // As in a hand-held camera: a drag to the right and down turns it right and down.
+        // As with a hand-held camera: a drag to the right and down turns it right and down.
         assert!(look.target.x > 0.0 && look.target.y < 0.0, "{look:?}");
         let zoom = moved(Motion { zoom: 1.0, ..Motion::default() });
         assert_eq!(zoom.target, DVec3::ZERO);

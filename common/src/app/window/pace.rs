@@ -1,30 +1,30 @@
-//! How large the next picture may be, so that the window stays responsive on any device.
+//! The size of the next picture, chosen to keep the window responsive on any device.
 //!
-//! While something changes, pictures are as large as sixty of them a second allow, or fifteen on a software
-//! driver. Once nothing has changed for a moment, the picture sharpens: to full size at once if that is quick,
-//! else to the largest size that is quick, and then in steps of four times the pixels. A change gives up a slow
-//! picture that is being traced. A device that traces full size within the budget never sees any of this.
+//! While something changes, pictures are as large as a rate of 60 per second allows, or 15 on a software driver.
+//! Once nothing has changed for a moment, the picture sharpens: to full size at once if that is fast, otherwise to
+//! the largest size that is fast, and then in steps of four times the pixels. A change abandons a slow picture
+//! that is being traced. A device that traces full size within the budget is not affected.
 
 use std::time::{Duration, Instant};
 
 use ash::vk::Extent2D;
 
-/// Milliseconds for a picture while something moves: a sixtieth of a second, less the panel's share.
+/// Milliseconds for a picture while something moves: a sixtieth of a second, minus the panel's share.
 const MOVING: f64 = 14.0;
-/// The same on a software driver, which would have too few pixels left: a fifteenth of a second.
+/// The same on a software driver, which would otherwise have too few pixels: a fifteenth of a second.
 const MOVING_IN_SOFTWARE: f64 = 40.0;
-/// Milliseconds for a first still picture.
+/// Milliseconds for the first still picture.
 const QUICK: f64 = 120.0;
-/// How long nothing must change before the picture sharpens.
+/// Time without changes before the picture sharpens.
 const STILL: Duration = Duration::from_millis(150);
-/// The level that a software driver starts at, before its speed is known.
+/// The initial level of a software driver, before its speed is known.
 const UNKNOWN: u32 = 9;
-/// Levels from a slow picture to the next: twice the width and the height.
+/// Levels from a slow picture to the next: twice the width and height.
 const STEP: u32 = 4;
-/// The smallest picture: a sixteenth of the width and the height.
+/// The smallest picture: a sixteenth of the width and height.
 const LAST: u32 = 16;
 
-/// What to do for the next frame of the window.
+/// The action for the next frame of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// Render a picture of this size.
@@ -33,13 +33,13 @@ pub enum Step {
     Keep(Option<Instant>),
 }
 
-/// Chooses sizes from the times that earlier pictures took.
+/// Chooses sizes from the times of earlier pictures.
 pub struct Pace {
     /// Milliseconds for a picture while something moves.
     moving: f64,
-    /// Milliseconds a pixel.
+    /// Milliseconds per pixel.
     cost: Option<f64>,
-    /// The first picture after a start also compiles shaders in the driver: its time tells nothing.
+    /// The first picture after a start also compiles shaders in the driver, so its time is ignored.
     warm: bool,
     start: u32,
     level: u32,
@@ -48,37 +48,36 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Knows nothing yet; a software driver begins small.
+    /// No measurements yet; a software driver begins with a small picture.
     pub fn new(software: bool, now: Instant) -> Self {
         let (start, moving) = if software { (UNKNOWN, MOVING_IN_SOFTWARE) } else { (0, MOVING) };
         let (cost, shown) = (None, None);
         Self { moving, cost, warm: false, start, level: start, shown, changed: now }
     }
 
-    /// The picture no longer shows how things stand.
+    /// The picture is out of date.
     pub fn change(&mut self, now: Instant) {
         self.shown = None;
         self.changed = now;
     }
 
-    /// New shaders: what was known of their speed is void.
+    /// New shaders: the measured speed no longer applies.
     pub fn restart(&mut self, now: Instant) {
         self.warm = false;
         self.change(now);
     }
 
-    /// A picture of `pixels` took so many milliseconds; returns whether that tells anything.
+    /// Records the milliseconds of a picture of `pixels`; returns true if they are representative.
     pub fn took(&mut self, pixels: u64, milliseconds: f64) -> bool {
         let cost = milliseconds / pixels.max(1) as f64;
         if self.warm {
-            // The mean of the last few, so that one hiccup of the machine changes no size.
+            // The mean of the last few, so that one hiccup of the machine does not change the size.
             self.cost = Some(self.cost.map_or(cost, |before| 0.6 * before + 0.4 * cost));
         }
         std::mem::replace(&mut self.warm, true)
     }
 
-    /// The next step of a window of size `full`; `accumulates` if further pictures of the same view are
-    /// worth rendering.
+    /// The next step for a window of size `full`; `accumulates` if further pictures of the same view improve it.
     pub fn step(&mut self, now: Instant, full: Extent2D, accumulates: bool) -> Step {
         let level = match self.shown {
             None => {
@@ -87,7 +86,7 @@ impl Pace {
             }
             Some(0) if accumulates => 0,
             Some(0) => return Step::Keep(None),
-            // The first picture told nothing: its like is rendered again.
+            // The first picture was not representative: render another like it.
             Some(level) if self.cost.is_none() => level,
             Some(_) if !self.is_still(now) => {
                 return Step::Keep(Some(self.changed + STILL));
@@ -101,24 +100,24 @@ impl Pace {
         Step::Render(size(full, level))
     }
 
-    /// Whether nothing has changed for a moment.
+    /// True if nothing has changed for a moment.
     pub fn is_still(&self, now: Instant) -> bool {
         now >= self.changed + STILL
     }
 
-    /// Full size at once, whatever it takes.
+    /// Full size at once, however long it takes.
     pub fn full(&mut self, full: Extent2D) -> Step {
         self.shown = Some(0);
         Step::Render(full)
     }
 
-    /// Whether the last picture was full size and shows how things stand.
+    /// True if the last picture had full size and is up to date.
     pub fn is_sharp(&self) -> bool {
         self.shown == Some(0)
     }
 
-    /// The largest size whose predicted time is within `budget`; one step larger than `current` only
-    /// with room to spare, so that sizes do not flicker.
+    /// The largest size whose predicted time is within `budget`; one step larger than `current` only with a
+    /// margin, so that sizes do not flicker.
     fn level_within(&self, budget: f64, full: Extent2D, current: u32) -> u32 {
         let Some(cost) = self.cost else { return self.start };
         let predicted = cost * f64::from(full.width) * f64::from(full.height);
@@ -153,7 +152,7 @@ mod tests {
             Self { pace: Pace::new(software, now), now, full_milliseconds }
         }
 
-        /// Takes a step and returns the milliseconds that it took, 0 for none.
+        /// Takes a step and returns its time in milliseconds, 0 for none.
         fn step(&mut self) -> f64 {
             let Step::Render(size) = self.pace.step(self.now, FULL, false) else {
                 self.now += Duration::from_millis(10);

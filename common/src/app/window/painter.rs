@@ -1,9 +1,9 @@
-//! Puts the picture and the panel on the window.
+//! Draws the picture and the panel to the window.
 //!
-//! Both meet on a canvas. The picture is blitted to it as sRGB, so that the device converts linear
-//! floats; the panel is blended over it as plain bytes, because its colours were chosen in sRGB. The
-//! canvas is then copied, bit by bit, to the window, whose images may have either format. To images of 10
-//! bits it is blitted, from a copy that says nothing of sRGB: the device would convert the bytes back.
+//! Both are combined on a canvas. The picture is blitted to it as sRGB, so that the device converts linear floats;
+//! the panel is blended over it as plain bytes, because its colours were chosen in sRGB. The canvas is then
+//! copied, bit by bit, to the window, whose images may have either format. To images of 10 bits it is blitted,
+//! from a copy without sRGB, because the device would convert the bytes back.
 
 use anyhow::{Context as _, Result};
 use ash::vk;
@@ -18,7 +18,7 @@ use crate::gpu::{Acquired, Gpu, Image, Swapchain, transition};
 pub struct Painter {
     panel: Renderer<GpuAllocator>,
     canvas: Option<Image>,
-    /// The canvas's bytes as plain numbers, where the window's images have more bits.
+    /// The canvas's bytes as plain numbers, if the window's images have more bits.
     plain: Option<Image>,
     deep: bool,
     srgb: vk::Format,
@@ -33,7 +33,7 @@ impl Painter {
     /// A painter for the images of a swapchain.
     ///
     /// # Errors
-    /// If the device refuses the panel's pipeline.
+    /// If the device rejects the panel's pipeline.
     pub fn new(gpu: &Gpu, swapchain: &Swapchain) -> Result<Self> {
         let format = DynamicRendering {
             color_attachment_format: swapchain.unorm,
@@ -75,7 +75,7 @@ impl Painter {
         })
     }
 
-    /// Takes up new textures of the panel; to be called for every drawing, shown or not.
+    /// Uploads new textures of the panel; must be called for every drawing, shown or not.
     ///
     /// # Errors
     /// If memory is short.
@@ -88,7 +88,7 @@ impl Painter {
                 self.panel.set_texture(self.gpu.queue, self.pool, id, &delta)?;
             }
         }
-        // The drawing at hand may still use what it frees.
+        // The current drawing may still use the freed ones.
         self.unused.extend(textures.free.drain());
         Ok(())
     }
@@ -161,7 +161,7 @@ impl Painter {
     }
 }
 
-/// The one layer that every image here has.
+/// The only layer of every image here.
 const LAYER: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     mip_level: 0,
@@ -169,7 +169,7 @@ const LAYER: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     layer_count: 1,
 };
 
-/// Fills the canvas with what stands behind the panel, ready to be blitted to.
+/// Fills the canvas with the background of the panel, ready for blits.
 fn clear(gpu: &Gpu, cmd: vk::CommandBuffer, canvas: &Image) {
     let color = vk::ClearColorValue { float32: style::BEHIND };
     let ranges = [vk::ImageSubresourceRange::default()
@@ -202,8 +202,7 @@ fn copy(gpu: &Gpu, cmd: vk::CommandBuffer, from: &Image, to: vk::Image) {
     unsafe { gpu.device.cmd_copy_image(cmd, from.handle, source, to, target, &[region]) };
 }
 
-/// Scales a picture to the right end of another of the same height: its handle, its size, and what of it is
-/// covered.
+/// Scales a picture to the right end of another of the same height: its handle, its size, and the covered area.
 fn blit(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,

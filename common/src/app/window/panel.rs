@@ -1,4 +1,4 @@
-//! The panel over the picture: what is measured, the controls, what went wrong.
+//! The panel over the picture: measurements, controls, errors.
 
 use std::time::{Duration, Instant};
 
@@ -16,27 +16,27 @@ use super::rows::{self, Hidden, Rows};
 use super::style;
 use crate::app::Controls;
 
-/// The distance of the panel from the window's edges, and its width where no name is long.
+/// The distance of the panel from the window's edges, and its width unless a name is long.
 const MARGIN: f32 = 12.0;
 const WIDTH: f32 = 292.0;
-/// Windows at least so wide, in points, have the panel beside the picture; in others it lies over it.
+/// Windows at least this wide, in points, show the panel beside the picture; in others it covers it.
 const WIDE: f32 = 900.0;
-/// How long a note stands.
+/// Time for which a note is shown.
 const MOMENT: Duration = Duration::from_secs(4);
 
-/// What a frame of the panel found out.
+/// The result of a frame of the panel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// A control has changed or the camera has moved.
     pub changed: bool,
-    /// Keys that ask something of the window, in order.
+    /// Keys with a command for the window, in order.
     pub asked: Vec<Ask>,
-    /// Where the picture was clicked with Ctrl held, in parts of its width and height.
+    /// The position at which the picture was clicked with Ctrl held, as fractions of its width and height.
     pub clicked: Option<[f32; 2]>,
 }
 
 impl Outcome {
-    /// Adds what another pass over the same frame found out.
+    /// Adds the results of another pass over the same frame.
     pub fn merge(&mut self, other: Self) {
         self.changed |= other.changed;
         self.asked.extend(other.asked);
@@ -46,17 +46,17 @@ impl Outcome {
 
 /// The panel's own state.
 pub struct Panel {
-    /// The camera in the hand.
+    /// Camera navigation.
     pub navigation: Navigation,
-    /// The last device times.
+    /// The latest device times.
     pub history: History,
-    /// What is wrong with the shaders, until it is mended.
+    /// The shader error, until it is fixed.
     pub error: Option<String>,
     note: Option<(String, Instant)>,
     shown: bool,
     help: bool,
     width: f32,
-    /// Where the sheet ended in the last frame, with the margin behind it, in points.
+    /// The bottom of the panel in the last frame, including its margin, in points.
     end: f32,
 }
 
@@ -75,12 +75,12 @@ impl Panel {
         }
     }
 
-    /// How many points of a window the panel has for itself: the picture stands to the right of them.
+    /// Width of the strip that belongs to the panel, in points: the picture is to the right of it.
     pub fn strip(&self, window: f32) -> f32 {
         if self.shown && window >= WIDE { self.end } else { 0.0 }
     }
 
-    /// Tells for a moment what was done, such as a file that was written.
+    /// Shows a message for a moment, such as the name of a written file.
     pub fn tell(&mut self, note: String) {
         self.note = Some((note, Instant::now() + MOMENT));
     }
@@ -122,7 +122,7 @@ impl Panel {
         outcome
     }
 
-    /// Does what a key asks of the panel itself; `false` if it is for the window.
+    /// Executes a key's command for the panel itself; `false` if it is for the window.
     fn answer(&mut self, ask: Ask) -> bool {
         match ask {
             Ask::Help => self.help = !self.help,
@@ -139,11 +139,11 @@ impl Panel {
         facts: &Facts,
         declare: &mut dyn FnMut(&mut Controls),
     ) -> bool {
-        // A window lower than the panel scrolls it.
+        // A panel higher than the window scrolls.
         let room = context.content_rect().height() - 2.0 * (MARGIN + 14.0);
         let area = Area::new(Id::new("panel")).anchor(Align2::LEFT_TOP, [MARGIN, MARGIN]);
         let shown = area.show(context, |ui| {
-            // Else it would be held to the height that it had before an error or a control came.
+            // Otherwise it would keep the height it had before an error or a control appeared.
             ui.set_max_height(context.content_rect().height());
             style::sheet().show(ui, |ui| {
                 ui.set_width(self.width);
@@ -176,9 +176,10 @@ impl Panel {
         ui.add_space(2.0);
         let [width, height] = facts.rendered;
         let percent = 100.0 * f64::from(width) / f64::from(facts.full[0].max(1));
-        let size = match facts.rendered == facts.full {
-            true => format!("{width} × {height}"),
-            false => format!("{width} × {height}   {percent:.0} %"),
+        let size = if facts.rendered == facts.full {
+            format!("{width} × {height}")
+        } else {
+            format!("{width} × {height}   {percent:.0} %")
         };
         let mut lines = vec![
             ("GPU time", format!("{:.1} ms", facts.milliseconds)),
@@ -212,7 +213,7 @@ impl Panel {
         });
     }
 
-    /// The warning, where there is no panel to hold it.
+    /// The warning, if there is no panel to show it.
     fn alone(&self, context: &Context) {
         let area = Area::new(Id::new("warning")).anchor(Align2::LEFT_TOP, [MARGIN, MARGIN]);
         area.show(context, |ui| {
@@ -228,7 +229,7 @@ impl Panel {
             declare(&mut Controls::new(&mut rows));
             rows.changed
         });
-        // What stands above the rows ends where they do.
+        // The part above the rows ends where they end.
         self.width = grid.response.rect.width().max(WIDTH);
         grid.inner
     }
@@ -247,9 +248,9 @@ impl Panel {
     }
 }
 
-/// Where the picture is clicked with Ctrl held, in parts of its width and height.
+/// The position at which the picture is clicked with Ctrl held, as fractions of its width and height.
 fn clicked(picture: &Response, input: &InputState) -> Option<[f32; 2]> {
-    // The key may be up again by the end of the frame.
+    // The key may have been released by the end of the frame.
     let released = |event: &Event| match event {
         Event::PointerButton { pos, button: PointerButton::Primary, pressed: false, modifiers } => {
             Some(*pos).filter(|_| modifiers.command)

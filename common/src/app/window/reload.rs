@@ -1,4 +1,4 @@
-//! Shaders edited while the window is open: noticed, compiled beside it, compared.
+//! Shaders edited while the window is open: noticed, compiled in the background, compared.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,10 +15,10 @@ use crate::gpu::{Bound, Reflection, shader};
 /// Editors save in several steps; compile once they are done.
 const DEBOUNCE: Duration = Duration::from_millis(60);
 
-/// Watches the files that a sample's shaders are made of.
+/// Watches the source files of a sample's shaders.
 pub struct Reload {
     stages: BTreeSet<String>,
-    /// Whether the stages may include other files by now.
+    /// True if the set of included files may have changed.
     stale: bool,
     files: Vec<String>,
     bound: Vec<Bound>,
@@ -30,7 +30,7 @@ pub struct Reload {
 }
 
 impl Reload {
-    /// Watches the folders of shaders. Where the system cannot watch it, F5 still reloads.
+    /// Watches the shader folders. If the system does not support it, F5 still reloads.
     pub fn new(proxy: EventLoopProxy<Wake>) -> Self {
         Self {
             stages: BTreeSet::new(),
@@ -45,10 +45,10 @@ impl Reload {
         }
     }
 
-    /// Takes note of shaders that have come into use, by path below `shaders/`.
+    /// Adds shaders that have come into use, by path below `shaders/`.
     ///
     /// # Errors
-    /// If one of them does not compile any more.
+    /// If one of them no longer compiles.
     pub fn learn(&mut self, new: &[String]) -> Result<()> {
         let known = self.stages.len();
         self.stages.extend(new.iter().cloned());
@@ -57,7 +57,7 @@ impl Reload {
         }
         let (mut files, mut bound) = (Vec::new(), Vec::new());
         for stage in &self.stages {
-            // They have just been compiled, so this reads the cache.
+            // They have just been compiled, so this only reads the cache.
             let shader = shader::compile(stage)?;
             files.extend(shader.files());
             bound.extend(Reflection::of(&shader.spirv)?.descriptors());
@@ -68,19 +68,19 @@ impl Reload {
 
     /// A file has changed.
     pub fn saved(&mut self, path: &str, now: Instant) {
-        // What mends a failure may be a file that nothing included yet.
+        // The fix for a failure may be in a file that nothing included before.
         let matters = self.failed || self.files.iter().any(|file| file == path);
         if matters {
             self.due = Some(now + DEBOUNCE);
         }
     }
 
-    /// Asks for a compilation, whether anything has changed or not.
+    /// Requests a compilation, even if nothing has changed.
     pub fn ask(&mut self, now: Instant) {
         self.due = Some(now);
     }
 
-    /// Begins a compilation if one is due; returns when to call again.
+    /// Begins a compilation if one is due; returns the time of the next call.
     pub fn poll(&mut self, now: Instant) -> Option<Instant> {
         let due = self.due?;
         if self.compiling {
@@ -91,7 +91,7 @@ impl Reload {
         }
         (self.due, self.compiling) = (None, true);
         let (stages, proxy) = (self.stages.clone(), self.proxy.clone());
-        // A closed event loop has no use for the result.
+        // A closed event loop ignores the result.
         let work = move || _ = proxy.send_event(Wake::Compiled(compile(&stages)));
         if let Err(error) = Builder::new().name("shaders".to_owned()).spawn(work) {
             let why = format!("no thread to compile shaders with: {error}");
@@ -100,7 +100,7 @@ impl Reload {
         None
     }
 
-    /// Takes the compiler's result and returns why the new shaders cannot be used, if so.
+    /// Receives the compiler's result; returns the reason if the new shaders cannot be used.
     pub fn compiled(&mut self, result: Result<(), String>) -> Result<(), String> {
         self.compiling = false;
         let result = result.and_then(|()| self.compare());
@@ -111,12 +111,12 @@ impl Reload {
         result
     }
 
-    /// The sample could not be made from the new shaders.
+    /// The sample could not be created with the new shaders.
     pub fn refused(&mut self) {
         self.failed = true;
     }
 
-    /// Bindings are made by the program; a shader that wants others must wait for it.
+    /// The program defines the bindings; a shader that needs others must wait for it.
     fn compare(&self) -> Result<(), String> {
         for stage in &self.stages {
             let one_line = |error: anyhow::Error| format!("{error:#}");
@@ -145,7 +145,7 @@ fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
     let tops = folders.clone();
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
         let Ok(event) = event else { return };
-        // Compiling reads the files: what is only read has not changed.
+        // Compiling reads the files: read accesses are not changes.
         if event.kind.is_access() {
             return;
         }
@@ -159,7 +159,7 @@ fn watch(proxy: EventLoopProxy<Wake>) -> notify::Result<RecommendedWatcher> {
     Ok(watcher)
 }
 
-/// Compiles all of them; the results are in the cache then.
+/// Compiles all of them and stores the results in the cache.
 fn compile(stages: &BTreeSet<String>) -> Result<(), String> {
     let compiled = stages.iter().try_for_each(|stage| shader::compile(stage).map(drop));
     compiled.map_err(|error| format!("{error:#}"))

@@ -1,4 +1,4 @@
-//! The controls as rows of the panel: a name, and what changes its value.
+//! The controls as rows of the panel: a name, and the widget for its value.
 
 use egui::emath::Numeric;
 use egui::{ComboBox, DragValue, Grid, Response, Slider, SliderClamping, Ui};
@@ -11,29 +11,29 @@ use crate::app::chart::Chart;
 use crate::app::controls::{Value, Visit};
 use crate::scene::Camera;
 
-/// The width of the column that holds names.
+/// The width of the column of names.
 const NAMES: f32 = 96.0;
 /// The width of a number beside its slider.
 const NUMBER: f32 = 54.0;
-/// The width of a row beside its name.
+/// The width of a row's widgets.
 const WIDGETS: f32 = 186.0;
 
-/// A slider over more than this is logarithmic: else all that is useful lies at its end.
+/// A slider with a larger range is logarithmic: otherwise all useful values would be at one end.
 const WIDE: f32 = 5000.0;
-/// Nearer to 0 than this, a logarithmic slider is at 0.
+/// Closer to 0 than this, a logarithmic slider is at 0.
 const SMALLEST: f64 = 1e-3;
 
 /// Shows each control as a row and moves the camera; used inside a grid of two columns.
 pub struct Rows<'a> {
-    /// Where the rows go.
+    /// The place for the rows.
     pub ui: &'a mut Ui,
-    /// What the hand asks of the camera.
+    /// The camera input.
     pub navigation: &'a mut Navigation,
-    /// Whether any value has changed.
+    /// True if any value has changed.
     pub changed: bool,
 }
 
-/// The grid that rows stand in.
+/// The grid of the rows.
 pub fn grid(id: &str) -> Grid {
     Grid::new(id.to_owned()).num_columns(2).min_col_width(NAMES).spacing([10.0, 7.0])
 }
@@ -84,16 +84,16 @@ impl Visit for Rows<'_> {
     }
 }
 
-/// Moves the camera while the panel is hidden.
+/// Navigation while the panel is hidden.
 pub struct Hidden<'a> {
-    /// What the hand asks of the camera.
+    /// The camera input.
     pub navigation: &'a mut Navigation,
-    /// Whether the camera has moved.
+    /// True if the camera has moved.
     pub changed: bool,
 }
 
 impl<'a> Hidden<'a> {
-    /// Nothing has moved yet.
+    /// No movement yet.
     pub fn new(navigation: &'a mut Navigation) -> Self {
         Self { navigation, changed: false }
     }
@@ -117,9 +117,9 @@ impl Visit for Hidden<'_> {
     }
 }
 
-/// Shows a value and says whether it was changed.
+/// Shows a value; returns true if it was changed.
 fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
-    // The number beside a slider has a fixed place, so that the rows end alike.
+    // The number beside a slider has a fixed width, so that the rows are aligned.
     ui.spacing_mut().interact_size.x = NUMBER;
     ui.spacing_mut().slider_width = WIDGETS - NUMBER - ui.spacing().item_spacing.x;
     match value {
@@ -170,7 +170,7 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
         Value::Direction(vector, range) => {
             let before = *vector;
             widget(ui, name, Value::Vector(vector, range));
-            // Dragged through 0, it stays where it had a direction.
+            // Dragged through 0, it keeps its last direction.
             if *vector == Vec3::ZERO {
                 *vector = before;
             }
@@ -185,15 +185,15 @@ fn widget(ui: &mut Ui, name: &str, value: Value) -> bool {
     }
 }
 
-/// How many decimals a number is shown with: three digits of the range's width, and two of the number's
-/// own, or a small one would read as 0.
+/// Number of decimals for a number: three digits of the range's width, and at least two significant digits of the
+/// number, because a small one would otherwise be shown as 0.
 fn decimals(number: f32, width: f32) -> usize {
     let exponent = |value: f32| value.abs().log10().floor();
     let own = if number == 0.0 { 0.0 } else { 1.0 - exponent(number) };
     own.max(2.0 - exponent(width)).clamp(0.0, 6.0) as usize
 }
 
-/// A slider that rounds and clamps what is dragged and typed, not what a script has set.
+/// A slider that rounds and clamps values dragged and typed, but not those set by a script.
 fn shown_as_is(slider: Slider) -> Slider {
     slider.clamping(SliderClamping::Edits)
 }
@@ -215,7 +215,7 @@ fn three<N: Numeric>(
     });
 }
 
-/// Tells screen readers and tests what a widget is called.
+/// Gives screen readers and tests the name of a widget.
 fn name_it(response: &Response, name: &str) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
 }

@@ -1,4 +1,4 @@
-//! What lives as long as the window.
+//! The state that lives as long as the window.
 
 mod frame;
 
@@ -26,14 +26,14 @@ use crate::gpu::Gpu;
 
 type Make = fn(&Gpu, &Setup) -> Result<Box<dyn Sample>>;
 
-/// Everything that lives as long as the device. It is dropped in this order, the window last.
+/// The objects that live as long as the device. Dropped in this order, the window last.
 pub struct Session {
     view: View,
     panel: Panel,
     facts: Facts,
     reload: Reload,
     args: Args,
-    /// Makes the sample.
+    /// Creates the sample.
     make: Make,
     hidden: bool,
     redraw_at: Option<Instant>,
@@ -44,13 +44,13 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens a window, which is not shown yet, and makes the sample.
+    /// Opens a window, still hidden, and creates the sample.
     ///
     /// # Errors
-    /// If there is no such device or window, a control is set wrongly, or the sample cannot be made.
+    /// If there is no such device or window, a control is set wrongly, or the sample cannot be created.
     pub fn new(events: &ActiveEventLoop, of: Of, proxy: EventLoopProxy<Wake>) -> Result<Self> {
         let Of { program, args, .. } = of;
-        // Shown once there is something to show.
+        // Shown once there is a picture.
         let attributes = Window::default_attributes()
             .with_title(program.name)
             .with_visible(false)
@@ -62,7 +62,7 @@ impl Session {
         let mut sample = (program.make)(&on_gpu.gpu, &setup)?;
         setup.check()?;
         let mut panel = Panel::new(program.name);
-        // The camera that the chapter chose is home, whatever `--set` makes of it.
+        // Home is the camera chosen by the chapter, whatever `--set` changes.
         sample.controls(&mut Controls::new(&mut Hidden::new(&mut panel.navigation)));
         controls::set_all(&args.sets, |c| sample.controls(c))?;
         let gpu = &on_gpu.gpu;
@@ -88,8 +88,8 @@ impl Session {
         })
     }
 
-    /// Renders the first picture, and then shows the window. The first picture compiles shaders in the driver:
-    /// nobody shall wait before a frozen window.
+    /// Renders the first picture, and then shows the window. The first picture compiles shaders in the driver: the
+    /// user should not have to wait before a frozen window.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -101,7 +101,7 @@ impl Session {
         Ok(())
     }
 
-    /// The event loop goes on; `due` if it does because a frame is due.
+    /// The event loop wakes up; `due` if a frame is due.
     pub fn wake(&mut self, due: bool) {
         self.lag.wake();
         if due {
@@ -109,7 +109,7 @@ impl Session {
         }
     }
 
-    /// Begins what is due, and returns when the event loop must go on without an event.
+    /// Begins the work that is due, and returns when the event loop must wake up without an event.
     pub fn sleep(&mut self) -> Option<Instant> {
         let now = Instant::now();
         let reload_at = self.reload.poll(now);
@@ -121,10 +121,10 @@ impl Session {
         [reload_at, self.redraw_at].into_iter().flatten().min()
     }
 
-    /// Takes leave.
+    /// Ends the session.
     ///
     /// # Errors
-    /// If validation had something to say.
+    /// If validation reported a message.
     pub fn close(self) -> Result<()> {
         let (presented, longest) = (self.presented, self.lag.longest.as_millis());
         let pictures = self.view.pictures;
@@ -136,12 +136,12 @@ impl Session {
         on_gpu.close()
     }
 
-    /// A file below `shaders/` was written.
+    /// A file below `shaders/` was changed.
     pub fn saved(&mut self, path: &str) {
         self.reload.saved(path, Instant::now());
     }
 
-    /// Takes an event other than a redraw.
+    /// Handles an event other than a redraw.
     pub fn take(&mut self, event: &WindowEvent) {
         match event {
             WindowEvent::Occluded(hidden) => self.hidden = *hidden,
@@ -158,7 +158,7 @@ impl Session {
         }
     }
 
-    /// Takes up shaders that were compiled beside, or shows why not.
+    /// Uses shaders compiled in the background, or shows why it cannot.
     pub fn compiled(&mut self, result: Result<(), String>) {
         let start = Instant::now();
         let result = self.reload.compiled(result).and_then(|()| {
@@ -175,7 +175,7 @@ impl Session {
         self.on_gpu.window.request_redraw();
     }
 
-    /// Opens a file that was dropped on the window, as if `--scene` had named it.
+    /// Opens a file dropped on the window, as if it were given by `--scene`.
     fn open(&mut self, file: &Path) {
         let args = Args { scene: Some(file.to_owned()), ..self.args.clone() };
         let setup = Setup::new(&args);
@@ -195,7 +195,7 @@ impl Session {
         self.on_gpu.window.request_redraw();
     }
 
-    /// Makes the sample anew and gives it the values that its controls had.
+    /// Creates the sample again and restores the values of its controls.
     fn remake(&mut self) -> Result<()> {
         let values = controls::list(|c| self.view.sample.controls(c));
         let mut sample = (self.make)(&self.on_gpu.gpu, &Setup::new(&self.args))?;
@@ -208,7 +208,7 @@ impl Session {
         self.view.replace(sample)
     }
 
-    /// Watches the shaders of the pipelines that there are by now.
+    /// Watches the shaders of the current pipelines.
     fn learn(&mut self) {
         let statistics = self.on_gpu.gpu.take_statistics();
         if let Err(error) = self.reload.learn(&statistics.stages()) {

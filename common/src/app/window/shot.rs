@@ -1,4 +1,4 @@
-//! A picture of a window's view that its user asks for.
+//! A screenshot of a window's view.
 
 use std::path::{Path, PathBuf};
 
@@ -8,18 +8,18 @@ use ash::vk;
 use crate::app::Picture;
 use crate::gpu::Image;
 
-/// The picture that is to be written.
+/// The picture to write.
 #[derive(Default)]
 pub struct Shot {
-    /// Whether one was asked for, and is not written yet.
+    /// True if a screenshot was requested and is not written yet.
     pub is_due: bool,
 }
 
 impl Shot {
-    /// Writes the picture if it was asked for and is `ready`, and returns its file.
+    /// Writes the picture if it was requested and is `ready`, and returns its file.
     ///
     /// # Errors
-    /// If the current folder cannot be written.
+    /// If the current folder is not writable.
     pub fn take(&mut self, ready: bool, image: &Image, name: &str) -> Option<Result<PathBuf>> {
         let ready = self.is_due && ready;
         self.is_due &= !ready;
@@ -32,7 +32,7 @@ impl Shot {
     }
 }
 
-/// The first of `NAME-001.png`, `NAME-002.png`, … that there is not.
+/// The first of `NAME-001.png`, `NAME-002.png`, … that does not exist.
 fn free_name(folder: &Path, name: &str) -> Result<PathBuf> {
     for number in 1..1000 {
         let path = folder.join(format!("{name}-{number:03}.png"));

@@ -1,20 +1,20 @@
-//! What came of a step of the view.
+//! The result of a step of the view.
 
 use std::time::Instant;
 
-/// What came of a step of the view.
+/// The result of a step of the view.
 pub enum Stepped {
-    /// A new picture, and what the device took for it.
+    /// A new picture, and its device time.
     New {
         /// Device time.
         milliseconds: f64,
-        /// Whether it is full size.
+        /// True if it has full size.
         full: bool,
-        /// Whether that was the time of tracing alone: the first picture also compiles.
+        /// True if the time is that of tracing alone: the first picture also includes compilation.
         telling: bool,
     },
-    /// Bands of the next picture; the last one stays until it is whole.
+    /// Bands of the next picture; the last one is shown until it is complete.
     Part,
-    /// The last picture still shows how things stand; something may be due then.
+    /// The last picture is up to date; the next step may be due then.
     Kept(Option<Instant>),
 }

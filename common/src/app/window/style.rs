@@ -5,22 +5,22 @@ use egui::{
     vec2,
 };
 
-/// What stands behind the panel where it has a strip of the window for itself: linear red, green, blue, alpha.
+/// Background of the panel's own strip of the window: linear red, green, blue, alpha.
 pub const BEHIND: [f32; 4] = [0.009, 0.009, 0.011, 1.0];
 
-/// What is set, and what is measured.
+/// Colour of settings and measurements.
 pub const ACCENT: Color32 = Color32::from_rgb(214, 168, 92);
-/// Text that explains.
+/// Colour of explanations.
 pub const DIM: Color32 = Color32::from_rgb(146, 150, 158);
-/// Text that is read.
+/// Colour of main text.
 pub const TEXT: Color32 = Color32::from_rgb(222, 224, 228);
-/// What is wrong.
+/// Colour of errors.
 pub const ERROR: Color32 = Color32::from_rgb(240, 110, 100);
 /// Behind sliders and plots.
 pub const WELL: Color32 = Color32::from_rgb(40, 43, 49);
 const FILL: Color32 = Color32::from_rgb(24, 26, 30);
 
-/// Gives every widget the look.
+/// Applies the look to every widget.
 pub fn apply(context: &Context) {
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
@@ -57,7 +57,7 @@ pub fn apply(context: &Context) {
     });
 }
 
-/// A sheet that floats over the picture.
+/// A sheet over the picture.
 pub fn sheet() -> Frame {
     Frame::new()
         .fill(FILL.gamma_multiply(0.93))
@@ -66,7 +66,7 @@ pub fn sheet() -> Frame {
         .inner_margin(Margin::symmetric(14, 12))
 }
 
-/// A box for what is wrong.
+/// A box for errors.
 pub fn warning() -> Frame {
     Frame::new()
         .fill(Color32::from_rgb(58, 24, 24))

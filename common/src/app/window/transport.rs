@@ -1,10 +1,10 @@
-//! The hand on an animation: play, pause and step, by keys and by buttons.
+//! Control of an animation: play, pause and step, by keys and by buttons.
 
 use egui::{Button, InputState, Key, Modifiers, Ui};
 
 use crate::app::Playback;
 
-/// What the hand asked of the animation since the last frame of the window.
+/// Animation input since the last frame of the window.
 #[derive(Default)]
 pub struct Transport {
     toggles: bool,
@@ -12,14 +12,14 @@ pub struct Transport {
 }
 
 impl Transport {
-    /// Takes up the keys, so that no button that has the focus answers them, too.
+    /// Reads the keys, so that a focused button does not also react to them.
     pub fn keys(&mut self, input: &mut InputState) {
         self.toggles ^= input.consume_key(Modifiers::NONE, Key::Space);
         self.steps += input.count_and_consume_key(Modifiers::NONE, Key::Period) as i32;
         self.steps -= input.count_and_consume_key(Modifiers::NONE, Key::Comma) as i32;
     }
 
-    /// Does it; whether another frame is shown now.
+    /// Applies the input; returns true if the frame has changed.
     pub fn apply(&mut self, playback: &mut Playback) -> bool {
         let Self { toggles, steps } = std::mem::take(self);
         let before = playback.frame;

@@ -1,4 +1,4 @@
-//! A sample's picture in a window: rendered at the size that the moment allows.
+//! A sample's picture in a window, at a size that keeps the window responsive.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,40 +16,40 @@ use crate::app::variants::Background;
 use crate::app::{Bands, Clicked, Sample, bands};
 use crate::gpu::{Gpu, Image, Timer};
 
-/// For how long bands are traced before the window looks for input again.
+/// Time for tracing bands before the window looks for input again.
 const SLICE: Duration = Duration::from_millis(40);
 
-/// For how long pictures are added to a mean before the display is shown one: most of a frame of 60 a second.
+/// Time for adding pictures to a mean before one is shown: most of a frame at 60 per second.
 const FRAME: Duration = Duration::from_millis(12);
 
-/// Milliseconds that a preview may take before a change gives it up.
+/// Milliseconds a preview may take before a change abandons it.
 const PATIENCE: f64 = 150.0;
 
 /// The sample and its last picture.
 pub struct View {
     /// The sample.
     pub sample: Box<dyn Sample>,
-    /// The last whole picture.
+    /// The last complete picture.
     pub image: Image,
-    /// The next one, which is traced in bands.
+    /// The next one, traced in bands.
     next: Image,
     bands: Bands,
-    /// What its bands have taken until now.
+    /// Milliseconds of its bands so far.
     spent: f64,
-    /// Whether a change began it: then it is small.
+    /// True if a change began it: then it is small.
     is_preview: bool,
     pace: Pace,
     clock: Clock,
     timer: Timer,
     index: u32,
-    /// How many pictures were whole.
+    /// Number of complete pictures.
     pub pictures: u32,
     changed: bool,
     milliseconds: f64,
     full: vk::Extent2D,
     shot: Shot,
     background: Arc<Background>,
-    /// Why the sample could not be changed as its controls ask.
+    /// The reason why the sample could not follow its controls.
     refused: Option<String>,
     gpu: Gpu,
 }
@@ -83,11 +83,11 @@ impl View {
         })
     }
 
-    /// The picture no longer shows how things stand.
+    /// The picture is out of date.
     pub fn change(&mut self) {
         self.changed = true;
         self.pace.change(Instant::now());
-        // Who moves something wants to see it move: a preview is finished, unless it is no quick one.
+        // Finish the preview if it is fast, so that movement stays visible.
         if !self.is_preview || self.spent > PATIENCE {
             self.give_up();
         }
@@ -101,7 +101,7 @@ impl View {
         self.bands.stop();
     }
 
-    /// Takes the place of the sample, once a first picture shows that it can; the old one stays if not.
+    /// Replaces the sample once a first picture has succeeded; otherwise the old one stays.
     ///
     /// # Errors
     /// If the new sample cannot render.
@@ -124,13 +124,13 @@ impl View {
         tried.map(drop)
     }
 
-    /// Writes the next full picture, which will be rendered at once.
+    /// Saves the next full picture, which is rendered at once.
     pub fn ask_picture(&mut self) {
         self.shot.is_due = true;
     }
 
-    /// Renders some of the next picture for a window of size `full`, if one is due. A window may be larger
-    /// than the device's largest picture: that is shown stretched.
+    /// Renders part of the next picture for a window of size `full`, if one is due. A window may be larger than
+    /// the device's largest picture, which is then stretched.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -142,7 +142,7 @@ impl View {
         }
         if self.bands.next().is_some() {
             if self.changed {
-                // The rest of a preview shows the new values: what follows from them must be there.
+                // The rest of a preview shows the new values, so everything derived from them must be ready.
                 if let Some(kept) = self.build()? {
                     return Ok(kept);
                 }
@@ -170,8 +170,8 @@ impl View {
         self.add_pictures(now, stepped)
     }
 
-    /// Adds to a mean what the display's frame has time for. A display shows 60 pictures a second, and a device
-    /// may trace ten times as many.
+    /// Adds pictures to a mean for the time of a display's frame. A display shows 60 pictures per second, and a
+    /// device may trace ten times as many.
     fn add_pictures(&mut self, since: Instant, mut stepped: Stepped) -> Result<Stepped> {
         let fits = |took: f64| since.elapsed().as_secs_f64() + took / 1e3 < FRAME.as_secs_f64();
         while matches!(stepped, Stepped::New { milliseconds, full: true, .. } if fits(milliseconds))
@@ -185,12 +185,12 @@ impl View {
         Ok(stepped)
     }
 
-    /// Has the sample build what its controls ask for. If it cannot, and there is a picture, that stays.
+    /// Has the sample build what depends on its controls. If it fails and there is a picture, that stays.
     fn build(&mut self) -> Result<Option<Stepped>> {
         match self.sample.changed(&self.gpu) {
             Err(error) if self.milliseconds > 0.0 && !is_loss(&error) => {
                 let error = format!("{error:#}");
-                // It is tried once more, in case the sample has gone back to what it can do.
+                // Try again, in case the sample has returned to its last valid state.
                 let again = (self.refused.as_ref() != Some(&error)).then(Instant::now);
                 self.refused = Some(error);
                 Ok(Some(Stepped::Kept(again)))
@@ -202,14 +202,14 @@ impl View {
         }
     }
 
-    /// Traces bands for as long as the window can wait.
+    /// Traces bands as long as the window can wait.
     fn go_on(&mut self) -> Result<Stepped> {
         let start = Instant::now();
         while start.elapsed() < SLICE {
             let built = self.background.built();
             let whole = self.trace_band()?;
             if built != self.background.built() {
-                // What was waited for is there: what the old pipeline has traced is not to be mixed with it.
+                // The new pipeline is ready: its picture must not be mixed with bands of the old one.
                 self.give_up();
                 self.change();
                 return Ok(Stepped::Part);
@@ -221,13 +221,13 @@ impl View {
         Ok(Stepped::Part)
     }
 
-    /// Whether the next picture is due because time goes on.
+    /// True if the next picture is due because the animation advances.
     pub fn plays(&mut self) -> bool {
         self.sample.playback().is_some_and(|playback| playback.playing)
     }
 
-    /// Shows the frame that time has come to. A picture that was begun is finished first: all of it shows one
-    /// moment.
+    /// Advances the animation to the current time. A picture in progress is finished first, so that all of it
+    /// shows one moment.
     fn go_on_in_time(&mut self) {
         let now = Instant::now();
         if self.clock.advance(self.sample.playback(), now) {
@@ -247,7 +247,7 @@ impl View {
         Ok(())
     }
 
-    /// Traces a band; whether the picture is whole.
+    /// Traces a band; returns true if the picture is complete.
     fn trace_band(&mut self) -> Result<bool> {
         let device = (&self.gpu, &self.timer, Some(&self.background));
         let frame = (&self.next, self.index, self.index);
@@ -256,8 +256,8 @@ impl View {
         Ok(self.bands.next().is_none())
     }
 
-    /// Traces the pixel of the last picture at a place, in parts of its width and height, alone. The next picture
-    /// begins anew: a mean would have that pixel twice.
+    /// Traces a single pixel of the last picture, at a position in fractions of its width and height. The next
+    /// picture starts from scratch: otherwise a mean would contain that pixel twice.
     ///
     /// # Errors
     /// If the sample or the device fails.
@@ -272,7 +272,7 @@ impl View {
         Ok(Clicked { pixel, size })
     }
 
-    /// Puts the picture that is whole in the place of the last.
+    /// Replaces the last picture by the completed one.
     fn show(&mut self) -> Stepped {
         std::mem::swap(&mut self.image, &mut self.next);
         self.pictures += 1;
@@ -283,12 +283,12 @@ impl View {
         Stepped::New { milliseconds: self.milliseconds, full: extent == self.full, telling }
     }
 
-    /// Why what the controls ask for is not shown.
+    /// The reason why the controls' values are not shown.
     pub fn refused(&mut self) -> Option<String> {
         self.background.refused().pop().or_else(|| self.refused.clone())
     }
 
-    /// Adds what is known of the last picture.
+    /// Adds the facts about the last picture.
     pub fn facts(&self, facts: &mut Facts) {
         let pair = |extent: vk::Extent2D| [extent.width, extent.height];
         facts.milliseconds = self.milliseconds;
@@ -296,10 +296,10 @@ impl View {
         facts.accumulated = self.sample.accumulates().then_some(self.index + 1);
     }
 
-    /// Writes the picture that was asked for, once it is there, and returns its file.
+    /// Writes the requested picture once it is ready, and returns its file.
     ///
     /// # Errors
-    /// If the current folder cannot be written.
+    /// If the current folder is not writable.
     pub fn take_picture(&mut self, name: &str) -> Option<Result<PathBuf>> {
         let ready = self.pace.is_sharp() && self.bands.next().is_none();
         self.shot.take(ready, &self.image, name)

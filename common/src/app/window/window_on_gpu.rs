@@ -1,4 +1,4 @@
-//! A window, the device that draws to it, and the panel's library between them.
+//! A window, the device that draws to it, and egui between them.
 
 use anyhow::{Context, Result};
 use ash::vk;
@@ -13,7 +13,7 @@ use super::style;
 use crate::app::check_validation;
 use crate::gpu::{Gpu, Image, Swapchain, WindowHandles};
 
-/// What draws to a window. It is dropped in this order, the window last.
+/// The resources for drawing to a window. Dropped in this order, the window last.
 pub struct WindowOnGpu {
     painter: Painter,
     swapchain: Swapchain,
@@ -24,25 +24,25 @@ pub struct WindowOnGpu {
     pub window: Window,
 }
 
-/// What came of an image for the window.
+/// The result of presenting an image in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presented {
     /// The window shows it.
     Shown,
-    /// The window shows it, and wants images of another kind from now on.
+    /// The window shows it, but needs other images from now on.
     ShownStale,
-    /// It was drawn, and the window had changed by then. Wayland lets nobody draw again before a frame was
-    /// shown ([`Window::pre_present_notify`]), so whoever drew it has to draw at once.
+    /// It was drawn, but the window had changed by then. Wayland does not allow another redraw before a frame was
+    /// shown ([`Window::pre_present_notify`]), so the caller must draw again at once.
     Lost,
-    /// The window had none.
+    /// The window had no image.
     NoImage,
 }
 
 impl WindowOnGpu {
-    /// Opens the device that the arguments name, to draw to a window.
+    /// Opens the selected device, to draw to a window.
     ///
     /// # Errors
-    /// If there is none that can, or the window shows no sRGB colour.
+    /// If no device supports it, or the window shows no sRGB colour.
     pub fn new(window: Window, Of { program, args, hooks }: Of) -> Result<Self> {
         let handles = WindowHandles {
             display: window.display_handle().context("the window has no display")?.as_raw(),
@@ -56,7 +56,7 @@ impl WindowOnGpu {
         let swapchain = Swapchain::new(&gpu, handles)?;
         let context = egui::Context::default();
         style::apply(&context);
-        // Frames may take long, and then a click does: press and release come with different frames.
+        // With slow frames, a click may take long: press and release arrive in different frames.
         context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
         Ok(Self {
             painter: Painter::new(&gpu, &swapchain)?,
@@ -74,12 +74,12 @@ impl WindowOnGpu {
         })
     }
 
-    /// Hands an event to the panel; whether the window is to be drawn for it.
+    /// Passes an event to the panel; returns true if the window needs a redraw.
     pub fn take(&mut self, event: &WindowEvent) -> bool {
         self.egui.on_window_event(&self.window, event).repaint
     }
 
-    /// How large a drawing has to be; `None` while there is nothing to draw to.
+    /// The required size of a drawing; `None` while there is nothing to draw to.
     ///
     /// # Errors
     /// If the window system or the device fails.
@@ -88,7 +88,7 @@ impl WindowOnGpu {
         self.swapchain.fit(vk::Extent2D { width: size.width, height: size.height })
     }
 
-    /// Lets `show` declare what lies over the picture.
+    /// Lets `show` declare the contents over the picture.
     ///
     /// # Errors
     /// If memory is short for its textures.
@@ -102,7 +102,7 @@ impl WindowOnGpu {
         Ok(drawing)
     }
 
-    /// Puts a picture, scaled to its area, and what lies over it on the window.
+    /// Draws a picture, scaled to its area, and the contents over it to the window.
     ///
     /// # Errors
     /// If the window system or the device fails.

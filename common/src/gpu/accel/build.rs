@@ -1,4 +1,4 @@
-//! Builds of many structures at a time: one buffer for them, one for their scratch, one submission.
+//! Builds of many structures at once: one buffer for them, one for their scratch, one submission.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -13,13 +13,13 @@ use crate::gpu::memory::buffer::offsets;
 use crate::gpu::queries::Queries;
 use crate::gpu::{Buffer, Geometry, Gpu, barrier};
 
-/// How many bytes structures and scratch of one batch may take together: enough to keep a device busy,
-/// little enough that what compaction leaves behind is no burden. A structure that takes more is built alone.
+/// The most bytes of structures and scratch in one batch: enough to keep a device busy, little enough that the
+/// memory freed by compaction does not matter. A larger structure is built alone.
 const MOST_BYTES: u64 = 64 << 20;
 
 impl AccelerationStructure {
-    /// Builds structures, each from its input: many at a time, which keeps a device busy that
-    /// one small build does not, and in few buffers, as each buffer costs time and memory.
+    /// Builds a structure from each input, many at a time, because a single small build does not keep a device
+    /// busy, and in few buffers, because each buffer costs time and memory.
     ///
     /// # Errors
     /// As [`AccelerationStructure::bottom`].
@@ -34,7 +34,7 @@ impl AccelerationStructure {
     }
 }
 
-/// Neighbours whose structures and scratch fit a batch together.
+/// Splits the plans into consecutive batches whose structures and scratch fit together.
 fn batches(plans: &[Plan], scratch_alignment: u64) -> Vec<Range<usize>> {
     let mut all: Vec<Range<usize>> = Vec::new();
     let mut bytes = 0;
@@ -53,11 +53,11 @@ fn batches(plans: &[Plan], scratch_alignment: u64) -> Vec<Range<usize>> {
     all
 }
 
-/// Structures that share their memory, built at the same time, and compacted if that is asked for.
+/// Structures that share their memory, built at the same time, and compacted if requested.
 fn build_batch(gpu: &Gpu, plans: &[Plan], compact: bool) -> Result<Vec<AccelerationStructure>> {
     let sizes: Vec<_> = plans.iter().map(|plan| plan.sizes.acceleration_structure_size).collect();
     let built = place(gpu, plans.to_vec(), &sizes)?;
-    // The builds of a batch may run at the same time, so none may write to the scratch of another.
+    // The builds of a batch may run concurrently, so each needs scratch of its own.
     let scratches = plans.iter().map(|plan| plan.sizes.build_scratch_size);
     let (offsets, room) = offsets(scratches, gpu.limits.min_scratch_offset_alignment());
     let scratch = scratch_buffer(gpu, room)?;
@@ -91,7 +91,7 @@ pub(super) fn scratch_buffer(gpu: &Gpu, size: u64) -> Result<Buffer> {
     Buffer::new(gpu, "scratch", size, usage)
 }
 
-/// A build or an update of a structure in its place.
+/// A build or an update of a structure.
 pub(super) struct Build<'a> {
     pub(super) structure: &'a AccelerationStructure,
     pub(super) geometries: &'a [Geometry],
@@ -99,7 +99,7 @@ pub(super) struct Build<'a> {
     pub(super) scratch: vk::DeviceAddress,
 }
 
-/// Records builds that do not depend on each other, each with scratch of its own; or such updates.
+/// Records builds or updates that do not depend on each other, each with scratch of its own.
 pub(super) fn record(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,

@@ -1,4 +1,4 @@
-//! Compaction: structures are copied into a buffer of the size that they turned out to need.
+//! Compaction: copies structures into a buffer of the size they turned out to need.
 
 use anyhow::Result;
 use ash::vk;
@@ -8,10 +8,10 @@ use super::place::place;
 use crate::gpu::queries::Queries;
 use crate::gpu::{Gpu, barrier};
 
-/// The query for the size that a structure turned out to need.
+/// The query for the compacted size of a structure.
 pub(super) const SIZE: vk::QueryType = vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
 
-/// Records the queries for the sizes of structures that were built before in `cmd`.
+/// Records queries for the compacted sizes of structures built earlier in `cmd`.
 pub(super) fn ask(sizes: &Queries, cmd: vk::CommandBuffer, built: &[AccelerationStructure]) {
     let (extension, pool) = (&sizes.gpu.acceleration_structure, sizes.handle);
     let handles: Vec<_> = built.iter().map(|one| one.handle).collect();
@@ -22,7 +22,7 @@ pub(super) fn ask(sizes: &Queries, cmd: vk::CommandBuffer, built: &[Acceleration
     }
 }
 
-/// The same structures, one after the other in a buffer, each of the size that it turned out to need.
+/// The same structures, one after the other in a buffer, each of its compacted size.
 ///
 /// # Errors
 /// If memory is short or the device fails.

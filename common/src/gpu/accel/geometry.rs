@@ -1,11 +1,10 @@
-//! What acceleration structures are built from: triangles, boxes, instances.
+//! The input of acceleration structure builds: triangles, boxes, instances.
 
 use std::fmt::{Display, Formatter};
 
 use ash::vk;
 
-/// What an acceleration structure is built from: a bottom level from triangles and boxes, a top level from
-/// instances.
+/// Input of an acceleration structure build: triangles and boxes for a bottom level, instances for a top level.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Geometry {
     /// Indexed triangles: three `u32` each, over positions of three `f32`.
@@ -14,37 +13,37 @@ pub enum Geometry {
         vertices: vk::DeviceAddress,
         /// Bytes from one position to the next.
         vertex_stride: u64,
-        /// How many positions there are.
+        /// Number of positions.
         vertex_count: u32,
         /// Address of the first index.
         indices: vk::DeviceAddress,
-        /// How many triangles there are.
+        /// Number of triangles.
         count: u32,
         /// Never call an any-hit shader for it.
         opaque: bool,
-        /// Call it at most once a triangle and ray, even where the device holds a triangle twice.
+        /// Call it at most once per triangle and ray, even if the device stores a triangle twice.
         no_duplicate_any_hit: bool,
     },
     /// Axis-aligned boxes for an intersection shader: six `f32` each, the low corner first.
     Aabbs {
         /// Address of the first box.
         boxes: vk::DeviceAddress,
-        /// How many boxes there are.
+        /// Number of boxes.
         count: u32,
         /// Never call an any-hit shader for it.
         opaque: bool,
     },
-    /// Bottom levels in their places: a top level's only geometry.
+    /// Instances of bottom levels: a top level's only geometry.
     Instances {
         /// Address of the first `VkAccelerationStructureInstanceKHR`.
         instances: vk::DeviceAddress,
-        /// How many instances there are.
+        /// Number of instances.
         count: u32,
     },
 }
 
 impl Geometry {
-    /// How many triangles, boxes or instances there are.
+    /// Number of triangles, boxes or instances.
     pub fn count(&self) -> u32 {
         let (Self::Triangles { count, .. }
         | Self::Aabbs { count, .. }
@@ -52,7 +51,7 @@ impl Geometry {
         count
     }
 
-    /// Of what kind it is.
+    /// The kind of geometry.
     pub(in crate::gpu) fn kind(&self) -> vk::GeometryTypeKHR {
         match self {
             Self::Triangles { .. } => vk::GeometryTypeKHR::TRIANGLES,
@@ -61,7 +60,7 @@ impl Geometry {
         }
     }
 
-    /// What of it an update must not change: all but where it lies.
+    /// The part that an update must not change: everything except the addresses.
     pub(in crate::gpu) fn without_addresses(&self) -> Self {
         match *self {
             Self::Triangles { vertex_count, count, opaque, no_duplicate_any_hit, .. } => {
@@ -81,7 +80,7 @@ impl Geometry {
         }
     }
 
-    /// As Vulkan takes it.
+    /// In Vulkan's form.
     pub(in crate::gpu) fn described(&self) -> vk::AccelerationStructureGeometryKHR<'static> {
         let address = |device_address| vk::DeviceOrHostAddressConstKHR { device_address };
         let data = match *self {
@@ -130,7 +129,7 @@ impl Geometry {
 }
 
 impl Display for Geometry {
-    /// What of it an update must not change.
+    /// Prints the part that an update must not change.
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let opaque = |opaque: bool| if opaque { "opaque" } else { "not opaque" };
         match *self {

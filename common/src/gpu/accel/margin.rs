@@ -1,29 +1,29 @@
-//! Room around a shape: the box that a device is given is a little larger than the shape's own.
+//! Padding: a device needs a box a little larger than the shape's own.
 
 use glam::{DVec3, Vec3};
 
 use crate::gpu::accel::order::Bounds;
 
-/// How much larger on each side a box has to be lest a test of it lose a ray, if rays begin at most `reach`
-/// from it, along each axis.
+/// The padding on each side that keeps a box test from losing a ray, for rays that begin at most `reach` from the
+/// box along each axis.
 ///
-/// The test's time of a wall w is `(w - o)·(1 / d)`. If the device computes it no worse than it has to
-/// compute the same in a shader, it may be off by 1 ULP for the difference, 2.5 for the reciprocal and 1
-/// for the product (Vulkan specification, appendix "Vulkan Environment for SPIR-V", Precision and
-/// Operation of SPIR-V Instructions; 2.5 ULP hold for a divisor from 2^-126 to 2^126). One ULP is 2u at
-/// most, relative, u = 2^-24: that is 9u, and a tenth for the products of errors.
+/// The test computes the distance to a wall w as `(w - o)·(1 / d)`. If the device is no less precise than a shader
+/// has to be, the error is at most 1 ULP for the difference, 2.5 for the reciprocal and 1 for the product (Vulkan
+/// specification, appendix "Vulkan Environment for SPIR-V", Precision and Operation of SPIR-V Instructions; the
+/// 2.5 ULP apply to a divisor from 2^-126 to 2^126). One ULP is at most 2u, relative, u = 2^-24: that is 9u, and a
+/// tenth for the products of errors.
 pub fn margin(reach: f32) -> f32 {
     10.0 * 0.5f32.powi(24) * reach
 }
 
 /// A box with that margin, rounded outwards.
 ///
-/// A device may compute `w·(1 / d) - o·(1 / d)` instead, and round the second product by itself. That
-/// product is off by 2u at most, of a coordinate o that is |w| + `reach` at most. The part of `reach` takes the
-/// place of the difference above, so the margin needs 2u·|w| more. Vulkan does not say how boxes are
-/// tested; an NVIDIA H200 loses rays as if it did this.
+/// A device may compute `w·(1 / d) - o·(1 / d)` instead, and round the second product separately. That product is
+/// off by at most 2u of a coordinate o, which is at most |w| + `reach`. The part of `reach` replaces the
+/// difference above, so the margin needs 2u·|w| more. Vulkan does not specify how boxes are tested; an NVIDIA H200
+/// loses rays in a way that fits this formula.
 ///
-/// A reach of 0 asks for no margin.
+/// A reach of 0 means no padding.
 ///
 /// ```no_run
 /// use raybook::prelude::*;
@@ -65,7 +65,7 @@ fn down(v: DVec3) -> Vec3 {
 mod tests {
     use super::*;
 
-    /// Numbers between 0 and 1, one after the other.
+    /// A sequence of numbers between 0 and 1.
     struct Random(u32);
 
     impl Random {
@@ -79,7 +79,7 @@ mod tests {
         }
     }
 
-    /// How a device computes the time of a wall w.
+    /// The formula a device uses for the distance to a wall w.
     #[derive(Clone, Copy, Debug)]
     enum Way {
         /// `(w - o)·(1 / d)`
@@ -88,7 +88,7 @@ mod tests {
         Products,
     }
 
-    /// By how much the time of a wall may be off, each operation by its bound of 1 ULP, the reciprocal by 2.5.
+    /// Bound on the error of the distance to a wall, with 1 ULP per operation and 2.5 for the reciprocal.
     fn off(way: Way, w: f64, o: f64, d: f64) -> f64 {
         let ulps = |ulps: &[f64]| ulps.iter().map(|ulp| 1.0 + ulp / 8_388_608.0).product::<f64>();
         let time = ((w - o) / d).abs();
@@ -101,7 +101,7 @@ mod tests {
         }
     }
 
-    /// From when to when a ray is in a box: exactly, or as late and as early as rounding may make it.
+    /// The interval a ray spends in a box: exact, or with the latest entry and earliest exit that rounding allows.
     fn stay(o: Vec3, d: Vec3, [low, high]: [Vec3; 2], way: Option<Way>) -> (f64, f64) {
         let (mut enter, mut leave) = (f64::MIN, f64::MAX);
         for axis in 0..3 {
@@ -115,8 +115,8 @@ mod tests {
         (enter, leave)
     }
 
-    /// Sends rays to boxes as far from the origin as is asked. How many meet their box, and how many of these the
-    /// worst test loses without a margin.
+    /// Sends rays to boxes as far from the origin as given. Returns how many hit their box, and how many of these
+    /// the worst test loses without padding.
     fn hunt(way: Way, far: f32) -> (u32, u32) {
         let (mut random, mut tried, mut without) = (Random(1), 0, 0);
         for _ in 0..200_000 {
@@ -124,7 +124,7 @@ mod tests {
             let size = (-20.0 * random.next()).exp2() * random.vector();
             let (low, high) = (low, low + size);
             let reach = (12.0 * random.next()).exp2();
-            // Through a corner, an edge or a wall, or close by, from as far away as may be.
+            // Through a corner, an edge or a wall, or close by, from as far away as allowed.
             let at = random.vector().map(|x| if x < 0.6 { x.round() } else { x });
             let o = low + (random.vector() * 2.0 - 1.0) * (reach - 1.0);
             let d = low + at * (high - low) - o;

@@ -1,4 +1,4 @@
-//! Opacity micromaps of the device's own: acceleration structures of states, which bottom levels name.
+//! Opacity micromaps supported by the device: acceleration structures of states, referenced by bottom levels.
 
 use anyhow::{Context, Result, ensure};
 use ash::vk;
@@ -11,29 +11,29 @@ use crate::gpu::accel::micromap_extension::{
 };
 use crate::gpu::{Buffer, Gpu, barrier};
 
-/// An opacity micromap as `VK_KHR_opacity_micromap` has it: a `VkAccelerationStructureKHR`, freed on drop. It must
-/// outlive each bottom level that was built with it.
+/// An opacity micromap of `VK_KHR_opacity_micromap`: a `VkAccelerationStructureKHR`, freed on drop. It must
+/// outlive each bottom level built with it.
 pub struct OpacityMicromap {
     /// The Vulkan handle.
     pub handle: vk::AccelerationStructureKHR,
-    /// Bytes that it takes.
+    /// Its size in bytes.
     pub size: u64,
     _buffer: Buffer,
     gpu: Gpu,
 }
 
 impl OpacityMicromap {
-    /// The finest level that the device takes, with four states a part; none if it knows no micromaps.
+    /// The finest level the device supports with four states per part; `None` if it does not support micromaps.
     pub fn finest(gpu: &Gpu) -> Option<u32> {
         let is_known = gpu.features.micromap.micromap == vk::TRUE;
         is_known.then_some(gpu.limits.micromap.max_opacity4_state_subdivision_level)
     }
 
-    /// Builds it of triangles of one level. Their states, two bits each and at least a byte a triangle, lie one
-    /// triangle after the other.
+    /// Builds it from triangles of one level. Their states, two bits each and at least a byte per triangle, are
+    /// stored one triangle after the other.
     ///
     /// # Errors
-    /// If the device does not know micromaps, or not so fine ones or of so many triangles; if memory is short.
+    /// If the device does not support micromaps, this level or so many triangles; if memory is short.
     pub fn new(gpu: &Gpu, name: &str, states: &[u8], level: u32) -> Result<Self> {
         let finest = Self::finest(gpu).context("micromaps were not asked for, or are not there")?;
         ensure!(level <= finest, "'{name}' has level {level}, and {} takes {finest}", gpu.name);
@@ -81,7 +81,8 @@ impl OpacityMicromap {
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         let calls = gpu.acceleration_structure.fp();
         let on_device = vk::AccelerationStructureBuildTypeKHR::DEVICE;
-        // SAFETY: info and all that it names is alive; a micromap has no primitives to count, so there is no list.
+        // SAFETY: info and everything it points to are alive; a micromap has no primitives to count, so there is
+        // no list.
         unsafe {
             (calls.get_acceleration_structure_build_sizes_khr)(
                 gpu.device.handle(),
@@ -97,7 +98,7 @@ impl OpacityMicromap {
             .dst_acceleration_structure(micromap.handle)
             .scratch_data(vk::DeviceOrHostAddressKHR { device_address: scratch.address });
         gpu.submit(|cmd| {
-            // Nor has it ranges.
+            // Nor does it have ranges.
             let ranges = [std::ptr::null()];
             // SAFETY: every address in info belongs to a buffer that outlives the submission.
             unsafe {
@@ -110,7 +111,7 @@ impl OpacityMicromap {
         Ok(micromap)
     }
 
-    /// One that is not built yet, at an address: the older call takes no micromaps.
+    /// A micromap at an address, not built yet: the older call does not accept micromaps.
     fn create(gpu: &Gpu, name: &str, size: u64) -> Result<Self> {
         let function = c"vkCreateAccelerationStructure2KHR";
         let (instance, device) = (&gpu.vulkan.instance, gpu.device.handle());
@@ -132,8 +133,8 @@ impl OpacityMicromap {
         Ok(Self { handle, size, _buffer, gpu: gpu.clone() })
     }
 
-    /// For [`BuildOptions::micromap`](super::BuildOptions::micromap): each primitive of the bottom level has the
-    /// triangle that the 32-bit number in its place says, of an array at that address.
+    /// For [`BuildOptions::micromap`](super::BuildOptions::micromap): primitive `i` of the bottom level uses the
+    /// triangle whose 32-bit number is element `i` of an array at that address.
     pub fn by_indices(&self, index_buffer: vk::DeviceAddress) -> TrianglesMicromap {
         TrianglesMicromap { index_buffer, micromap: self.handle, ..TrianglesMicromap::default() }
     }
@@ -148,7 +149,7 @@ impl Drop for OpacityMicromap {
     }
 }
 
-/// Bytes that the build of a micromap reads, and their address.
+/// A buffer with the input of a micromap build, and its address.
 fn input(gpu: &Gpu, bytes: &[u8]) -> Result<(Buffer, vk::DeviceAddress)> {
     let usage = vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
         | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
@@ -159,7 +160,7 @@ fn input(gpu: &Gpu, bytes: &[u8]) -> Result<(Buffer, vk::DeviceAddress)> {
     Ok((buffer, address))
 }
 
-/// A buffer, and an address in it that is a multiple of `alignment` and has `size` bytes from there on.
+/// A buffer, and an address in it that is a multiple of `alignment` and is followed by `size` bytes.
 fn aligned(
     gpu: &Gpu,
     name: &str,

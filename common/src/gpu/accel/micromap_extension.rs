@@ -1,16 +1,16 @@
-//! What ash 0.38 does not know of `VK_KHR_opacity_micromap` (Vulkan 1.4.351) and of the extension that it is built
-//! on, `VK_KHR_device_address_commands` (1.4.346): as in `vulkan_core.h` of 1.4.359.
+//! Declarations missing in ash 0.38: `VK_KHR_opacity_micromap` (Vulkan 1.4.351) and the extension it depends on,
+//! `VK_KHR_device_address_commands` (1.4.346), as in `vulkan_core.h` of 1.4.359.
 //!
-//! Vulkan specification, chapters "Micromap" and "Acceleration Structures"; what is not used here is left out.
+//! Vulkan specification, chapters "Micromap" and "Acceleration Structures"; unused declarations are omitted.
 
 use std::ffi::{CStr, c_void};
 use std::ptr;
 
 use ash::vk;
 
-/// The name of the extension that [`MicromapFeatures`] belongs to.
+/// The extension of [`MicromapFeatures`].
 pub const OPACITY_MICROMAP: &CStr = c"VK_KHR_opacity_micromap";
-/// The name of the extension that [`AddressCommandsFeatures`] and [`CreateInfo2`] belong to.
+/// The extension of [`AddressCommandsFeatures`] and [`CreateInfo2`].
 pub const DEVICE_ADDRESS_COMMANDS: &CStr = c"VK_KHR_device_address_commands";
 
 /// `VK_ACCELERATION_STRUCTURE_TYPE_OPACITY_MICROMAP_KHR`.
@@ -18,13 +18,12 @@ pub const TYPE: vk::AccelerationStructureTypeKHR =
     vk::AccelerationStructureTypeKHR::from_raw(1_000_623_000);
 /// `VK_GEOMETRY_TYPE_MICROMAP_KHR`.
 pub const GEOMETRY_TYPE: vk::GeometryTypeKHR = vk::GeometryTypeKHR::from_raw(1_000_623_000);
-/// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`: two bits a part.
+/// `VK_OPACITY_MICROMAP_FORMAT_4_STATE_KHR`: two bits per part.
 pub const FORMAT_4_STATE: u16 = 2;
-/// What the addresses of a build's `data` and `triangleArray` are a multiple of
-/// (VUID-vkCmdBuildAccelerationStructuresKHR-micromap-11552).
+/// Alignment of a build's `data` and `triangleArray` (VUID-vkCmdBuildAccelerationStructuresKHR-micromap-11552).
 pub const INPUT_ALIGNMENT: u64 = 128;
 
-/// A structure of a chain, all of whose numbers are 0 at first.
+/// A structure of a `pNext` chain, zeroed by default.
 macro_rules! chained {
     ($(#[$about:meta])* $name:ident = $kind:literal { $($field:ident: $type:ty = $zero:expr),* $(,)? }) => {
         $(#[$about])*
@@ -44,7 +43,7 @@ macro_rules! chained {
             }
         }
 
-        // SAFETY: its pointers are used in calls that are given the whole chain.
+        // SAFETY: its pointers are used only in calls that receive the whole chain.
         unsafe impl Send for $name {}
         // SAFETY: as above.
         unsafe impl Sync for $name {}
@@ -69,7 +68,7 @@ chained! {
     }
 }
 chained! {
-    /// `VkAccelerationStructureCreateInfo2KHR`: the structure lies at an address, and no longer in a buffer.
+    /// `VkAccelerationStructureCreateInfo2KHR`: the structure is created at an address rather than in a buffer.
     CreateInfo2 = 1_000_318_015 {
         create_flags: u32 = 0,
         address: vk::DeviceAddress = 0,
@@ -100,7 +99,7 @@ chained! {
     }
 }
 
-/// `VkMicromapUsageKHR`: how many triangles of a micromap have this level and format.
+/// `VkMicromapUsageKHR`: the number of triangles of a micromap with this level and format.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[allow(missing_docs, reason = "they are Vulkan's")]
@@ -110,7 +109,7 @@ pub struct MicromapUsage {
     pub format: u32,
 }
 
-/// `VkMicromapTriangleKHR`: where the states of one triangle lie, and how many they are.
+/// `VkMicromapTriangleKHR`: the position and number of the states of one triangle.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[allow(missing_docs, reason = "they are Vulkan's")]

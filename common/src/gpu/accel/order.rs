@@ -1,10 +1,9 @@
-//! The order of primitives before a build: a kd split into halves of least surface area.
+//! The order of primitives before a build: a k-d split into halves of least surface area.
 //!
-//! A driver is free to build its hierarchy in the order that it is given, and the software driver
-//! does: 10,000 spheres in random order take more than ten times as long to trace as ordered ones.
-//! Real GPUs sort for themselves and lose nothing by it. The order returned is a *permutation*:
-//! primitive `i` of the build is primitive `order[i]` of the model, so that shaders can find the
-//! original, and pictures do not depend on the order.
+//! A driver is free to build its hierarchy in the order given, and the software driver does: 10,000 spheres in
+//! random order take more than ten times as long to trace as ordered ones. Real GPUs sort for themselves and lose
+//! nothing by it. The result is a *permutation*: primitive `i` of the build is primitive `order[i]` of the model,
+//! so that shaders can find the original, and pictures do not depend on the order.
 
 use glam::Vec3;
 
@@ -19,14 +18,14 @@ pub fn around<'a>(bounds: impl IntoIterator<Item = &'a Bounds>) -> Bounds {
     bounds.into_iter().fold(nothing, |(low, high), (l, h)| (low.min(*l), high.max(*h)))
 }
 
-/// Which primitive of the model each one of a build is: neighbours in space beside each other, or as they
-/// come if `ordering` is off.
+/// For each primitive of a build, its index in the model: sorted so that neighbours in space are adjacent, or in
+/// the model's order if `ordering` is off.
 pub fn for_build(gpu: &Gpu, bounds: &[Bounds], ordering: bool) -> Vec<u32> {
     let order = if ordering { kd_median(bounds) } else { (0..bounds.len() as u32).collect() };
     gpu.driver_shim.order(order)
 }
 
-/// The permutation that puts neighbours in space beside each other.
+/// A permutation that makes neighbours in space adjacent.
 ///
 /// At each step the list is split in the middle, the left part taking the odd one, as the software
 /// driver splits it (Mesa, `lvp_acceleration_structure.c`). Four splits are tried, by the
@@ -60,7 +59,7 @@ pub fn kd_median(bounds: &[Bounds]) -> Vec<u32> {
     order
 }
 
-/// What a list is split by.
+/// The sort key of a split.
 #[derive(Clone, Copy)]
 enum Key {
     Index,
@@ -71,7 +70,7 @@ fn split(part: &mut [u32], left: usize, key: Key, bounds: &[Bounds]) {
     match key {
         Key::Index => part.select_nth_unstable(left),
         Key::Axis(axis) => part.select_nth_unstable_by(left, |&a, &b| {
-            // Halved before they are added: the sum of two finite corners may not be finite.
+            // Halved before adding: the sum of two finite corners may overflow.
             let centre = |i: u32| {
                 let (low, high) = bounds[i as usize];
                 low[axis] * 0.5 + high[axis] * 0.5

@@ -1,4 +1,4 @@
-//! Where structures lie: one after the other in a buffer.
+//! Placement of structures one after the other in a buffer.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use crate::gpu::memory::buffer::offsets;
 use crate::gpu::pipeline::Asked;
 use crate::gpu::{Buffer, Gpu};
 
-/// What the offset of a structure in its buffer must be a multiple of.
+/// Alignment of a structure's offset in its buffer.
 pub(super) const OFFSET_ALIGNMENT: u64 = 256;
 
-/// Structures of the sizes given in one new buffer, not built yet.
+/// Structures of the given sizes in one new buffer, not built yet.
 pub(super) fn place(
     gpu: &Gpu,
     plans: Vec<Plan>,
@@ -47,7 +47,7 @@ pub(super) fn place(
     Ok(placed)
 }
 
-/// What to call structures that lie together.
+/// A name for structures that share a buffer.
 pub(super) fn together(plans: &[Plan]) -> String {
     match plans {
         [one] => one.name.clone(),

@@ -1,4 +1,4 @@
-//! What an acceleration structure is built from and with, and what of it an update must leave as it was.
+//! The input and options of an acceleration structure, and the part that an update must not change.
 
 use std::ptr;
 
@@ -8,20 +8,20 @@ use ash::vk;
 use super::{BuildOptions, Input};
 use crate::gpu::{Geometry, Gpu};
 
-/// What is known of a structure before it is built, and what a build in its place or an update must know.
+/// The description of a structure before it is built, needed again to rebuild or update it.
 #[derive(Clone)]
 pub(super) struct Plan {
     pub(super) name: String,
     pub(super) options: BuildOptions,
     pub(super) geometries: Vec<Geometry>,
-    /// Bytes that a build needs for the structure, more than it has once it is compacted; and bytes that a
-    /// build and an update need beside it.
+    /// Bytes a build needs for the structure, more than after compaction; and bytes of scratch for a build and for
+    /// an update.
     pub(super) sizes: vk::AccelerationStructureBuildSizesInfoKHR<'static>,
 }
 
 impl Plan {
     /// # Errors
-    /// If there is more of something than the device takes.
+    /// If a count exceeds the device's limit.
     pub(super) fn new(gpu: &Gpu, (name, list): Input, options: BuildOptions) -> Result<Self> {
         let mut sizes = vk::AccelerationStructureBuildSizesInfoKHR::default();
         let (name, geometries) = (name.to_owned(), list.to_vec());
@@ -48,7 +48,7 @@ impl Plan {
         Ok(Self { sizes, ..plan })
     }
 
-    /// Of which level the structure is.
+    /// The level of the structure.
     pub(super) fn level(&self) -> vk::AccelerationStructureTypeKHR {
         match self.geometries[..] {
             [Geometry::Instances { .. }] => vk::AccelerationStructureTypeKHR::TOP_LEVEL,
@@ -56,7 +56,7 @@ impl Plan {
         }
     }
 
-    /// Geometries as Vulkan takes them, triangles with the plan's micromap.
+    /// Geometries in Vulkan's form, triangles with the plan's micromap.
     pub(super) fn described(
         &self,
         list: &[Geometry],
@@ -71,7 +71,7 @@ impl Plan {
         all
     }
 
-    /// What the sizes, the build and every update must say alike.
+    /// The build info, the same for the size query, the build and every update.
     pub(super) fn info<'a>(
         &self,
         geometries: &'a [vk::AccelerationStructureGeometryKHR],
@@ -93,10 +93,10 @@ impl Plan {
             .geometries(geometries)
     }
 
-    /// Fails unless the structure may be updated to other geometries: only where they lie may differ.
+    /// Fails unless the structure can be updated with these geometries: only the addresses may differ.
     ///
     /// # Errors
-    /// With the first thing that differs, as it was and as it would be.
+    /// Names the first difference, with both values.
     pub(super) fn check(&self, new: &[Geometry]) -> Result<()> {
         let name = &self.name;
         let is_top = |list: &[Geometry]| matches!(list, [Geometry::Instances { .. }]);

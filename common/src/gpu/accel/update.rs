@@ -1,4 +1,4 @@
-//! What is done to an acceleration structure that is there: it is built again in its place, or updated.
+//! Changes to an existing acceleration structure: rebuilding it in its place, or updating it.
 
 use anyhow::{Result, ensure};
 use ash::vk;
@@ -8,14 +8,15 @@ use super::build::{Build, record, scratch_buffer};
 use crate::gpu::{Buffer, Geometry};
 
 impl AccelerationStructure {
-    /// Builds the structure again in its place, recording into `cmd`: the same primitives, somewhere else.
+    /// Rebuilds the structure in its place, recording into `cmd`: the same primitives at other positions.
     ///
-    /// Traces and builds recorded before have read it by then, and those recorded after see what is new. What
-    /// `geometries` names must be visible to builds, and it and `scratch` must live until the commands are done.
+    /// Includes barriers: earlier traces and builds finish reading first, and later ones see the result. The
+    /// buffers in `geometries` must be visible to builds, and they and `scratch` must live until the commands are
+    /// done.
     ///
     /// # Errors
-    /// If `geometries` have another shape than that of the build, the structure was compacted, or `scratch` is too
-    /// small.
+    /// If `geometries` differ in kind or number from those of the build, the structure was compacted, or `scratch`
+    /// is too small.
     pub fn rebuild(
         &self,
         cmd: vk::CommandBuffer,
@@ -32,14 +33,15 @@ impl AccelerationStructure {
         self.record(cmd, geometries, scratch, vk::BuildAccelerationStructureModeKHR::BUILD)
     }
 
-    /// Moves the primitives of a structure that was built `updatable`, recording into `cmd`. Its tree stays;
-    /// only the boxes in it follow.
+    /// Moves the primitives of a structure that was built `updatable`, recording into `cmd`. Its tree stays the
+    /// same; only the boxes in it follow.
     ///
-    /// `geometries` must be those of the build: only positions, boxes and instances may differ, and no index.
-    /// An instance may become another's, yet not vanish. Otherwise as [`AccelerationStructure::rebuild`].
+    /// `geometries` must be those of the build: only positions, boxes and instances may differ, but not the
+    /// indices. An instance may refer to another bottom level, but must not become inactive. Otherwise as
+    /// [`AccelerationStructure::rebuild`].
     ///
     /// # Errors
-    /// If the structure is not updatable, `geometries` have another shape, or `scratch` is too small.
+    /// If the structure is not updatable, `geometries` differ in kind or number, or `scratch` is too small.
     pub fn update(
         &self,
         cmd: vk::CommandBuffer,

@@ -1,4 +1,4 @@
-//! Where another driver may be emulated: what this program hands to its driver, before the driver gets it.
+//! A layer between this program and its driver, to emulate another driver: it sees shaders and builds first.
 
 use anyhow::Result;
 use glam::Vec3;
@@ -7,29 +7,29 @@ use crate::gpu::Gpu;
 use crate::gpu::device::requirements::Requirements;
 use crate::gpu::pipeline::shader::StageText;
 
-/// Another driver, made of the one that is there: as it computes and traverses, within what Vulkan allows.
+/// Another driver, emulated on top of the actual one: its arithmetic and traversal, within the limits of Vulkan.
 ///
-/// Each method by itself leaves things as they are.
+/// The default methods change nothing.
 pub trait DriverShim: Send + Sync {
-    /// Whose arithmetic and traversal it is, in a word.
+    /// A name for its arithmetic and traversal, in a word.
     fn name(&self) -> &'static str {
         "driver"
     }
 
-    /// What a device must have for it, beyond what the sample asks for.
+    /// The requirements for the emulation, added to the sample's.
     fn requirements(&self, asked: Requirements) -> Requirements {
         asked
     }
 
-    /// Sees a device that is opened, before anything is made on it.
+    /// Called with a new device, before anything is created on it.
     ///
     /// # Errors
-    /// Whatever went wrong.
+    /// Any failure of the emulation.
     fn opened(&self, _: &Gpu) -> Result<()> {
         Ok(())
     }
 
-    /// The words of a stage, as the driver gets them.
+    /// The SPIR-V of a stage, as passed to the driver.
     ///
     /// # Errors
     /// If the text does not compile.
@@ -37,28 +37,28 @@ pub trait DriverShim: Send + Sync {
         stage.words()
     }
 
-    /// Whether shaders may demand that floats are rounded to nearest even, where the device can.
+    /// True if shaders may require rounding to nearest even, where the device supports it.
     fn rounds_to_nearest_even(&self) -> bool {
         true
     }
 
-    /// The primitives of a build in the order in which their candidates may come.
+    /// The primitives of a build, in the order in which their candidates may be reported.
     fn order(&self, primitives: Vec<u32>) -> Vec<u32> {
         primitives
     }
 
-    /// The triangles of a build as often as any-hit shaders may be called for them.
+    /// The triangles of a build, each repeated as often as its any-hit shader may be called.
     fn candidates(&self, triangles: Vec<u32>) -> Vec<u32> {
         triangles
     }
 
-    /// The boxes of a build as large as traversal may take them for: low and high corners.
+    /// The boxes of a build, as large as traversal may treat them: low and high corners.
     fn boxes(&self, boxes: Vec<[Vec3; 2]>) -> Vec<[Vec3; 2]> {
         boxes
     }
 }
 
-/// The driver that there is.
+/// The actual driver, unchanged.
 pub struct Plain;
 
 impl DriverShim for Plain {}

@@ -1,4 +1,4 @@
-//! What a driver says of a pipeline that it has compiled: `VK_KHR_pipeline_executable_properties`.
+//! A driver's statistics of a compiled pipeline: `VK_KHR_pipeline_executable_properties`.
 
 use std::ffi::CStr;
 
@@ -8,24 +8,24 @@ use serde::{Deserialize, Serialize};
 
 /// One program of a pipeline, as its driver's compiler describes it.
 ///
-/// How many there are, and what each is called, is the driver's affair: it may make one of all stages.
+/// Their number and names depend on the driver: it may merge all stages into one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Executable {
     /// The driver's name for it.
     pub name: String,
-    /// `VkShaderStageFlags`: the stages that it was made of.
+    /// `VkShaderStageFlags`: the stages it contains.
     pub stages: u32,
-    /// Invocations that run in step.
+    /// Invocations per subgroup.
     pub subgroup_size: u32,
-    /// The driver's own names and figures, which no other driver need have.
+    /// The driver's own names and values; other drivers may have different ones.
     pub statistics: Vec<(String, f64)>,
 }
 
 impl Executable {
-    /// The programs of a pipeline that was made with `CAPTURE_STATISTICS_KHR`.
+    /// The programs of a pipeline created with `CAPTURE_STATISTICS_KHR`.
     ///
     /// # Errors
-    /// If the driver does not tell.
+    /// If the driver does not report them.
     pub fn all(
         device: &khr::pipeline_executable_properties::Device,
         pipeline: vk::Pipeline,
@@ -53,7 +53,7 @@ impl Executable {
         Ok(all)
     }
 
-    /// The figure of this name, if the driver has one.
+    /// The statistic of this name, if the driver has one.
     pub fn figure(&self, name: &str) -> Option<f64> {
         self.statistics.iter().find(|(known, _)| known == name).map(|&(_, value)| value)
     }

@@ -1,5 +1,5 @@
-//! Whether shaders and Rust agree on structures, enumerations and bindings, and shaders with each other on
-//! payloads, on hit attributes and on what a launch is.
+//! Compares structures, enumerations and bindings between shaders and Rust, and payloads, hit attributes and
+//! launch indices between shaders.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -14,15 +14,15 @@ use crate::gpu::pipeline::enumeration;
 use crate::gpu::pipeline::layout::Known;
 use crate::gpu::pipeline::shader::Shader;
 
-/// Holds the shaders of a pipeline against what Rust has declared, against what the program binds, and against
-/// each other; what is no error and seldom meant. `groups` says how many shader groups the pipeline has of each
-/// kind: raygen, miss, hit, callable.
+/// Compares the shaders of a pipeline with the declarations in Rust, with the bindings and with each other;
+/// returns warnings about likely mistakes. `groups` is the number of shader groups of each kind: raygen, miss,
+/// hit, callable.
 ///
-/// What agrees is noted beside the shaders' words, by a hash of all that was compared and of what compares, and
-/// is not looked at again.
+/// A successful check is recorded beside the shaders' SPIR-V, under a hash of its whole input and of the checking
+/// code, and is not repeated.
 ///
 /// # Errors
-/// On the first that differs, with where it stands and what would be right.
+/// On the first difference, with its place and the correct value.
 pub fn check(
     desc: &PipelineDesc,
     groups: [usize; 4],
@@ -68,20 +68,20 @@ pub fn check(
         reflections.iter().try_for_each(|(path, shader)| shader.check_launch(path))?;
     }
     reflections.iter().try_for_each(|(path, shader)| shader.check_misses(path, misses))?;
-    // The groups of a kind stand together: raygen, then miss.
+    // Groups are sorted by kind: raygen, then miss.
     let miss_groups = desc.groups.iter().skip(raygens).take(misses);
     let miss_shaders: Vec<_> = miss_groups.map(|group| group.general as usize).collect();
     check_payloads(&reflections, &miss_shaders)?;
     check_stages(desc, shaders, &reflections)?;
     check_hit_attributes(&reflections, &desc.groups)?;
     let warnings = warnings(shaders, &reflections, hits);
-    // A note that cannot be written costs time at the next start, nothing else.
+    // Failing to write the record only makes the next start slower.
     let _ = note.map(|note| files::write_whole(&note, warnings.join("\n").as_bytes()));
     Ok(warnings)
 }
 
-/// Holds that each payload that a shader takes is one that a shader of the pipeline passes, and a miss shader's one
-/// that every ray passes which names it. `misses` has the miss shaders in their order.
+/// Checks that each incoming payload matches an outgoing one of the pipeline, and a miss shader's matches that of
+/// every ray that names it. `misses` has the miss shaders in order.
 fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()> {
     let payloads: Vec<_> = shaders.iter().map(|(_, shader)| shader.payloads()).collect();
     let passed = || {
@@ -112,8 +112,8 @@ fn check_payloads(shaders: &[(&str, Reflection)], misses: &[usize]) -> Result<()
     Ok(())
 }
 
-/// Holds that each shader of a hit group is of its stage, that only shaders trace which the recursion lets, and that
-/// none takes a payload of its own for that of who called it.
+/// Checks that each shader of a hit group has the right stage, that only shaders trace for which the recursion depth
+/// suffices, and that none confuses its own payload with its caller's.
 fn check_stages(
     desc: &PipelineDesc,
     shaders: &[Shader],
@@ -153,11 +153,11 @@ fn check_stages(
     Ok(())
 }
 
-/// The type of the attribute that a triangle's hit has: a vec2.
+/// The type of a triangle's hit attribute: a vec2.
 const WEIGHTS: &str = "TypeVector(TypeFloat(32) 2)";
 
-/// Holds that the shaders of a hit group take the attribute that it has: what its intersection shader declares, or, of
-/// triangles, the two weights.
+/// Checks the hit attribute declared by the shaders of a hit group against that of its intersection shader or, for
+/// triangles, the barycentrics.
 fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Result<()> {
     for group in groups {
         let shader = |stage: u32| shaders.get(stage as usize);
@@ -186,7 +186,7 @@ fn check_hit_attributes(shaders: &[(&str, Reflection)], groups: &[Group]) -> Res
     Ok(())
 }
 
-/// What of the shaders is no error and seldom meant.
+/// Likely mistakes in the shaders (warnings).
 fn warnings(shaders: &[Shader], reflections: &[(&str, Reflection)], hits: usize) -> Vec<String> {
     let of_each = reflections.iter().flat_map(|(path, shader)| shader.warnings(path, hits));
     let mut found: Vec<String> = of_each.collect();

@@ -1,4 +1,4 @@
-//! What a compiled shader says of its structures and descriptors, and whether Rust says the same.
+//! The structures and descriptors of a compiled shader, and their comparison with Rust.
 
 mod memory;
 mod rays;
@@ -20,11 +20,11 @@ pub struct Bound {
     pub set: u32,
     /// The binding.
     pub binding: u32,
-    /// What is there, in words.
+    /// The kind of resource, in words.
     pub kind: &'static str,
 }
 
-/// What a shader module says of its structures.
+/// The structures declared in a shader module.
 pub struct Reflection {
     /// The module itself.
     pub module: Module,
@@ -34,7 +34,7 @@ impl Reflection {
     /// Reads a module.
     ///
     /// # Errors
-    /// If the words are no SPIR-V.
+    /// If the words are not SPIR-V.
     pub fn of(spirv: &[u32]) -> Result<Self> {
         let module = rspirv::dr::load_words(spirv).ok().context("not a SPIR-V module")?;
         Ok(Self { module })
@@ -55,10 +55,10 @@ impl Reflection {
         found
     }
 
-    /// Holds every structure that bears the name of one in `known` against it.
+    /// Compares every structure with the one of the same name in `known`, if there is one.
     ///
     /// # Errors
-    /// On the first field that differs, naming structure, field and both offsets.
+    /// On the first field that differs; names structure, field and both offsets.
     pub fn check(&self, path: &str, known: &[StructLayout]) -> Result<()> {
         for (name, members) in self.structs() {
             let Some(layout) = known.iter().find(|layout| layout.name == name) else { continue };
@@ -72,7 +72,7 @@ impl Reflection {
                     None => bail!("{path}: {name}.{member} is in the shader but not in Rust"),
                 }
             }
-            // Of an array, the second element is elsewhere if the sizes differ.
+            // In an array, the second element has another offset if the sizes differ.
             if let Some(stride) = self.stride(&name).filter(|stride| *stride != layout.size) {
                 bail!("{path}: {name} takes {stride} bytes in the shader, {} in Rust", layout.size);
             }
@@ -89,10 +89,10 @@ impl Reflection {
         Ok(())
     }
 
-    /// Sees to it that `known` has every structure that the module reads through an address.
+    /// Checks that `known` has every structure that the module reads through an address.
     ///
     /// # Errors
-    /// On the first that it lacks, naming it and what to write.
+    /// On the first missing one; names it and the line to add.
     pub fn check_addresses(&self, path: &str, known: &[StructLayout]) -> Result<()> {
         let pointees =
             self.module.types_global_values.iter().filter_map(|i| match i.operands[..] {
@@ -148,11 +148,11 @@ impl Reflection {
         }
     }
 
-    /// Holds that the program binds what the module declares: `count` bindings in set 0, and in set 1 the
-    /// texture table, if there is one.
+    /// Checks that the program binds the descriptors that the module declares: `count` bindings in set 0, and the
+    /// texture table in set 1, if there is one.
     ///
     /// # Errors
-    /// On a descriptor in another place, for which drivers have no answer.
+    /// On a descriptor anywhere else, which makes drivers crash.
     pub fn check_bindings(&self, path: &str, bound: &[Binding], has_textures: bool) -> Result<()> {
         for Bound { set, binding, kind } in self.descriptors() {
             let is_bound = match set {

@@ -1,4 +1,4 @@
-//! What has been made on a device, in numbers.
+//! Counts of the objects created on a device.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -6,20 +6,20 @@ use std::time::Duration;
 use crate::gpu::check::executable::Executable;
 use crate::gpu::pipeline::desc::PipelineDesc;
 
-/// What has been made on a device.
+/// Counts and descriptions of the objects created on a device.
 #[derive(Clone, Debug, Default)]
 pub struct Statistics {
     /// Host time of acceleration structure builds.
     pub build_time: Duration,
-    /// Bytes of all acceleration structures that are there.
+    /// Bytes of all existing acceleration structures.
     pub acceleration_structure_bytes: u64,
-    /// Host time of compiling shaders and making pipelines.
+    /// Host time of compiling shaders and creating pipelines.
     pub pipeline_time: Duration,
-    /// What every pipeline was made from, in the order in which they were made.
+    /// The description of every pipeline, in order of creation.
     pub descs: Vec<Arc<PipelineDesc>>,
-    /// What is no error and seldom meant, each with the name of the pipeline or the structure that it is of.
+    /// Warnings about likely mistakes, each with the name of the pipeline or the structure.
     pub warnings: Vec<(String, String)>,
-    /// What the driver's compiler says of the last pipeline, where it was wished for and does.
+    /// The driver's compiler statistics for the last pipeline, if requested and supported.
     pub executables: Vec<Executable>,
 }
 
@@ -30,7 +30,7 @@ impl Statistics {
         stages.map(|stage| stage.path.clone()).collect()
     }
 
-    /// How many shader groups there are in all pipelines.
+    /// Number of shader groups in all pipelines.
     pub fn groups(&self) -> usize {
         self.descs.iter().map(|desc| desc.groups.len()).sum()
     }

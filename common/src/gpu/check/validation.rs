@@ -1,4 +1,4 @@
-//! What the validation layers said: every message is counted, kept and shown once.
+//! Messages of the validation layers: each is counted, kept and shown once.
 
 use std::collections::HashSet;
 use std::ffi::{CStr, c_void};
@@ -8,14 +8,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use anyhow::{Result, bail};
 use ash::{Entry, Instance, ext, vk};
 
-/// The Khronos layer, which holds core and synchronization validation.
+/// The Khronos layer, with core and synchronization validation.
 pub const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// The layer of Debian 12. It is older than `VK_KHR_ray_tracing_position_fetch`, and a newer one is believed.
+/// The layer of Debian 12. It is older than `VK_KHR_ray_tracing_position_fetch`; messages of newer ones are not filtered.
 const DEBIAN_12: u32 = vk::make_api_version(0, 1, 3, 239);
 
-/// What [`DEBIAN_12`] says because it does not know position fetch: the message's id, and words that only this
-/// message has.
+/// False messages of [`DEBIAN_12`], which does not know position fetch: the message's id, and words that occur
+/// only in this message.
 const KNOWN_FALSE: [(&str, &str); 8] = [
     ("VUID_Undefined", "VK_KHR_ray_tracing_position_fetch is not supported by this layer"),
     // VkPhysicalDeviceRayTracingPositionFetchFeaturesKHR.
@@ -36,19 +36,19 @@ const KNOWN_FALSE: [(&str, &str); 8] = [
     ),
 ];
 
-/// Whether a layer says this only because it is too old.
+/// True if a layer reports this only because it is too old.
 fn is_known_false(layer_version: u32, id_name: &str, text: &str) -> bool {
     let says = |(id, words): &(&str, &str)| *id == id_name && text.contains(words);
     layer_version == DEBIAN_12 && KNOWN_FALSE.iter().any(says)
 }
 
-/// What the layer is heard for.
+/// The purpose the layer is enabled for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heard {
     /// Mistakes in the use of Vulkan.
     #[default]
     Mistakes,
-    /// What shaders say by `debugPrintfEXT`, and nothing else: each has the layer change shaders in its own way.
+    /// Output of shaders by `debugPrintfEXT` alone: the layer instruments shaders differently for each purpose.
     Prints,
 }
 
@@ -56,7 +56,7 @@ pub enum Heard {
 #[derive(Default)]
 pub struct Messages {
     layer_version: u32,
-    /// How the layer is told what to check.
+    /// The way the layer is configured.
     way: Way,
     heard: Heard,
     printed: Mutex<Vec<String>>,
@@ -70,7 +70,7 @@ impl Messages {
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
     }
 
-    /// What shaders have printed since this was called last, a line each.
+    /// Lines printed by shaders since the last call.
     pub fn take_printed(&self) -> Vec<String> {
         std::mem::take(&mut self.printed.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -78,7 +78,7 @@ impl Messages {
     /// An empty collection for the installed layer.
     ///
     /// # Errors
-    /// If the layer is not installed, with what to install.
+    /// If the layer is not installed; says what to install.
     pub fn new(entry: &Entry, heard: Heard) -> Result<Arc<Self>> {
         // SAFETY: the entry was loaded from a Vulkan loader and is alive.
         let layers = unsafe { entry.enumerate_instance_layer_properties()? };
@@ -99,19 +99,19 @@ impl Messages {
         Ok(Arc::new(Self { layer_version: layer.spec_version, way, heard, ..Self::default() }))
     }
 
-    /// What the layer is heard for.
+    /// The purpose the layer is enabled for.
     pub fn heard(&self) -> Heard {
         self.heard
     }
 
-    /// How the layer is told what to check.
+    /// The way the layer is configured.
     pub fn way(&self) -> Way {
         self.way
     }
 
     /// A messenger that reports to `self`, to chain into instance creation or to create alone.
     ///
-    /// `self` must outlive the messenger and stay where it is: its address is the callback's user data.
+    /// `self` must outlive the messenger and must not move: its address is the callback's user data.
     pub fn messenger_info(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
         use vk::{
             DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type,
@@ -130,41 +130,42 @@ impl Messages {
 
     fn record(&self, id_name: &str, id: i32, severity: &str, text: &str) {
         if self.heard == Heard::Prints {
-            // What the layer says of itself stands under the same name, such as that its buffer is full.
+            // Messages about the layer itself have the same name, for example that its buffer is full.
             if id_name.to_ascii_uppercase().contains("DEBUG-PRINTF") {
                 let mut printed = self.printed.lock().unwrap_or_else(PoisonError::into_inner);
                 printed.push(said(text).to_owned());
             }
             return;
         }
-        // The loader and drivers talk about the machine, not about this program's use of Vulkan.
+        // Messages of the loader and drivers are about the machine, not about this program's use of Vulkan.
         let about_the_machine = id_name == "Loader Message" || id_name.starts_with("MESA");
         if about_the_machine || is_known_false(self.layer_version, id_name, text) {
             return;
         }
-        // By its id a message is found in the specification and on the pages. Not every layer's text has it.
-        let message = match text.contains(id_name) {
-            true => format!("{severity}: {text}"),
-            false => format!("{severity}: [ {id_name} ] {text}"),
+        // The id finds a message in the specification and on the pages. Not every layer includes it in the text.
+        let message = if text.contains(id_name) {
+            format!("{severity}: {text}")
+        } else {
+            format!("{severity}: [ {id_name} ] {text}")
         };
         let mut seen = self.seen.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if seen.insert(id) {
-            // A panic may not leave a callback, and `eprintln!` panics where nobody listens.
+            // A panic must not leave a callback, and `eprintln!` panics if standard error is closed.
             let _ = writeln!(std::io::stderr(), "{message}");
         }
         self.kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(message);
     }
 }
 
-/// What a shader printed, without what the layer says before it.
+/// A shader's output, without the prefix that the layer adds.
 fn said(text: &str) -> &str {
     let rest = text.split_once("| MessageID = ").map(|(_, rest)| rest);
     rest.and_then(|rest| rest.split_once("| ")).map_or(text, |(_, rest)| rest).trim()
 }
 
-/// What reports to [`Messages`] while an instance lives; dropped before it.
+/// Reports to [`Messages`] while an instance lives; dropped before it.
 pub struct Messenger {
-    /// What it has reported.
+    /// The reported messages.
     pub messages: Arc<Messages>,
     handle: vk::DebugUtilsMessengerEXT,
     utils: ext::debug_utils::Instance,
@@ -191,18 +192,18 @@ impl Drop for Messenger {
     }
 }
 
-/// How the layer is told what to do on top of its defaults.
+/// The way to configure the layer, in addition to its defaults.
 #[derive(Clone, Copy, Default)]
 pub enum Way {
     /// `VK_EXT_layer_settings`: a setting of the layer's own.
     Settings,
-    /// `VK_EXT_validation_features`: all that old layers have, and what new ones may drop.
+    /// `VK_EXT_validation_features`: the only way in old layers, which new ones may drop.
     #[default]
     Features,
 }
 
 impl Way {
-    /// The instance extension that it takes.
+    /// The instance extension it needs.
     pub fn extension(self) -> &'static CStr {
         match self {
             Self::Settings => ext::layer_settings::NAME,
@@ -211,7 +212,7 @@ impl Way {
     }
 }
 
-/// What [`Way::Settings`] takes: the layer's setting for synchronization validation or for prints, on.
+/// For [`Way::Settings`]: enables synchronization validation or shader prints.
 pub fn settings(heard: Heard) -> [vk::LayerSettingEXT<'static>; 1] {
     const ON: vk::Bool32 = vk::TRUE;
     let mut setting = vk::LayerSettingEXT::default()
@@ -226,7 +227,7 @@ pub fn settings(heard: Heard) -> [vk::LayerSettingEXT<'static>; 1] {
     [setting]
 }
 
-/// What [`Way::Features`] takes.
+/// For [`Way::Features`].
 pub fn features(heard: Heard) -> [vk::ValidationFeatureEnableEXT; 1] {
     [match heard {
         Heard::Mistakes => vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION,

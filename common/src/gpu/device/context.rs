@@ -1,8 +1,8 @@
-//! The one `Gpu`: instance, device, queue, allocator and the ray tracing entry points, where they are asked for.
+//! The one `Gpu`: instance, device, queue, allocator and, if required, the ray tracing entry points.
 //!
-//! Everything that lives on the device holds a clone, so the device is destroyed last, whatever the
-//! order of a sample's fields. Work is submitted and waited for (one frame in flight): a sample may
-//! replace or drop anything between frames and needs no rule for lifetimes.
+//! Everything that lives on the device holds a clone, so the device is destroyed last, whatever the order of a
+//! sample's fields. Work is submitted and waited for (one frame in flight), so a sample may replace or drop
+//! anything between frames without rules for lifetimes.
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -25,20 +25,20 @@ use crate::gpu::device::{self, Candidate};
 use crate::gpu::pipeline::cache::PipelineCache;
 use crate::output;
 
-/// How a [`Gpu`] shall be made.
+/// Options for creating a [`Gpu`].
 #[derive(Clone)]
 pub struct GpuOptions<'a> {
-    /// Features and extensions, no more than the sample needs.
+    /// The features and extensions the sample needs, and no more.
     pub requirements: Requirements,
-    /// A device's number or a part of its name; `None` takes the one that `GPU` names, else the best.
+    /// A device's number or a part of its name; `None` selects the one named by `GPU`, else the best.
     pub device: Option<&'a str>,
     /// Turn on validation and synchronization validation.
     pub validate: bool,
-    /// Hear what shaders print by `debugPrintfEXT`, where the validation layer is installed; without `validate`.
+    /// Collect shaders' `debugPrintfEXT` output, if the validation layer is installed; without `validate`.
     pub prints: bool,
-    /// The window to draw to, if any: the device must have a queue that can.
+    /// The window to draw to, if any: the device must have a queue that supports it.
     pub window: Option<WindowHandles>,
-    /// The driver to be emulated, [`Plain`] for the one that there is.
+    /// The driver to emulate; [`Plain`] for the actual one.
     pub driver_shim: Arc<dyn DriverShim>,
 }
 
@@ -56,41 +56,41 @@ impl Default for GpuOptions<'_> {
     }
 }
 
-/// A shared handle to the device and all that belongs to it.
+/// A shared handle to the device and everything that belongs to it.
 #[derive(Clone)]
 pub struct Gpu(Arc<GpuContext>);
 
-/// What a [`Gpu`] gives access to, with all that is known of the chosen device. Raw handles are public: a
-/// chapter may call Vulkan itself.
+/// The contents of a [`Gpu`], with all properties of the chosen device. Raw handles are public: a chapter may call
+/// Vulkan itself.
 pub struct GpuContext {
     /// The device's commands.
     pub device: Device,
-    /// `VK_KHR_acceleration_structure`; each function panics unless the sample has asked for ray tracing.
+    /// `VK_KHR_acceleration_structure`; each function panics unless the sample requires ray tracing.
     pub acceleration_structure: khr::acceleration_structure::Device,
     /// `VK_KHR_ray_tracing_pipeline`; likewise.
     pub ray_tracing_pipeline: khr::ray_tracing_pipeline::Device,
     /// `VK_KHR_push_descriptor`.
     pub push_descriptor: khr::push_descriptor::Device,
-    /// `VK_KHR_pipeline_executable_properties`, where it was wished for and is there.
+    /// `VK_KHR_pipeline_executable_properties`, if requested and supported.
     pub executable_properties: Option<khr::pipeline_executable_properties::Device>,
-    /// The chosen device: its name, its limits, and the features that it was opened with.
+    /// The chosen device: its name, its limits, and the enabled features.
     pub chosen: Candidate,
     /// The one queue in use: compute, and graphics where the device has it.
     pub queue: vk::Queue,
-    /// What the driver has compiled in earlier runs, and in this one.
+    /// Pipelines the driver compiled in earlier runs, and in this one.
     pub pipeline_cache: PipelineCache,
-    /// What the sample has asked for.
+    /// The sample's requirements.
     pub requirements: Requirements,
-    /// What stands between this program and the driver.
+    /// The layer between this program and the driver.
     pub driver_shim: Arc<dyn DriverShim>,
     /// Device memory, shared with the panel's painter.
     pub allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
     statistics: Mutex<Statistics>,
-    /// What the acceleration structures are made of, by address.
+    /// The kind of geometry of each acceleration structure, by address.
     levels: Mutex<BTreeMap<vk::DeviceAddress, vk::GeometryTypeKHR>>,
     pub(in crate::gpu) command_pool: vk::CommandPool,
     names: ext::debug_utils::Device,
-    /// The loader and the instance: the last to go.
+    /// The loader and the instance, destroyed last.
     pub vulkan: Vulkan,
 }
 
@@ -111,10 +111,10 @@ impl Deref for Gpu {
 }
 
 impl Gpu {
-    /// Creates an instance, chooses a device and opens it with just what is asked for.
+    /// Creates an instance, chooses a device and opens it with only the required features and extensions.
     ///
     /// # Errors
-    /// If there is no loader, no suitable device, or no validation layer where one is asked for.
+    /// If there is no loader, no suitable device, or no validation layer although one is required.
     pub fn new(options: &GpuOptions) -> Result<Self> {
         let mut options = options.clone();
         options.requirements = options.driver_shim.requirements(options.requirements);
@@ -135,16 +135,16 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Opens a device that was chosen.
+    /// Opens the chosen device.
     ///
     /// # Errors
-    /// If memory or threads are short, or the device is gone.
+    /// If memory or threads are short, or the device is lost.
     pub fn open(vulkan: Vulkan, chosen: Candidate, options: GpuOptions) -> Result<Self> {
         if chosen.software {
             threads::ensure_threads()?;
         }
-        // A loader that runs out of memory here keeps its lock (1.3.239), and would wait for it for ever: an instance
-        // whose device cannot be opened goes with the process.
+        // A loader that runs out of memory here keeps its lock (1.3.239) and would later wait for it for ever, so an
+        // instance whose device cannot be opened is left to the end of the process.
         let vulkan = ManuallyDrop::new(vulkan);
         let device = device::create(&vulkan.instance, &chosen)?;
         let instance = &vulkan.instance;
@@ -195,32 +195,32 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// Gives an object a name that validation messages and debuggers show.
+    /// Gives an object a name for validation messages and debuggers.
     pub fn name_object<T: vk::Handle + Copy>(&self, handle: T, name: &str) {
-        // What could be done without was not made.
+        // Optional objects may be null.
         if handle.is_null() {
             return;
         }
         let name = CString::new(name).unwrap_or_default();
         let info =
             vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
-        // SAFETY: the handle is alive and belongs to this device. A name that cannot be set is no
-        // reason to stop.
+        // SAFETY: the handle is alive and belongs to this device. Failing to set a
+        // name is not an error.
         let _ = unsafe { self.names.set_debug_utils_object_name(&info) };
     }
 
-    /// What validation says, now and after the device is gone: a leak is said last.
+    /// The validation messages, now and after the device is destroyed: a leak is reported last.
     pub fn validation(&self) -> Arc<Messages> {
         let messenger = self.vulkan.messenger.as_ref();
         messenger.map_or_else(Arc::default, |messenger| messenger.messages.clone())
     }
 
-    /// What has been made so far, since [`Gpu::take_statistics`] if that was called.
+    /// Statistics since the start, or since the last [`Gpu::take_statistics`].
     pub fn statistics(&self) -> Statistics {
         self.statistics.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What has been made since this was called last, for who asks as long as the program runs.
+    /// Statistics since the last call, for a caller that asks repeatedly.
     pub fn take_statistics(&self) -> Statistics {
         let mut all = self.statistics.lock().unwrap_or_else(PoisonError::into_inner);
         let Statistics { acceleration_structure_bytes, warnings, .. } = &*all;
@@ -230,13 +230,12 @@ impl Gpu {
         std::mem::replace(&mut all, rest)
     }
 
-    /// Adds to what has been made.
+    /// Updates the statistics.
     pub(in crate::gpu) fn count(&self, add: impl FnOnce(&mut Statistics)) {
         add(&mut self.statistics.lock().unwrap_or_else(PoisonError::into_inner));
     }
 
-    /// Tells what is seldom meant about what has just been made, in place of what was told of its namesake; a line
-    /// that stands already is not said again.
+    /// Replaces the warnings of the object of this name, and prints those not printed before.
     pub fn warn(&self, name: &str, warnings: Vec<String>) {
         self.count(|statistics| {
             let known = |line: &String| statistics.warnings.iter().any(|(_, told)| told == line);
@@ -249,7 +248,7 @@ impl Gpu {
         });
     }
 
-    /// What a bottom level is made of, if one of this device lies there.
+    /// The kind of geometry of a bottom level of this device at this address.
     pub fn level_at(&self, address: vk::DeviceAddress) -> Option<vk::GeometryTypeKHR> {
         self.levels().get(&address).copied()
     }

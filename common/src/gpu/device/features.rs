@@ -8,7 +8,7 @@ use crate::gpu::accel::micromap_extension::{
     AddressCommandsFeatures, DEVICE_ADDRESS_COMMANDS, MicromapFeatures, OPACITY_MICROMAP,
 };
 
-/// The feature structures that a chapter may ask for, as the device fills them or as it is opened with them.
+/// The feature structures a chapter may use, as the device reports them or as they are enabled.
 #[derive(Clone, Copy, Default)]
 #[allow(missing_docs, reason = "they are Vulkan's")]
 pub struct Features {
@@ -25,10 +25,10 @@ pub struct Features {
 }
 
 impl Features {
-    /// The chain of the structures whose extensions `has` confirms: one of an extension that the device lacks
-    /// must stay out of it.
+    /// The chain of the structures whose extensions `has` confirms: a structure must not be in the chain if the
+    /// device lacks its extension.
     ///
-    /// To be made once: afterwards the structures point to where they have been in the chain.
+    /// Call it once: afterwards the structures contain pointers to their neighbours in the chain.
     pub(in crate::gpu) fn chain(
         &mut self,
         has: impl Fn(&CStr) -> bool,

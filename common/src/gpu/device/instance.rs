@@ -1,4 +1,4 @@
-//! The Vulkan loader, and the instance that is made from it.
+//! The Vulkan loader, and its instance.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -9,22 +9,21 @@ use winit::raw_window_handle::{RawDisplayHandle, RawWindowHandle};
 
 use crate::gpu::check::validation::{self, Heard, Messages, Messenger, Way};
 
-/// The Vulkan loader and an instance, destroyed on drop: drop what was made from it before.
+/// The Vulkan loader and an instance, destroyed on drop: drop everything created from it first.
 pub struct Vulkan {
     /// The loader.
     pub entry: Entry,
     /// The instance's commands.
     pub instance: Instance,
-    /// What tells of messages, under validation.
+    /// Receives validation messages.
     pub messenger: Option<Messenger>,
 }
 
 impl Vulkan {
-    /// An instance, with the validation layer if it is to be heard, and with what a window needs if there is
-    /// one.
+    /// An instance, with the validation layer if its messages are wanted, and with window support if there is a window.
     ///
     /// # Errors
-    /// If there is no loader, no driver or no validation layer, or none that can draw to the window.
+    /// If there is no loader, no driver or no validation layer, or none that supports the window.
     pub fn new(heard: Option<Heard>, window: Option<&WindowHandles>) -> Result<Self> {
         let entry = load()?;
         let messages = match heard.map(|heard| Messages::new(&entry, heard)) {
@@ -46,7 +45,7 @@ impl Drop for Vulkan {
     }
 }
 
-/// A window as its system knows it. It must outlive whatever is made from it.
+/// A window's native handles. The window must outlive everything created from it.
 #[derive(Clone, Copy)]
 pub struct WindowHandles {
     /// The connection to the window system.
@@ -72,11 +71,12 @@ fn load() -> Result<Entry> {
     })
 }
 
-/// Where the loader lies on a system that does not look there by itself.
+/// Paths of the loader on a system that does not search them by itself.
 ///
-/// macOS looks in none of the folders in which the Vulkan SDK and Homebrew put it
+/// macOS searches none of the folders in which the Vulkan SDK and Homebrew install it
 /// (<https://github.com/KhronosGroup/Vulkan-Samples/issues/1001>,
-/// <https://github.com/KhronosGroup/Vulkan-Hpp/pull/2383>). MoltenVK alone will do, too; but the loader has layers.
+/// <https://github.com/KhronosGroup/Vulkan-Hpp/pull/2383>). MoltenVK alone works as well, but only the loader has
+/// layers.
 fn elsewhere(system: &str, sdk: Option<OsString>) -> Vec<PathBuf> {
     if system != "macos" {
         return Vec::new();
@@ -88,14 +88,14 @@ fn elsewhere(system: &str, sdk: Option<OsString>) -> Vec<PathBuf> {
     names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name))).collect()
 }
 
-/// Creates an instance that gives objects names: with the validation layer if there are `messages`, and with what a
-/// window needs if there is one.
+/// Creates an instance that supports object names: with the validation layer if there are `messages`, and with
+/// window support if there is a window.
 fn create(
     entry: &Entry,
     messages: Option<&Messages>,
     window: Option<&WindowHandles>,
 ) -> Result<Instance> {
-    // Every loader has it, whatever drivers have.
+    // Every loader has it, whatever the drivers support.
     let mut extensions = vec![ext::debug_utils::NAME.as_ptr()];
     let mut layers = Vec::new();
     if let Some(window) = window {
@@ -107,8 +107,8 @@ fn create(
         layers.push(validation::LAYER.as_ptr());
         extensions.push(messages.way().extension().as_ptr());
     }
-    // Without it the loader hides devices that are not all of Vulkan, as those of Macs; MoltenVK alone, without a
-    // loader, hides nothing and does not know it.
+    // Without it, the loader hides incomplete implementations, as on Macs; MoltenVK alone, without a loader, hides
+    // nothing and does not know it.
     let mut flags = vk::InstanceCreateFlags::empty();
     // SAFETY: the loader is loaded.
     let offered = unsafe { entry.enumerate_instance_extension_properties(None) };

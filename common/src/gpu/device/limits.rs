@@ -1,4 +1,4 @@
-//! The limits that ray tracing code must heed, in Vulkan's own structures, read once.
+//! The limits that ray tracing code must respect, in Vulkan's own structures, read once.
 
 use std::ffi::CStr;
 use std::ops::Deref;
@@ -9,8 +9,8 @@ use ash::{Instance, khr, vk};
 use crate::gpu::ADDRESS_ALIGNMENT;
 use crate::gpu::accel::micromap_extension::{MicromapProperties, OPACITY_MICROMAP};
 
-/// Properties of the device that decide sizes, alignments and depths; those of ray tracing pipelines are at hand
-/// without the name of their structure.
+/// Properties of the device that determine sizes, alignments and depths; those of ray tracing pipelines are
+/// accessible without the name of their structure.
 #[derive(Clone, Copy, Default)]
 pub struct Limits {
     /// Those of Vulkan 1.0.
@@ -29,7 +29,7 @@ pub struct Limits {
     pub micromap: MicromapProperties,
     /// Bytes of the largest heap of device memory.
     pub largest_heap: u64,
-    /// How many bits of a timestamp count; none where the queue has no timestamps.
+    /// Number of valid bits of a timestamp; 0 if the queue has no timestamps.
     pub timestamp_bits: u32,
 }
 
@@ -42,8 +42,7 @@ impl Deref for Limits {
 }
 
 impl Limits {
-    /// Reads the limits of a device with Vulkan 1.3 and the extensions that `has` confirms; those of its queue
-    /// are left out.
+    /// Reads the limits of a device with Vulkan 1.3 and the extensions that `has` confirms, without those of its queue.
     pub fn of(
         instance: &Instance,
         physical_device: vk::PhysicalDevice,
@@ -65,7 +64,7 @@ impl Limits {
         }
         // SAFETY: the device belongs to the live instance and has what the chain is of, here and below.
         unsafe { instance.get_physical_device_properties2(physical_device, &mut properties) };
-        // What is kept must not point to where its neighbour in the chain has been.
+        // The stored structures must not keep pointers to their former neighbours in the chain.
         let mut link = properties.p_next.cast::<vk::BaseOutStructure>();
         // SAFETY: the structures of the chain are alive.
         while let Some(structure) = unsafe { link.as_mut() } {
@@ -80,31 +79,32 @@ impl Limits {
         all
     }
 
-    /// Whether the device has ray tracing pipelines, all of which allow a ray.
+    /// True if the device has ray tracing pipelines, all of which allow at least one ray.
     pub fn has_ray_tracing(&self) -> bool {
         self.max_ray_recursion_depth > 0
     }
 
-    /// The most pixels of a picture: the rays of one trace, where there are traces.
+    /// The most pixels of a picture: the limit of rays in one trace, if the device can trace.
     pub fn max_pixels(&self) -> u64 {
-        match self.has_ray_tracing() {
-            true => self.max_ray_dispatch_invocation_count.into(),
-            false => u64::from(self.core.max_image_dimension2_d).pow(2),
+        if self.has_ray_tracing() {
+            self.max_ray_dispatch_invocation_count.into()
+        } else {
+            u64::from(self.core.max_image_dimension2_d).pow(2)
         }
     }
 
-    /// Whether the queue can write timestamps.
+    /// True if the queue can write timestamps.
     pub fn has_timestamps(&self) -> bool {
         self.timestamp_bits != 0
     }
 
-    /// What the scratch address of an acceleration structure build is a multiple of.
+    /// Alignment of the scratch address of an acceleration structure build.
     pub fn min_scratch_offset_alignment(&self) -> u64 {
         self.acceleration_structure.min_acceleration_structure_scratch_offset_alignment.into()
     }
 
-    /// What the address of any buffer is a multiple of: whatever is put there, it may begin where the buffer does,
-    /// the scratch of a build and a region of a shader binding table, too.
+    /// Alignment of any buffer's address, sufficient for whatever begins at the start of a buffer, including the
+    /// scratch of a build and a region of a shader binding table.
     pub fn address_alignment(&self) -> u64 {
         let region = self.shader_group_base_alignment.into();
         ADDRESS_ALIGNMENT.max(self.min_scratch_offset_alignment()).max(region)
@@ -117,10 +117,10 @@ impl Limits {
         sides.into_iter().fold(drawn.min(self.core.max_image_dimension2_d), u32::min)
     }
 
-    /// The most textures of a table: descriptors that may be written after they are bound.
+    /// The largest table of textures: descriptors that may be updated after they are bound.
     pub fn max_textures(&self) -> u32 {
         let all = &self.vulkan12;
-        // Set 0 has resources, too: at most as many as there are push descriptors.
+        // Set 0 also has resources: at most as many as there are push descriptors.
         let resources = all.max_per_stage_update_after_bind_resources.saturating_sub(32);
         resources
             .min(all.max_per_stage_descriptor_update_after_bind_samplers)
@@ -130,21 +130,21 @@ impl Limits {
             .min(all.max_update_after_bind_descriptors_in_all_pools)
     }
 
-    /// The most bytes of a buffer in device memory: by the limits of buffers and of allocations, and by the
-    /// memory that there is.
+    /// The largest buffer in device memory, in bytes: by the limits for buffers and allocations, and by the
+    /// available memory.
     pub fn max_buffer_size(&self) -> u64 {
         let most = self.vulkan13.max_buffer_size.min(self.vulkan11.max_memory_allocation_size);
         most.min(self.largest_heap)
     }
 
-    /// Whether a picture may be so large.
+    /// True if a picture may have this size.
     pub fn fits(&self, size: vk::Extent2D) -> bool {
         let pixels = u64::from(size.width) * u64::from(size.height);
         size.width.max(size.height) <= self.core.max_image_dimension2_d
             && pixels <= self.max_pixels()
     }
 
-    /// The largest size of the same shape that a picture may have, and at most `size`.
+    /// The largest size of the same shape that a picture may have, at most `size`.
     pub fn fitted(&self, size: vk::Extent2D) -> vk::Extent2D {
         if self.fits(size) {
             return size;
@@ -177,7 +177,7 @@ mod tests {
             assert!((shape(fitted) / shape(wide) - 1.0).abs() < 0.01, "{fitted:?}");
         }
         assert_eq!(limits.fitted(size(u32::MAX, 1)).height, 1);
-        // Where nothing is traced, no number of rays counts.
+        // Without tracing, the limit of rays does not apply.
         limits.ray_tracing_pipeline = Default::default();
         assert!(limits.fits(size(16_384, 16_384)) && !limits.fits(size(16_385, 1)));
         assert_eq!(limits.fitted(size(32_768, 32_768)), size(16_384, 16_384));

@@ -1,7 +1,7 @@
-//! What a sample asks of a device: Vulkan features and the extensions that carry them.
+//! A sample's requirements: Vulkan features and the extensions that provide them.
 //!
-//! A chapter that needs more than the baseline adds a line in `requirements()`. The
-//! device is created with exactly what was asked, so validation catches a feature used by accident.
+//! A chapter that needs more than the baseline adds a line in `requirements()`. Only the required features are
+//! enabled, so that validation catches any other feature used by accident.
 
 use std::ffi::CStr;
 
@@ -10,12 +10,12 @@ use ash::{khr, vk};
 use crate::gpu::accel::micromap_extension::{DEVICE_ADDRESS_COMMANDS, OPACITY_MICROMAP};
 use crate::gpu::{Features, Limits};
 
-/// One feature bit, the extension that carries it, and how to read and set it.
+/// One feature bit, its extension, and functions to read and set it.
 #[derive(Clone, Copy)]
 pub struct Requirement {
     /// The feature's name in the specification, as an error shows it.
     pub name: &'static str,
-    /// The extension that must be enabled with it; `None` where Vulkan 1.3 has it in core.
+    /// The extension that must be enabled with it; `None` if it is part of core Vulkan 1.3.
     pub extension: Option<&'static CStr>,
     bit: fn(&mut Features) -> &mut vk::Bool32,
 }
@@ -33,7 +33,7 @@ macro_rules! requirement {
     };
 }
 
-/// What tracing rays takes, beyond [`COMPUTE`].
+/// Features for tracing rays, in addition to [`COMPUTE`].
 const RAY_TRACING: [Requirement; 2] = [
     requirement!(
         Some(khr::acceleration_structure::NAME),
@@ -47,14 +47,14 @@ const RAY_TRACING: [Requirement; 2] = [
     ),
 ];
 
-/// What every chapter asks for.
+/// Features for every chapter.
 const COMPUTE: [Requirement; 3] = [
     requirement!(None, "bufferDeviceAddress", vulkan12.buffer_device_address),
     requirement!(None, "scalarBlockLayout", vulkan12.scalar_block_layout),
     requirement!(None, "synchronization2", vulkan13.synchronization2),
 ];
 
-/// What a table of textures takes.
+/// Features for a table of textures.
 const TEXTURES: [Requirement; 3] = [
     requirement!(None, "runtimeDescriptorArray", vulkan12.runtime_descriptor_array),
     requirement!(
@@ -73,9 +73,9 @@ const TEXTURES: [Requirement; 3] = [
 /// the chapter.
 #[derive(Clone, Default)]
 pub struct Requirements {
-    /// How deep `traceRayEXT` has to nest in every pipeline of the sample.
+    /// The nesting depth of `traceRayEXT` that every pipeline of the sample may use.
     pub recursion: u32,
-    /// The most bytes of push constants that a pipeline of the sample has.
+    /// The most bytes of push constants in any pipeline of the sample.
     pub push_constants: u32,
     /// A queue with graphics, and depth in 32-bit floats.
     pub raster: bool,
@@ -88,23 +88,23 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    /// The baseline of every chapter that traces rays: that of [`compute`](Self::compute), a ray tracing pipeline
-    /// and acceleration structures; and of the limits, what Vulkan promises of each such device: a recursion depth
-    /// of 1.
+    /// The baseline of every chapter that traces rays: that of [`compute`](Self::compute), ray tracing pipelines
+    /// and acceleration structures; and for limits, the guaranteed minimum: a recursion depth of 1.
     pub fn ray_tracing() -> Self {
         let mut all = Self { recursion: 1, ..Self::compute() };
         all.list.splice(0..0, RAY_TRACING);
-        // Acceleration structures depend on deferred host operations, even where none is used.
+        // Acceleration structures depend on deferred host operations, even if none is used.
         all.extensions.push(khr::deferred_host_operations::NAME);
         all
     }
 
-    /// The baseline without ray tracing: compute shaders, scalar block layout, buffer addresses, `synchronization2`
-    /// and push descriptors; and of the limits, what Vulkan promises of each device: 128 bytes of push constants.
+    /// The baseline without ray tracing: compute shaders, scalar block layout, buffer addresses,
+    /// `synchronization2` and push descriptors; and for limits, the guaranteed minimum: 128 bytes of push
+    /// constants.
     ///
-    /// Of Vulkan 1.3, `scalarBlockLayout` and the extension `VK_KHR_push_descriptor` alone are a device's free
-    /// choice. MoltenVK 1.4, with which Macs have Vulkan, offers all of it, and what
-    /// [`textures`](Self::textures) adds, from macOS 13 on where the GPU has argument buffers of tier 2 (its
+    /// Among these, only `scalarBlockLayout` and the extension `VK_KHR_push_descriptor` are optional in Vulkan
+    /// 1.3. MoltenVK 1.4, the Vulkan implementation on Macs, supports all of it, and the additions of
+    /// [`textures`](Self::textures), from macOS 13 on if the GPU has argument buffers of tier 2 (its
     /// `MoltenVK_Runtime_UserGuide.md`, and `MVKPhysicalDevice::initFeatures` in `MVKDevice.mm`, read in 1.4.2).
     pub fn compute() -> Self {
         Self {
@@ -115,31 +115,31 @@ impl Requirements {
         }
     }
 
-    /// Whether acceleration structures are built, and rays traced through them.
+    /// True if the sample builds acceleration structures and traces rays.
     pub fn has_ray_tracing(&self) -> bool {
         self.asks_for(khr::acceleration_structure::NAME)
     }
 
-    /// Hit shaders that trace rays in turn: a recursion depth beyond the 1 that is promised.
+    /// Hit shaders that trace further rays: a recursion depth beyond the guaranteed 1.
     pub fn recursion(mut self, depth: u32) -> Self {
         self.recursion = depth;
         self
     }
 
-    /// More push constants than the 128 bytes that are promised.
+    /// More push constants than the guaranteed 128 bytes.
     pub fn push_constants(mut self, bytes: u32) -> Self {
         self.push_constants = bytes;
         self
     }
 
-    /// Shaders that declare how 32-bit floats are rounded, and that zeros keep their signs.
+    /// Shaders that declare the rounding of 32-bit floats and the sign of zeros.
     pub fn exact_floats(mut self) -> Self {
         self.exact_floats = true;
         self
     }
 
-    /// The bindless texture table: one array of sampled images, indexed differently by each ray. Of those
-    /// that may be written after they are bound, a device has to take far more.
+    /// The bindless texture table: one array of sampled images, indexed differently by each ray. It uses
+    /// descriptors that may be updated after binding, of which a device must support far more.
     pub fn textures(mut self) -> Self {
         self.list.extend(TEXTURES);
         self
@@ -151,7 +151,7 @@ impl Requirements {
         self
     }
 
-    /// 64-bit floats in shaders, where the device has them: its [`Features`] tell.
+    /// 64-bit floats in shaders, if the device supports them: see its [`Features`].
     pub fn float64_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(None, "shaderFloat64", core.shader_float64));
         self
@@ -167,13 +167,13 @@ impl Requirements {
         self
     }
 
-    /// Rays that any stage traces by itself, without a ray tracing pipeline.
+    /// Rays that any stage traces, without a ray tracing pipeline.
     pub fn ray_query(mut self) -> Self {
         self.list.push(requirement!(Some(khr::ray_query::NAME), "rayQuery", ray_query.ray_query));
         self
     }
 
-    /// Whether shaders may trace rays without a ray tracing pipeline.
+    /// True if shaders may trace rays without a ray tracing pipeline.
     pub fn has_ray_query(&self) -> bool {
         self.asks_for(khr::ray_query::NAME)
     }
@@ -182,21 +182,21 @@ impl Requirements {
         self.list.iter().any(|requirement| requirement.extension == Some(extension))
     }
 
-    /// Triangles that are drawn: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit
-    /// floats, which the specification does not promise (it promises that or `X8_D24_UNORM_PACK32`).
+    /// Rasterised triangles: a queue with graphics, dynamic rendering, and a depth attachment of 32-bit floats,
+    /// which the specification does not guarantee (it guarantees that or `X8_D24_UNORM_PACK32`).
     pub fn raster(mut self) -> Self {
         self.raster = true;
         self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
         self
     }
 
-    /// Mip levels that the device makes: by blits, and these need a queue with graphics.
+    /// Mip levels made on the device by blits, which need a queue with graphics.
     pub fn mipmaps(mut self) -> Self {
         self.mipmaps = true;
         self
     }
 
-    /// Rays that skip all triangles or all boxes, where the device has it: its [`Features`] tell.
+    /// Rays that skip all triangles or all boxes, if the device supports it: see its [`Features`].
     pub fn primitive_culling_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(
             Some(khr::ray_tracing_pipeline::NAME),
@@ -206,8 +206,8 @@ impl Requirements {
         self
     }
 
-    /// Opacity micromaps that traversal reads by itself, where the device has them:
-    /// [`OpacityMicromap::finest`](crate::gpu::OpacityMicromap::finest) tells.
+    /// Opacity micromaps used by traversal itself, if the device supports them: see
+    /// [`OpacityMicromap::finest`](crate::gpu::OpacityMicromap::finest).
     pub fn opacity_micromaps_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(
             Some(DEVICE_ADDRESS_COMMANDS),
@@ -218,8 +218,8 @@ impl Requirements {
         self
     }
 
-    /// What the driver's compiler says of each pipeline, where it does: [`Statistics`](crate::gpu::Statistics)
-    /// keeps it.
+    /// The driver's compiler statistics for each pipeline, if it offers them, in
+    /// [`Statistics`](crate::gpu::Statistics).
     pub fn compiler_figures_where_offered(mut self) -> Self {
         self.wishes.push(requirement!(
             Some(khr::pipeline_executable_properties::NAME),
@@ -229,14 +229,14 @@ impl Requirements {
         self
     }
 
-    /// What drawing to a window adds: the swapchain and dynamic rendering for the panel.
+    /// Additions for drawing to a window: the swapchain, and dynamic rendering for the panel.
     pub fn window(mut self) -> Self {
         self.list.push(requirement!(None, "dynamicRendering", vulkan13.dynamic_rendering));
         self.extensions.push(khr::swapchain::NAME);
         self
     }
 
-    /// Every extension to enable, each once: of the wishes, those that `offered` grants.
+    /// Every extension to enable, each once: of the optional ones, those in `offered`.
     pub fn extensions(&self, offered: &Features) -> Vec<&'static CStr> {
         let carried = self.granted(offered).filter_map(|requirement| requirement.extension);
         let mut all: Vec<_> = self.extensions.iter().copied().chain(carried).collect();
@@ -245,7 +245,7 @@ impl Requirements {
         all
     }
 
-    /// The features to enable: those asked for, those wished for that `offered` has, and no other.
+    /// The features to enable: the required ones, the optional ones in `offered`, and no others.
     pub fn features(&self, offered: &Features) -> Features {
         let mut features = Features::default();
         for requirement in self.granted(offered) {
@@ -254,15 +254,14 @@ impl Requirements {
         features
     }
 
-    /// What is asked for, and what is wished for and offered.
+    /// The required features, and the optional ones that are offered.
     fn granted(&self, offered: &Features) -> impl Iterator<Item = &Requirement> {
         self.list.iter().chain(self.wishes.iter().filter(|wish| wish.is_in(offered)))
     }
 
-    /// What a device with these extensions, features and limits lacks, by name; empty if it is suitable.
+    /// The missing features of a device with these extensions, features and limits, by name; empty if it is suitable.
     ///
-    /// The limits are those of the device, if it can be asked for them; one of an extension that is missing is not
-    /// judged.
+    /// The limits are those of the device, if they could be queried; those of a missing extension are not checked.
     pub fn missing(
         &self,
         has_extension: impl Fn(&CStr) -> bool,

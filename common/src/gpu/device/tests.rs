@@ -1,4 +1,4 @@
-//! Devices chosen, and refused with what they lack.
+//! Devices chosen, and refused for missing features.
 
 use super::*;
 

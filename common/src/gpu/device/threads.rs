@@ -1,4 +1,4 @@
-//! Threads of a driver that computes on the processor.
+//! Threads of a driver that runs on the CPU.
 
 use std::fs;
 use std::num::NonZero;
@@ -9,20 +9,20 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
-/// The most that Mesa's driver starts to trace with, and one for its queue.
+/// The most threads with which Mesa's driver starts to trace, and one for its queue.
 const MOST: usize = 32 + 1;
 
-/// Longer than the system takes to forget a thread that has ended.
+/// Longer than the system takes to release a thread that has ended.
 const FORGOTTEN: Duration = Duration::from_secs(1);
 
-/// Fails if the system starts no more threads: such a driver starts one a processor when its device is opened,
-/// and waits forever for those that there are not.
+/// Fails if the system cannot start more threads: such a driver starts one per processor when its device is
+/// opened, and waits forever for any that failed to start.
 ///
 /// # Errors
-/// Then, with what to do.
+/// States what to do.
 pub fn ensure_threads() -> Result<()> {
     let wanted = thread::available_parallelism().map_or(1, NonZero::get) + 1;
-    // All of them wait here, so that they are there at the same time.
+    // All of them wait here, so that they exist at the same time.
     let gate = Mutex::new(());
     let ended: Vec<_> = thread::scope(|scope| {
         let closed = gate.lock();
@@ -42,7 +42,7 @@ pub fn ensure_threads() -> Result<()> {
             started.into_iter().filter_map(|thread| thread.join().ok()?).collect(),
         )
     })?;
-    // Linux wakes who joins a thread a moment before it forgets the thread, which counts until then.
+    // Linux wakes the joining thread a moment before it releases the joined one, which counts until then.
     let (start, system) = (Instant::now(), Path::new("/proc"));
     let is_left = |thread: &PathBuf| system.join(thread).exists();
     while ended.iter().any(is_left) && start.elapsed() < FORGOTTEN {

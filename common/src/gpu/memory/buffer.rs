@@ -12,12 +12,12 @@ use crate::gpu::memory::Memory;
 use crate::gpu::memory::staging::{Staging, read_back};
 use crate::gpu::{Gpu, barrier};
 
-/// What `vkCmdUpdateBuffer` takes at most, in bytes.
+/// The limit of `vkCmdUpdateBuffer`, in bytes.
 const MOST_UPDATED: usize = 65_536;
 
-/// What the address of every addressed buffer is a multiple of on any device: what shaders may promise of the
-/// addresses that they read through (GLSL's `buffer_reference_align` is 16 unless it says otherwise), and what
-/// builds ask of their input, 16 for instances and 8 for boxes.
+/// The guaranteed alignment of a buffer's address on any device: shaders may promise it for the addresses they
+/// read through (GLSL's `buffer_reference_align` is 16 by default), and it suffices for the input of builds, 16
+/// for instances and 8 for boxes.
 pub const ADDRESS_ALIGNMENT: u64 = 16;
 
 /// A `VkBuffer` bound to memory of its own, freed on drop.
@@ -33,12 +33,12 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    /// The usage of what shaders read or write by address.
+    /// The usage of buffers that shaders read or write by address.
     pub const ADDRESSED: Usage =
         Usage::from_raw(Usage::SHADER_DEVICE_ADDRESS.as_raw() | Usage::STORAGE_BUFFER.as_raw());
 
-    /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is a multiple of
-    /// what the device asks of any: [`Limits::address_alignment`](crate::gpu::Limits::address_alignment).
+    /// An uninitialised buffer of at least one byte in device memory. Its address, if it has one, is aligned for
+    /// any use: [`Limits::address_alignment`](crate::gpu::Limits::address_alignment).
     ///
     /// # Errors
     /// If the device has no memory left for it.
@@ -54,11 +54,10 @@ impl Buffer {
         Ok(Self::with_arrays(gpu, name, [data], usage)?.0)
     }
 
-    /// A buffer in device memory that holds arrays one after the other, and the address of each, a multiple of
+    /// A buffer in device memory that contains arrays one after the other, and the address of each, a multiple of
     /// [`ADDRESS_ALIGNMENT`].
     ///
-    /// A buffer for each would cost time and memory, and a device has room for some thousands of allocations
-    /// only.
+    /// A buffer for each would cost time and memory, and a device allows only some thousands of allocations.
     ///
     /// # Errors
     /// As [`Buffer::with_data`].
@@ -69,7 +68,7 @@ impl Buffer {
         usage: Usage,
     ) -> Result<(Self, Vec<vk::DeviceAddress>)> {
         let arrays: Vec<A> = arrays.into_iter().collect();
-        // An empty array takes a byte: an address behind the buffer's last byte would be none of the buffer's.
+        // An empty array gets one byte: an address after the buffer's last byte would not be inside the buffer.
         let sizes = arrays.iter().map(|array| size_of_val(array.as_ref()).max(1) as u64);
         let (offsets, size) = offsets(sizes, ADDRESS_ALIGNMENT);
         let buffer = Self::new(gpu, name, size, usage | Usage::TRANSFER_DST)?;
@@ -82,7 +81,7 @@ impl Buffer {
         Ok((buffer, addresses))
     }
 
-    /// A buffer that the host has mapped, to copy from (`CpuToGpu`) or to (`GpuToCpu`).
+    /// A mapped buffer, to copy from (`CpuToGpu`) or to (`GpuToCpu`).
     pub(in crate::gpu) fn mapped(
         gpu: &Gpu,
         name: &str,
@@ -93,7 +92,7 @@ impl Buffer {
     }
 
     fn make(gpu: &Gpu, name: &str, size: u64, usage: Usage, at: MemoryLocation) -> Result<Self> {
-        // Vulkan has no empty buffers; an empty mesh or table still wants an address.
+        // Vulkan has no empty buffers, but an empty mesh or table still needs an address.
         let size = size.max(1);
         let most = gpu.limits.max_buffer_size();
         ensure!(
@@ -115,7 +114,7 @@ impl Buffer {
         let memory = Memory::new(gpu, name, requirements, at, true).with_context(no_memory)?;
         let allocation = &buffer.memory.insert(memory).allocation;
         let offset = allocation.offset();
-        // Where the host has no room to map it, some drivers hand out `MAP_FAILED`, which is -1.
+        // If the host cannot map the memory, some drivers return `MAP_FAILED`, which is -1.
         let start = |first: NonNull<c_void>| first.addr().get().wrapping_sub(offset as usize);
         let unmapped = allocation.mapped_ptr().is_some_and(|first| start(first) == usize::MAX);
         ensure!(!unmapped, "no address space for the buffer '{name}' of {size} bytes");
@@ -126,7 +125,7 @@ impl Buffer {
             let info = vk::BufferDeviceAddressInfo::default().buffer(handle);
             // SAFETY: the buffer is bound and was made for addressing.
             buffer.address = unsafe { gpu.device.get_buffer_device_address(&info) };
-            // The offset in memory is aligned; that the memory's own address is, no rule promises.
+            // The offset in memory is aligned, but no rule guarantees that for the memory's own address.
             ensure!(
                 buffer.address.is_multiple_of(alignment),
                 "the buffer '{name}' lies at {:#x}, which is no multiple of {alignment}",
@@ -154,14 +153,13 @@ impl Buffer {
         staging.submit()
     }
 
-    /// Records that the buffer begins with `data` for the traces and builds that follow in `cmd`; the host does
-    /// not wait.
+    /// Records that the buffer begins with `data` for the traces and builds that follow in `cmd`; does not wait.
     ///
-    /// For what changes from frame to frame and is small, as the commands hold a copy of it: a multiple of
-    /// 4 bytes, into a buffer made with `TRANSFER_DST`.
+    /// For small data that changes from frame to frame, because the commands hold a copy of it: a multiple of 4
+    /// bytes, into a buffer with `TRANSFER_DST`.
     ///
     /// # Errors
-    /// If the data is none of that, or does not fit.
+    /// If the data does not meet these conditions, or does not fit.
     pub fn update<T: Pod>(&self, cmd: vk::CommandBuffer, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let size = bytes.len() as u64;
@@ -180,7 +178,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Records that all of it is 0 for the traces that follow in `cmd`; made with `TRANSFER_DST`.
+    /// Records that the whole buffer is 0 for the traces that follow in `cmd`; needs `TRANSFER_DST`.
     pub fn clear(&self, cmd: vk::CommandBuffer) {
         barrier::trace_to_fill(&self.gpu, cmd);
         // SAFETY: cmd is being recorded on this device, and the buffer outlives the submission.
@@ -188,9 +186,9 @@ impl Buffer {
         barrier::fill_to_trace(&self.gpu, cmd);
     }
 
-    /// The content as a vector of `T`, copied back through a mapped buffer.
+    /// The contents as a vector of `T`, copied back through a mapped buffer.
     ///
-    /// The buffer must have been made with `TRANSFER_SRC`; bytes beyond a whole `T` are left out.
+    /// The buffer must have `TRANSFER_SRC`; bytes beyond a whole `T` are left out.
     ///
     /// # Errors
     /// If the copy fails.
@@ -208,7 +206,7 @@ impl Buffer {
     /// The bytes of a mapped buffer.
     ///
     /// # Panics
-    /// If the buffer lives in device memory only.
+    /// If the buffer is in device memory only.
     pub(in crate::gpu) fn mapped_bytes(&mut self) -> &mut [u8] {
         let memory = self.memory.as_mut().expect("a live buffer has its memory");
         let bytes = memory.allocation.mapped_slice_mut().expect("the buffer was made mapped");
@@ -223,7 +221,7 @@ impl Drop for Buffer {
     }
 }
 
-/// Where parts of these sizes lie one after the other, each at a multiple of `alignment`, and what they take.
+/// Offsets of consecutive parts of these sizes, each at a multiple of `alignment`, and the total size.
 pub(in crate::gpu) fn offsets(sizes: impl Iterator<Item = u64>, alignment: u64) -> (Vec<u64>, u64) {
     let mut end = 0u64;
     let offsets = sizes.map(|size| {

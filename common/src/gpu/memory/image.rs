@@ -1,5 +1,4 @@
-//! A two-dimensional image: the picture that rays write, a texture that they read, or what a rasteriser
-//! draws to.
+//! A two-dimensional image: the picture that rays write, a texture, or a rasteriser's attachment.
 
 mod mipmaps;
 mod texels;
@@ -13,7 +12,7 @@ use crate::gpu::memory::staging::read_back;
 use crate::gpu::{Gpu, barrier};
 pub use texels::Texels;
 
-/// The one mip level and layer that every image of colour here has.
+/// The only mip level and layer of every colour image here.
 const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     base_mip_level: 0,
@@ -22,7 +21,7 @@ const WHOLE: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     layer_count: 1,
 };
 
-/// A copy between them and a buffer, but for its extent.
+/// A copy between such an image and a buffer, without its extent.
 pub(in crate::gpu) const COPY: vk::BufferImageCopy = vk::BufferImageCopy {
     buffer_offset: 0,
     buffer_row_length: 0,
@@ -37,7 +36,7 @@ pub(in crate::gpu) const COPY: vk::BufferImageCopy = vk::BufferImageCopy {
     image_extent: vk::Extent3D { width: 0, height: 0, depth: 1 },
 };
 
-/// A `VkImage`, its memory and a view, freed on drop. Of all images only textures may have more than one mip level.
+/// A `VkImage`, its memory and a view, freed on drop. Only textures may have more than one mip level.
 pub struct Image {
     /// The Vulkan handle.
     pub handle: vk::Image,
@@ -53,7 +52,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// An image that shaders write: four linear 32-bit floats a pixel, cleared to zero, `GENERAL`.
+    /// An image that shaders write: four linear 32-bit floats per pixel, cleared to zero, `GENERAL`.
     ///
     /// # Errors
     /// If a side is 0 or above the device's limit, or memory is short.
@@ -79,8 +78,8 @@ impl Image {
 
     /// An image that a picture is copied to, drawn over, and copied from; its layout is undefined.
     ///
-    /// Copies see it in `format`, drawing in `view_format`, of the same size: so a picture can be
-    /// converted to sRGB and a panel blended over it in sRGB, where its colours were chosen.
+    /// Copies use `format`, drawing uses `view_format`, of the same size: so a picture can be converted to sRGB,
+    /// and a panel blended over it in sRGB, where its colours were chosen.
     ///
     /// # Errors
     /// If a side is 0 or above the device's limit, or memory is short.
@@ -97,8 +96,7 @@ impl Image {
         Self::new(gpu, name, extent, format, view_format, usage, 1)
     }
 
-    /// An image that is drawn to, for colour or depth as its format says, and for what else `usage` names;
-    /// its layout is undefined.
+    /// An image to draw to, colour or depth depending on its format, with additional `usage`; its layout is undefined.
     ///
     /// # Errors
     /// If a side is 0 or above the device's limit for attachments, or memory is short.
@@ -177,18 +175,18 @@ impl Image {
         Ok(image)
     }
 
-    /// All mip levels of the one layer, of colour or depth.
+    /// All mip levels of the single layer, of colour or depth.
     pub fn range(&self) -> vk::ImageSubresourceRange {
         let aspect_mask = aspect(self.format);
         vk::ImageSubresourceRange { aspect_mask, level_count: self.levels, ..WHOLE }
     }
 
-    /// Changes the layout; everything before is done, and visible to everything after.
+    /// Changes the layout, after all earlier commands and before all later ones.
     pub fn transition(&self, cmd: vk::CommandBuffer, from: vk::ImageLayout, to: vk::ImageLayout) {
         transition(&self.gpu, cmd, self.handle, from, to);
     }
 
-    /// The pixels of a storage image, four floats each, rows from the top.
+    /// The pixels of a storage image, four floats each, rows from top to bottom.
     ///
     /// # Errors
     /// If the copy fails.
@@ -211,8 +209,7 @@ impl Image {
     }
 }
 
-/// Changes the layout of the first level of any image; everything before is done, and visible to
-/// everything after.
+/// Changes the layout of the first level of any image, after all earlier commands and before all later ones.
 pub fn transition(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,
@@ -223,7 +220,7 @@ pub fn transition(
     transition_level(gpu, cmd, image, 0, [from, to]);
 }
 
-/// As [`transition`], of one mip level.
+/// As [`transition`], for one mip level.
 pub(in crate::gpu) fn transition_level(
     gpu: &Gpu,
     cmd: vk::CommandBuffer,
@@ -246,7 +243,7 @@ pub(in crate::gpu) fn transition_level(
     unsafe { gpu.device.cmd_pipeline_barrier2(cmd, &dependency) };
 }
 
-/// What a texel of this format is: depth or colour.
+/// The aspect of a format: depth or colour.
 fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
     match format {
         vk::Format::D16_UNORM | vk::Format::D32_SFLOAT => vk::ImageAspectFlags::DEPTH,

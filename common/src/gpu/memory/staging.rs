@@ -1,4 +1,4 @@
-//! Staging: bytes on their way to the device and back, through a buffer that the host has mapped.
+//! Staging: transfers to and from the device through a mapped buffer.
 
 use anyhow::Result;
 use ash::vk::{self, ImageLayout as Layout};
@@ -7,32 +7,32 @@ use gpu_allocator::MemoryLocation;
 use crate::gpu::memory::image;
 use crate::gpu::{Buffer, Gpu, Image, barrier};
 
-/// How many bytes a staging buffer has at most: what is larger goes in parts, and memory does not hold it twice.
+/// The largest staging buffer, in bytes. Larger data is copied in parts, so that memory does not hold it twice.
 const MOST: usize = 32 << 20;
 
-/// How an image is left: ready to be sampled.
+/// The final layout of an image: ready to be sampled.
 const SAMPLED: Layout = Layout::SHADER_READ_ONLY_OPTIMAL;
 
-/// A mapped buffer, and the copies from it that wait to be submitted: many in one submission.
+/// A mapped buffer, and the copies from it still to be submitted, many in one submission.
 pub(in crate::gpu) struct Staging {
     gpu: Gpu,
     buffer: Buffer,
-    /// Bytes that wait in it.
+    /// Bytes in use.
     used: usize,
-    /// Where they belong.
+    /// Destinations of the bytes.
     to_buffers: Vec<(vk::Buffer, vk::BufferCopy)>,
     to_images: Vec<(vk::Image, Layout, vk::BufferImageCopy)>,
 }
 
 impl Staging {
-    /// As large as all that is to be copied, but no larger than a few copies one after the other need.
+    /// A buffer as large as the data to be copied, but at most `MOST` bytes: more is copied in parts.
     pub(in crate::gpu) fn new(gpu: &Gpu, bytes: usize) -> Result<Self> {
         let size = bytes.min(MOST) as u64;
         let buffer = Buffer::mapped(gpu, "staging", size, MemoryLocation::CpuToGpu)?;
         Ok(Self { gpu: gpu.clone(), buffer, used: 0, to_buffers: vec![], to_images: vec![] })
     }
 
-    /// Copies bytes to a buffer, `offset` bytes from its start, with the next submission.
+    /// Copies bytes to a buffer, at `offset` bytes, with the next submission.
     pub(in crate::gpu) fn fill_buffer(
         &mut self,
         buffer: &Buffer,
@@ -48,8 +48,9 @@ impl Staging {
         Ok(())
     }
 
-    /// Copies texels of four bytes to a new image, to be sampled after the next submission, in bands of rows where
-    /// they are too many. Where texels wait, no bytes of a buffer may: a texel lies at a multiple of 4.
+    /// Copies texels of four bytes each to a new image, to be sampled after the next submission, in bands of rows
+    /// if they do not fit. Texels and buffer data must not wait together: a texel's offset must be a multiple of
+    /// 4.
     pub(in crate::gpu) fn fill_image(&mut self, image: &Image, rgba: &[u8]) -> Result<()> {
         let row = 4 * image.extent.width as usize;
         let rows = MOST / row;
@@ -61,14 +62,15 @@ impl Staging {
                 image_extent: vk::Extent3D { height, ..image.extent.into() },
                 ..image::COPY
             };
-            // A band that another follows takes all the room: the next one finds the image as this one left it.
+            // A band followed by another fills the buffer, so each later one is in another submission and finds
+            // the layout left by this one.
             let before = if number == 0 { Layout::UNDEFINED } else { SAMPLED };
             self.to_images.push((image.handle, before, region));
         }
         Ok(())
     }
 
-    /// Puts bytes into the buffer, after a submission if there is no room; where.
+    /// Puts bytes into the buffer, after a submission if there is no room; returns their offset.
     fn put(&mut self, bytes: &[u8]) -> Result<u64> {
         if self.used + bytes.len() > self.buffer.size as usize {
             self.submit()?;
@@ -79,7 +81,7 @@ impl Staging {
         Ok(start as u64)
     }
 
-    /// Copies all that waits, and waits for it.
+    /// Submits all waiting copies and waits for them.
     pub(in crate::gpu) fn submit(&mut self) -> Result<()> {
         let (gpu, from) = (&self.gpu, self.buffer.handle);
         gpu.submit(|cmd| {
@@ -104,7 +106,7 @@ impl Staging {
     }
 }
 
-/// A mapped buffer with the bytes that `copy` puts there; what it reads, it has to wait for.
+/// A mapped buffer with the bytes that `copy` writes; `copy` must include barriers for its sources.
 pub(in crate::gpu) fn read_back(
     gpu: &Gpu,
     name: &str,

@@ -5,7 +5,7 @@ use ash::vk;
 
 use crate::gpu::{Gpu, Image, Texels};
 
-/// What each texture is to shaders.
+/// The descriptor type of each texture.
 const TYPE: vk::DescriptorType = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
 
 /// Set 1 of every pipeline that reads textures: binding 0, an array of combined image samplers.
@@ -22,12 +22,12 @@ pub struct TextureTable {
 
 impl TextureTable {
     /// A table of textures, numbered by position, repeated beyond their edges and filtered linearly. With
-    /// `mipmaps` they have all mip levels, and a lookup between two levels blends them.
+    /// `mipmaps`, they have all mip levels, and a lookup between two levels blends them.
     ///
     /// # Errors
-    /// If the device has no room for so many.
+    /// If the device does not support so many.
     pub fn new(gpu: &Gpu, textures: &[Texels], mipmaps: bool) -> Result<Self> {
-        // Neither an array of no textures is allowed nor a slot that was never filled.
+        // An empty array is not allowed, nor is a slot without a texture.
         let extent = vk::Extent2D { width: 1, height: 1 };
         let none = [Texels { name: "no texture", extent, rgba: &[255; 4], srgb: false }];
         let textures = if textures.is_empty() { &none } else { textures };
@@ -84,7 +84,7 @@ impl TextureTable {
         Ok(table)
     }
 
-    /// How many textures it has; at least one.
+    /// Number of textures, at least one.
     pub fn count(&self) -> u32 {
         self.images.len() as u32
     }
@@ -98,8 +98,8 @@ impl TextureTable {
             .descriptor_type(TYPE)
             .descriptor_count(count)
             .stage_flags(vk::ShaderStageFlags::ALL)];
-        // Nothing is written after it is bound. But of descriptors that may be, a device must take
-        // 500,000, and of others no more than 16 (`maxPerStageDescriptorSamplers`).
+        // Nothing is updated after binding. But a device must support 500,000 descriptors of the kind that may be,
+        // and only 16 others (`maxPerStageDescriptorSamplers`).
         let flags = [vk::DescriptorBindingFlags::UPDATE_AFTER_BIND];
         let mut flags =
             vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);

@@ -1,4 +1,4 @@
-//! A pipeline put together line by line.
+//! Builds a pipeline line by line.
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -21,9 +21,9 @@ use crate::gpu::{Executable, Gpu};
 /// [`ComputePipeline::builder`] or [`GraphicsPipeline::builder`].
 #[derive(Default)]
 pub struct PipelineBuilder<'a> {
-    /// What the pipeline is made from; its stages get their words last.
+    /// The description of the pipeline; the SPIR-V of its stages is added last.
     desc: PipelineDesc,
-    /// How many groups it has of each kind: raygen, miss, hit, callable.
+    /// Number of groups of each kind: raygen, miss, hit, callable.
     groups: [usize; 4],
     workgroup: [u32; 2],
     textures: Option<&'a TextureTable>,
@@ -43,7 +43,7 @@ impl<'a> PipelineBuilder<'a> {
         self.general(0, shader)
     }
 
-    /// Adds a miss shader; `traceRayEXT` chooses by position.
+    /// Adds a miss shader; `traceRayEXT` selects it by position.
     pub fn miss(self, shader: &str) -> Self {
         self.general(1, shader)
     }
@@ -54,7 +54,7 @@ impl<'a> PipelineBuilder<'a> {
         self.group(2, group)
     }
 
-    /// Adds a callable shader; `executeCallableEXT` chooses by position.
+    /// Adds a callable shader; `executeCallableEXT` selects it by position.
     pub fn callable(self, shader: &str) -> Self {
         self.general(3, shader)
     }
@@ -65,7 +65,7 @@ impl<'a> PipelineBuilder<'a> {
         self.group(kind, Group { general, ..Group::default() })
     }
 
-    /// Adds a group behind those of its kind.
+    /// Adds a group after the others of its kind.
     fn group(mut self, kind: usize, group: Group) -> Self {
         let at = self.groups[..=kind].iter().sum();
         self.desc.groups.insert(at, group);
@@ -73,14 +73,12 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// The number of a stage: each is compiled once, however many groups have it. It lies in the folder of
-    /// the pipeline's name, or where its path below `shaders/` says.
+    /// The number of a stage: each is compiled once, however many groups use it. Its file is in the folder with
+    /// the pipeline's name, or at the given path below `shaders/`.
     fn stage(&mut self, shader: &str) -> u32 {
         let PipelineDesc { name, stages, .. } = &mut self.desc;
-        let path = match shader.contains('/') {
-            true => shader.to_owned(),
-            false => format!("{name}/{shader}"),
-        };
+        let path =
+            if shader.contains('/') { shader.to_owned() } else { format!("{name}/{shader}") };
         if let Some(known) = stages.iter().position(|stage| stage.path == path) {
             return known as u32;
         }
@@ -94,8 +92,8 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// Sets width and height of a workgroup: the specialization constants `id` and `id + 1`, which the
-    /// compute shader names as its `local_size_x_id` and `local_size_y_id`.
+    /// Sets width and height of a workgroup: the specialization constants `id` and `id + 1`, which the compute
+    /// shader uses as its `local_size_x_id` and `local_size_y_id`.
     pub fn workgroup(mut self, id: u32, size: [u32; 2]) -> Self {
         self.workgroup = size;
         self.desc.constants.extend([[id, size[0]], [id + 1, size[1]]]);
@@ -115,14 +113,14 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// Adds the next colour attachment, which takes the place of what was there: nothing is blended.
+    /// Adds the next colour attachment, without blending.
     pub fn color(mut self, format: vk::Format) -> Self {
         let attachments = self.desc.attachments.get_or_insert_default();
         attachments.colors.push(format.as_raw());
         self
     }
 
-    /// Sets the depth attachment, and what a fragment's depth has to be against the one that is there.
+    /// Sets the depth attachment, and the comparison of a fragment's depth with the stored one.
     pub fn depth(mut self, format: vk::Format, compare: vk::CompareOp) -> Self {
         let attachments = self.desc.attachments.get_or_insert_default();
         attachments.depth = Some((format.as_raw(), compare.as_raw()));
@@ -155,57 +153,57 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// Declares structures that shaders find by an address in other structures' memory.
+    /// Declares structures that shaders reach by an address stored in another structure.
     pub fn structs(mut self, layouts: &[StructLayout]) -> Self {
         layouts.iter().for_each(|layout| _ = self.known.add_struct(*layout));
         self
     }
 
-    /// Sets the specialization constant `id` in every stage that has it. The names that shaders have for
-    /// an enumeration's numbers are checked against it.
+    /// Sets the specialization constant `id` in every stage that has it. For an enumeration, the names shaders use
+    /// for its numbers are checked.
     pub fn constant<T: ShaderConstant>(mut self, id: u32, value: T) -> Self {
         self.desc.constants.push([id, value.bits()]);
         T::ENUM.into_iter().for_each(|layout| self.known.add_enum(layout));
         self
     }
 
-    /// Defines a macro in every stage, for code that shall not even be compiled.
+    /// Defines a macro in every stage, for code that must not even be compiled.
     pub fn define(mut self, name: &'a str, value: impl ToString) -> Self {
         self.defines.push((name, value.to_string()));
         self
     }
 
-    /// How deep `traceRayEXT` nests: 1 is a ray from the raygen shader, 2 a ray from its hit.
+    /// Sets the nesting depth of `traceRayEXT`: 1 is a ray from the raygen shader, 2 a ray from its hit.
     pub fn recursion(mut self, depth: u32) -> Self {
         self.desc.recursion = depth;
         self
     }
 
-    /// Has all arithmetic done as it is written, so that a result does not depend on what else is
-    /// compiled beside it.
+    /// Forbids the compiler to rearrange arithmetic, so that a result does not depend on what else is compiled with it.
     pub fn as_written(mut self) -> Self {
         self.as_written = true;
         self
     }
 
-    /// Has 32-bit floats rounded to nearest even where the device can be told to, in shaders that ask for it
-    /// by `#ifdef ROUNDING_MODE_RTE`.
+    /// Rounds 32-bit floats to nearest even where the device supports that, in shaders that opt in by `#ifdef
+    /// ROUNDING_MODE_RTE`.
     pub fn rounding_to_nearest_even(self, gpu: &Gpu) -> Self {
         let can = gpu.limits.vulkan12.shader_rounding_mode_rte_float32 == vk::TRUE;
-        match can && gpu.driver_shim.rounds_to_nearest_even() {
-            true => self.define("ROUNDING_MODE_RTE", 1),
-            false => self,
+        if can && gpu.driver_shim.rounds_to_nearest_even() {
+            self.define("ROUNDING_MODE_RTE", 1)
+        } else {
+            self
         }
     }
 
-    /// Promises that rays shall skip all triangles, or all boxes: where the device has
-    /// `rayTraversalPrimitiveCulling`, and only one of the two.
+    /// Promises that rays skip all triangles, or all boxes: requires `rayTraversalPrimitiveCulling`, and only one
+    /// of the two.
     pub fn skip(mut self, flags: vk::PipelineCreateFlags) -> Self {
         self.desc.flags |= flags.as_raw();
         self
     }
 
-    /// Lets rays meet triangles that have opacity micromaps: where the device has the feature `micromap`.
+    /// Lets rays hit triangles with opacity micromaps: requires the feature `micromap`.
     pub fn opacity_micromaps(mut self, meets: bool) -> Self {
         if meets {
             let flag = vk::PipelineCreateFlags::RAY_TRACING_OPACITY_MICROMAP_EXT;
@@ -214,12 +212,12 @@ impl<'a> PipelineBuilder<'a> {
         self
     }
 
-    /// Compiles the shaders and makes the pipeline.
+    /// Compiles the shaders and creates the pipeline.
     ///
     /// # Errors
-    /// If a shader does not compile, a structure or an enumeration differs between Rust and GLSL, Rust
-    /// has not declared what lies at an address, the device allows less recursion, or there are more push
-    /// constants than the sample's requirements say.
+    /// If a shader does not compile, a structure or an enumeration differs between Rust and GLSL, Rust has not
+    /// declared the structure at an address, the device allows less recursion, or there are more push constants
+    /// than the sample's requirements state.
     pub fn build(self, gpu: &Gpu) -> Result<RayTracingPipeline> {
         let PipelineDesc { name, recursion, .. } = &self.desc;
         let limit = gpu.limits.max_ray_recursion_depth;
@@ -235,11 +233,10 @@ impl<'a> PipelineBuilder<'a> {
         })
     }
 
-    /// Compiles the compute shader and makes the pipeline.
+    /// Compiles the compute shader and creates the pipeline.
     ///
     /// # Errors
-    /// As [`build`](Self::build); if there is no compute shader, or a workgroup is larger than the device
-    /// takes.
+    /// As [`build`](Self::build); if there is no compute shader, or a workgroup exceeds the device's limit.
     pub fn build_compute(self, gpu: &Gpu) -> Result<ComputePipeline> {
         let (name, workgroup @ [width, height]) = (&self.desc.name, self.workgroup);
         let limit = gpu.limits.core.max_compute_work_group_invocations;
@@ -252,7 +249,7 @@ impl<'a> PipelineBuilder<'a> {
         Ok(ComputePipeline { workgroup, pipeline: self.pipeline(gpu)? })
     }
 
-    /// Compiles the vertex and the fragment shader and makes the pipeline.
+    /// Compiles the vertex and the fragment shader and creates the pipeline.
     ///
     /// # Errors
     /// As [`build`](Self::build); if there is no vertex or no fragment shader.
@@ -268,7 +265,7 @@ impl<'a> PipelineBuilder<'a> {
         Ok(GraphicsPipeline { pipeline: self.pipeline(gpu)? })
     }
 
-    /// Compiles each stage and makes the pipeline of what has been filled in.
+    /// Compiles each stage and creates the pipeline.
     fn pipeline(self, gpu: &Gpu) -> Result<Pipeline> {
         let start = Instant::now();
         let Self { mut desc, groups, textures, known, defines, as_written, .. } = self;
@@ -313,7 +310,7 @@ impl<'a> PipelineBuilder<'a> {
         gpu.name_object(set_layout, &desc.name);
         pipeline.build_time = start.elapsed();
         if let Some(device) = &gpu.executable_properties {
-            // A driver that does not tell has made the pipeline all the same.
+            // The pipeline is usable even if the driver reports no statistics.
             let executables = Executable::all(device, pipeline.handle).unwrap_or_else(|error| {
                 let line = format!("{} tells no figures of its compiler: {error}", gpu.name);
                 gpu.warn(&desc.name, vec![line]);

@@ -1,9 +1,9 @@
-//! The pipeline cache: what the driver has compiled, kept from one run to the next.
+//! The pipeline cache: the driver's compiled shaders, stored between runs.
 //!
-//! There is a file for each device and driver in the cache `pipelines`, written whole when the device is
-//! closed. A driver must refuse data that is not its own, but may trust what looks like it (Vulkan
-//! specification, "Pipeline Cache Header"): so a file that is damaged, or another device's, is not shown to
-//! it. Without a cache a pipeline takes longer, nothing else.
+//! There is one file per device and driver in the cache `pipelines`, written whole when the device is closed. A
+//! driver must refuse data that is not its own, but may trust data that looks like its own (Vulkan specification,
+//! "Pipeline Cache Header"), so a damaged file, or one of another device, is never passed to it. Without a cache,
+//! creating a pipeline only takes longer.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,23 +12,23 @@ use ash::{Device, vk};
 
 use crate::files::{read_sealed, write_sealed};
 
-/// The most bytes that are kept. A driver never forgets a pipeline, and shaders change: what has grown
-/// beyond this is begun anew.
+/// The most bytes kept. A driver never drops a pipeline, and shaders change, so a cache that has grown beyond this
+/// starts from empty.
 const MOST: usize = 64 << 20;
 
 /// A `VkPipelineCache` and its file.
 pub struct PipelineCache {
-    /// The Vulkan handle; null if the driver has no memory for it, which Vulkan allows to use.
+    /// The Vulkan handle; null if the driver has no memory for it, which Vulkan allows.
     pub handle: vk::PipelineCache,
-    /// None where the system has no place for caches.
+    /// `None` if the system has no place for caches.
     file: Option<PathBuf>,
     most: usize,
-    /// What the file held.
+    /// Contents of the file when it was read.
     known: Vec<u8>,
 }
 
 impl PipelineCache {
-    /// The cache of a device, with what earlier runs have left in a folder.
+    /// The cache of a device, with the data that earlier runs left in a folder.
     pub fn open(
         folder: Option<&Path>,
         device: &Device,
@@ -45,7 +45,7 @@ impl PipelineCache {
         Self { handle, file, most: MOST, known }
     }
 
-    /// Writes what the driver has learned, if it has, and destroys the cache.
+    /// Writes the driver's data, if it has grown, and destroys the cache.
     pub fn close(&mut self, device: &Device) {
         if self.handle == vk::PipelineCache::null() {
             return;
@@ -65,8 +65,8 @@ impl PipelineCache {
     }
 }
 
-/// `VkPipelineCacheHeaderVersionOne`, with which the data of this device and driver begins: its size, its
-/// version, vendor, device, and the driver's mark for what it can read.
+/// `VkPipelineCacheHeaderVersionOne`, with which this device and driver's data begins: its size, its version,
+/// vendor, device, and the driver's identifier for data it can read.
 fn header(properties: &vk::PhysicalDeviceProperties) -> Vec<u8> {
     let version = vk::PipelineCacheHeaderVersion::ONE.as_raw() as u32;
     let words = [32, version, properties.vendor_id, properties.device_id].map(u32::to_le_bytes);

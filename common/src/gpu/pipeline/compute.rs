@@ -8,11 +8,11 @@ use glam::UVec2;
 use super::{Pipeline, PipelineBuilder};
 
 crate::shader_struct! {
-    /// The pixels that a dispatch is for, as its shader gets them.
+    /// The pixels a dispatch covers, as its shader receives them.
     ///
-    /// A dispatch counts from 0, and in whole workgroups: the shader adds where the band begins, and does
-    /// nothing where the band has ended. (`vkCmdDispatchBase` counts from elsewhere, but in whole workgroups,
-    /// too, and a band begins at any row.)
+    /// A dispatch counts from 0 and in whole workgroups, so the shader adds the start of the band and does nothing
+    /// beyond its end. (`vkCmdDispatchBase` has an offset, but also in whole workgroups, and a band may begin at
+    /// any row.)
     pub struct Band {
         /// The first pixel.
         pub first: UVec2,
@@ -39,18 +39,17 @@ pub struct ComputePipeline {
 }
 
 impl ComputePipeline {
-    /// An empty pipeline, to be filled line by line; its shader lies in `shaders/{name}/`.
+    /// An empty pipeline, to be filled line by line; its shader is in `shaders/{name}/`.
     pub fn builder(name: &str) -> PipelineBuilder<'_> {
         PipelineBuilder::new(name)
     }
 
-    /// Records as many workgroups as cover `area`, from its first pixel on: the push constants say which
-    /// that is, as a [`Band`].
+    /// Records as many workgroups as cover `area`. The push constants contain its first pixel, as a [`Band`].
     pub fn dispatch(&self, cmd: vk::CommandBuffer, area: vk::Rect2D) {
         let [across, down] = self.workgroup;
         let vk::Extent2D { width, height } = area.extent;
-        // SAFETY: the pipeline and its descriptors are bound and outlive the submission. No picture has so
-        // many pixels a side that the workgroups are more than every device takes, 65535.
+        // SAFETY: the pipeline and its descriptors are bound and outlive the submission. No picture has so many
+        // pixels per side that it needs more than 65535 workgroups, the guaranteed limit.
         unsafe {
             self.gpu.device.cmd_dispatch(cmd, width.div_ceil(across), height.div_ceil(down), 1);
         }

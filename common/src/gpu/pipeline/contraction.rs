@@ -1,18 +1,18 @@
-//! Modules whose arithmetic is done as it is written.
+//! SPIR-V modules whose arithmetic the compiler must not rearrange.
 //!
-//! A compiler may turn `a*b + a*c` into `a*(b + c)`, and which lines it does that to depends on what
-//! else is in the program. `precise` in GLSL forbids it for a variable; this forbids it for a module:
-//! every arithmetic instruction gets the decoration that `precise` would give it, `NoContraction`.
+//! A compiler may turn `a*b + a*c` into `a*(b + c)`, and where it does so depends on the rest of the program.
+//! `precise` in GLSL forbids it for a variable; this forbids it for a module: every arithmetic instruction gets
+//! the decoration that `precise` would give it, `NoContraction`.
 
 use anyhow::{Context, Result};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Op};
 
-/// The words of a module with every arithmetic instruction decorated.
+/// The module with every arithmetic instruction decorated.
 ///
 /// # Errors
-/// If the words are no SPIR-V.
+/// If the words are not SPIR-V.
 pub fn without(words: &[u32]) -> Result<Vec<u32>> {
     let mut module = rspirv::dr::load_words(words).ok().context("not a SPIR-V module")?;
     let decorated = |i: &Instruction| match i.operands[..] {
@@ -33,7 +33,7 @@ pub fn without(words: &[u32]) -> Result<Vec<u32>> {
     Ok(module.assemble())
 }
 
-/// Whether an instruction computes with floats. Of extended instructions, those that do not are few.
+/// True if an instruction computes with floats. Of extended instructions, nearly all do.
 fn is_arithmetic(op: Op) -> bool {
     matches!(
         op,

@@ -1,4 +1,4 @@
-//! What a pipeline is made from, as plain data: enough to make it once more, on another device too.
+//! A pipeline's description as plain data: enough to create it again, even on another device.
 
 mod graphics;
 
@@ -10,12 +10,12 @@ pub use graphics::Attachments;
 
 use crate::gpu::Gpu;
 
-/// The stages that a push constant or descriptor is visible in.
+/// The stages in which push constants and descriptors are visible.
 pub(in crate::gpu) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL;
 
-/// What a binding of set 0 holds. Those of a pipeline are numbered in the order of its
-/// [`binding`](crate::gpu::PipelineBuilder::binding) lines; each frame pushes a [`Descriptor`](crate::gpu::Descriptor) for
-/// each.
+/// The kind of resource in a binding of set 0. Bindings are numbered in the order of the pipeline's
+/// [`binding`](crate::gpu::PipelineBuilder::binding) lines; each frame pushes a
+/// [`Descriptor`](crate::gpu::Descriptor) for each.
 ///
 /// ```no_run
 /// use raybook::prelude::*;
@@ -27,7 +27,7 @@ pub(in crate::gpu) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::AL
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Binding {
-    /// A top level acceleration structure.
+    /// A top-level acceleration structure.
     AccelerationStructure,
     /// An image that shaders write.
     StorageImage,
@@ -36,7 +36,7 @@ pub enum Binding {
 }
 
 impl Binding {
-    /// What is there, in words.
+    /// The kind of resource, in words.
     pub(in crate::gpu) fn kind(self) -> &'static str {
         match self {
             Self::AccelerationStructure => "an acceleration structure",
@@ -54,8 +54,8 @@ impl Binding {
     }
 }
 
-/// A pipeline before any driver has seen it: with attachments a graphics pipeline, with groups one that
-/// traces rays, else a compute pipeline of its one stage. Vulkan's enumerations and flags are their numbers.
+/// A pipeline before any driver has seen it: a graphics pipeline if it has attachments, a ray tracing pipeline if
+/// it has groups, else a compute pipeline of its one stage. Vulkan's enumerations and flags are stored as numbers.
 #[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct PipelineDesc {
     /// The pipeline's name.
@@ -64,34 +64,34 @@ pub struct PipelineDesc {
     pub stages: Vec<Stage>,
     /// The shader groups: raygen, miss, hit, callable.
     pub groups: Vec<Group>,
-    /// What a graphics pipeline draws to.
+    /// The attachments of a graphics pipeline.
     pub attachments: Option<Attachments>,
     /// Specialization constants, given to every stage: number and value.
     pub constants: Vec<[u32; 2]>,
     /// The bindings of set 0, which holds push descriptors.
     pub bindings: Vec<Binding>,
-    /// How many textures set 1 has, if there is a set 1.
+    /// Number of textures in set 1; `None` if there is no set 1.
     pub textures: Option<u32>,
     /// Bytes of push constants.
     pub push_size: u32,
-    /// How deep `traceRayEXT` nests.
+    /// The nesting depth of `traceRayEXT`.
     pub recursion: u32,
     /// `VkPipelineCreateFlags`.
     pub flags: u32,
 }
 
-/// A stage. While a pipeline is put together, its path alone is known.
+/// A stage. Until the pipeline is built, only its path is known.
 #[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Stage {
     /// The shader's path below `shaders/`.
     pub path: String,
     /// `VkShaderStageFlagBits`.
     pub stage: u32,
-    /// The module's words: what the driver is given.
+    /// The SPIR-V words passed to the driver.
     pub words: Vec<u32>,
 }
 
-/// A shader group: its type, and the stages it is made of (`VK_SHADER_UNUSED_KHR` for none).
+/// A shader group: its type and stages (`VK_SHADER_UNUSED_KHR` for none).
 #[derive(Clone, Copy, Debug, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Group {
     /// `VkRayTracingShaderGroupTypeKHR`.
@@ -107,7 +107,7 @@ pub struct Group {
 }
 
 impl PipelineDesc {
-    /// What the pipeline is bound as.
+    /// The bind point of the pipeline.
     pub fn bind_point(&self) -> vk::PipelineBindPoint {
         match &self.attachments {
             _ if !self.groups.is_empty() => vk::PipelineBindPoint::RAY_TRACING_KHR,
@@ -116,8 +116,8 @@ impl PipelineDesc {
         }
     }
 
-    /// The layout of set 0, and the pipeline layout: set 0, set 1 of the layout given if there are textures, and the
-    /// push constants.
+    /// The layout of set 0, and the pipeline layout: set 0, set 1 of the given layout if there are textures, and
+    /// the push constants.
     ///
     /// # Errors
     /// If the device has no memory left.
@@ -150,7 +150,7 @@ impl PipelineDesc {
         Ok((set, layout.inspect_err(destroy)?))
     }
 
-    /// Makes the pipeline. The cache may be null.
+    /// Creates the pipeline. The cache may be null.
     ///
     /// # Errors
     /// If the driver cannot compile it.
@@ -161,7 +161,7 @@ impl PipelineDesc {
         cache: vk::PipelineCache,
     ) -> Result<vk::Pipeline> {
         let device = &gpu.device;
-        // Values alone: RADV makes another program where their numbers stand between them.
+        // Packed values: RADV compiles a different program if the constants' numbers are stored between them.
         let (mut entries, mut values) = (Vec::new(), Vec::new());
         for (index, &[constant_id, value]) in (0..).zip(&self.constants) {
             entries.push(vk::SpecializationMapEntry { constant_id, offset: 4 * index, size: 4 });
@@ -213,7 +213,7 @@ impl PipelineDesc {
     }
 }
 
-/// The modules of a pipeline, which needs them only until it is made.
+/// The shader modules of a pipeline, needed only until it has been created.
 struct Modules<'a> {
     device: &'a Device,
     handles: Vec<vk::ShaderModule>,
@@ -229,7 +229,7 @@ impl Drop for Modules<'_> {
 }
 
 impl Default for Group {
-    /// A group of one raygen, miss or callable shader, which is not named yet.
+    /// A group of one raygen, miss or callable shader, still to be set.
     fn default() -> Self {
         let kind = vk::RayTracingShaderGroupTypeKHR::GENERAL.as_raw();
         let unused = vk::SHADER_UNUSED_KHR;

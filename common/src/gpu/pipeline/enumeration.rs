@@ -1,9 +1,8 @@
-//! Names, numbers and GLSL constants of a choice, from one declaration.
+//! Words, numbers and GLSL constants of an enumeration, from one declaration.
 //!
-//! A shader keeps its own lines `const uint SHOW_NORMAL = 1;`, so that it can be read alone and compiled
-//! by any tool; nobody has to look in Rust for a name that a shader uses. That they agree with Rust is
-//! checked when a pipeline is made, as it is with structures. SPIR-V knows nothing of a constant that was
-//! folded away, so the text is what is compared.
+//! A shader has its own lines `const uint SHOW_NORMAL = 1;`, so that it can be read on its own and compiled by any
+//! tool. Like structures, they are compared with Rust when a pipeline is created. SPIR-V does not contain
+//! constants that were folded away, so the comparison uses the text.
 
 use std::marker::PhantomData;
 
@@ -11,7 +10,7 @@ use anyhow::{Result, bail, ensure};
 
 use crate::gpu::pipeline::layout::{EnumLayout, Known, ShaderType};
 
-/// A choice that Rust, the panel and perhaps shaders know. Implemented by
+/// An enumeration known to Rust, the panel and perhaps shaders. Implemented by
 /// [`shader_enum!`](crate::shader_enum).
 pub trait ShaderEnum: Copy + PartialEq + Into<u32> + Send + 'static {
     /// Every variant, in the order of its number.
@@ -20,10 +19,10 @@ pub trait ShaderEnum: Copy + PartialEq + Into<u32> + Send + 'static {
     const LAYOUT: EnumLayout;
 }
 
-/// Declares an enumeration that is a control, and the constants that shaders have of it.
+/// Declares an enumeration that is a control, and the shader constants for it.
 ///
-/// The word of a variant is its name in small letters, unless another is given; its constant is prefix
-/// and name in capitals. Without a prefix, shaders know nothing of it.
+/// The word of a variant is its name in lower case, unless another is given; its constant is prefix and name in
+/// capitals. Without a prefix, there are no shader constants.
 ///
 /// ```
 /// raybook::shader_enum! {
@@ -71,7 +70,7 @@ macro_rules! shader_enum {
     )+};
 }
 
-/// How long [`words`] of a name is.
+/// Length of the [`words`] of a name.
 #[doc(hidden)]
 pub const fn words_len(name: &str) -> usize {
     let (name, mut length, mut i) = (name.as_bytes(), 0, 0);
@@ -97,9 +96,9 @@ pub const fn words<const N: usize>(name: &str) -> [u8; N] {
     words
 }
 
-/// What a specialization constant can be: a number, a switch, or a variant of an enumeration.
+/// A value for a specialization constant: a number, a bool, or a variant of an enumeration.
 pub trait ShaderConstant {
-    /// The enumeration that it is of, if any.
+    /// The enumeration it belongs to, if any.
     const ENUM: Option<EnumLayout> = None;
 
     /// Its 32 bits.
@@ -126,7 +125,7 @@ impl<T: ShaderEnum> ShaderConstant for T {
     }
 }
 
-/// The number of a variant, as a field of a structure for shaders, who see a `uint` there.
+/// The number of a variant, as a field of a structure for shaders, where it is a `uint`.
 #[repr(transparent)]
 pub struct Number<T>(u32, PhantomData<fn() -> T>);
 
@@ -186,15 +185,15 @@ impl<T: ShaderEnum> ShaderType for Number<T> {
     }
 }
 
-/// A number that a shader has a name for.
+/// A number with a name in a shader.
 pub(in crate::gpu) struct Constant {
     name: String,
     value: u32,
-    /// Where it is: file and line.
+    /// File and line.
     place: String,
 }
 
-/// The lines `const uint NAME = 1;` of a stage's whole text, in which `#line` says what is from where.
+/// The lines `const uint NAME = 1;` of a stage's whole text, in which `#line` gives file and line.
 pub(in crate::gpu) fn constants(path: &str, text: &str) -> Vec<Constant> {
     let (mut file, mut number) = (path, 0_i64);
     let mut found = Vec::new();
@@ -224,7 +223,7 @@ fn constant(line: &str) -> Option<(&str, u32)> {
 }
 
 impl EnumLayout {
-    /// The shaders' constants, in the order of their numbers.
+    /// The names of the shaders' constants, in the order of their numbers.
     fn names(&self) -> impl Iterator<Item = String> {
         let capitals = |name: &str| {
             let words = name.char_indices().map(|(i, letter)| {
@@ -236,10 +235,10 @@ impl EnumLayout {
         self.variants.iter().map(move |name| format!("{}_{}", self.prefix, capitals(name)))
     }
 
-    /// Holds every constant of the shaders that begins with the prefix against the variants.
+    /// Compares every shader constant that has the prefix with the variants.
     ///
     /// # Errors
-    /// On the first that differs or that one side lacks, naming both.
+    /// On the first that differs or is missing on one side; names both.
     pub(in crate::gpu) fn check(&self, pipeline: &str, found: &[Constant]) -> Result<()> {
         if self.prefix.is_empty() {
             return Ok(());
@@ -277,7 +276,7 @@ mod tests {
     use super::*;
 
     common::shader_enum! {
-        /// What a pixel shows.
+        /// The quantity shown per pixel.
         enum Show: SHOW { Picture, HitKind, Direction = "ray direction" }
         /// Shaders know nothing of it.
         enum Preset { Board, FourSpheres }

@@ -1,4 +1,4 @@
-//! A graphics pipeline: a vertex and a fragment shader, and the formats of what they draw to.
+//! A graphics pipeline: a vertex and a fragment shader, and the formats of its attachments.
 
 use std::ops::Deref;
 
@@ -10,7 +10,7 @@ pub struct GraphicsPipeline {
 }
 
 impl GraphicsPipeline {
-    /// An empty pipeline, to be filled line by line; its shaders lie in `shaders/{name}/`.
+    /// An empty pipeline, to be filled line by line; its shaders are in `shaders/{name}/`.
     pub fn builder(name: &str) -> PipelineBuilder<'_> {
         PipelineBuilder::new(name)
     }

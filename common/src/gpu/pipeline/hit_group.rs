@@ -4,7 +4,7 @@ use ash::vk;
 
 use crate::gpu::pipeline::desc::Group;
 
-/// A hit group: what happens where a ray meets one kind of geometry.
+/// A hit group: the shaders called when a ray meets one kind of geometry.
 #[derive(Clone, Copy, Default)]
 pub struct HitGroup<'a> {
     intersection: Option<&'a str>,
@@ -35,7 +35,7 @@ impl<'a> HitGroup<'a> {
 }
 
 impl HitGroup<'_> {
-    /// The group, of stages that `number` gives numbers to.
+    /// The group, with stage numbers from `number`.
     pub(super) fn of_stages(self, mut number: impl FnMut(&str) -> u32) -> Group {
         let mut stage = |file: Option<&str>| file.map_or(vk::SHADER_UNUSED_KHR, &mut number);
         let kind = match self.intersection {

@@ -1,17 +1,17 @@
-//! Hit records: those that instances ask for, held to those that a table has. A record that is not there is undefined,
-//! and one of the other kind of hit group is silent: nothing is hit.
+//! Compares the hit records used by instances with those in a table. Using a missing record is undefined
+//! behaviour, and one of the wrong kind of hit group fails silently: nothing is hit.
 
 use std::collections::BTreeSet;
 
 use anyhow::{Result, ensure};
 use ash::vk;
 
-/// What instances ask for: the record of each one's first geometry for a ray with `sbtRecordOffset` 0, and what the
-/// geometry is, as far as that is known and every ray sees it.
+/// Records used by instances: for each one, the record of its first geometry for a ray with `sbtRecordOffset` 0,
+/// and the kind of geometry, if it is known and every ray sees it.
 pub type Asked = BTreeSet<(u32, Option<vk::GeometryTypeKHR>)>;
 
-/// Holds that a table has each record that is asked for, of the geometry's kind. `table` says of which kind of hit
-/// group each of its records is.
+/// Checks that a table has each record that is used, of the geometry's kind. `table` has the kind of hit group of
+/// each of its records.
 ///
 /// # Errors
 /// If it does not.
@@ -57,7 +57,7 @@ mod tests {
             check(&asked, &[triangles, boxes], "mine").err().map(|error| error.to_string())
         };
         assert_eq!(said(1, Some(vk::GeometryTypeKHR::AABBS)), None);
-        // What was built elsewhere may be of either kind.
+        // A structure built elsewhere may be of either kind.
         assert_eq!(said(1, None), None);
         for (record, kind, words) in [
             (2, None, "has the hit record 2, and the shader binding table of 'mine' has 2"),

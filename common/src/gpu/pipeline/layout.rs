@@ -1,20 +1,18 @@
 //! The layout of structures that Rust writes and shaders read.
 //!
-//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields, and
-//! with them what they are made of and lead to by address. When a pipeline is made, each is held against
-//! the structure of the same name in the SPIR-V: a field that was moved, or is missing on one side, is an
-//! error that names it, not a strange picture.
+//! [`shader_struct!`](crate::shader_struct) declares a `#[repr(C)]` structure and remembers its fields, the
+//! structures nested in it and those it refers to by address. When a pipeline is created, each is compared with
+//! the structure of the same name in the SPIR-V: a field that was moved, or is missing on one side, causes an
+//! error that names it instead of a wrong picture.
 
 use std::marker::PhantomData;
 
-/// A device address inside a structure for shaders, who see a `buffer_reference` there: of one `T`, or of
-/// many in a row.
+/// A device address inside a structure for shaders, where it is a `buffer_reference` to a `T`, or to an array of them.
 ///
-/// What lies there is held against the shaders as is the structure that the address is in. Of plain numbers,
-/// a `T` need not be said.
+/// The referenced structure is compared with the shaders too. `T` may be omitted for plain numbers.
 ///
-/// Its alignment is that of `u32`, so that a structure needs no padding at its end; the shader wants a
-/// multiple of 8, which the comparison of offsets enforces.
+/// The alignment is that of `u32`, so that a structure needs no padding at its end; the shader needs a multiple of
+/// 8, which the comparison of offsets enforces.
 #[repr(transparent)]
 pub struct Address<T = ()>([u32; 2], PhantomData<fn() -> T>);
 
@@ -31,7 +29,7 @@ impl<T> From<Address<T>> for ash::vk::DeviceAddress {
 }
 
 impl<T> Default for Address<T> {
-    /// Nowhere.
+    /// The null address.
     fn default() -> Self {
         0.into()
     }
@@ -56,13 +54,13 @@ unsafe impl<T: 'static> bytemuck::Zeroable for Address<T> {}
 // SAFETY: it is two u32 and nothing else.
 unsafe impl<T: 'static> bytemuck::Pod for Address<T> {}
 
-/// What a field of a structure for shaders may be.
+/// A type allowed as a field of a structure for shaders.
 pub trait ShaderType {
-    /// Adds what shaders know of it under the same name: by default nothing.
+    /// Adds the declarations that shaders have under the same name: by default none.
     fn reach(_: &mut Known) {}
 }
 
-/// Structures and enumerations that Rust has declared, and shaders have too.
+/// Structures and enumerations declared in Rust and also in shaders.
 #[derive(Clone, Default, Hash)]
 pub struct Known {
     pub(in crate::gpu) structs: Vec<StructLayout>,
@@ -70,7 +68,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// What a structure is made of and leads to, itself included.
+    /// A structure, those nested in it, and those it refers to.
     pub fn of<T: ShaderType>() -> Self {
         let mut known = Self::default();
         T::reach(&mut known);
@@ -82,7 +80,7 @@ impl Known {
         &self.structs
     }
 
-    /// Adds a structure, and says whether it is new.
+    /// Adds a structure; returns true if it is new.
     pub fn add_struct(&mut self, layout: StructLayout) -> bool {
         let is_new = self.structs.iter().all(|known| known.name != layout.name);
         if is_new {
@@ -141,7 +139,7 @@ pub struct StructLayout {
 pub struct EnumLayout {
     /// The name in Rust.
     pub name: &'static str,
-    /// What the names of the shaders' constants begin with; empty where shaders know none.
+    /// The prefix of the shaders' constants; empty if there are none.
     pub prefix: &'static str,
     /// The variants in Rust.
     pub variants: &'static [&'static str],
@@ -149,7 +147,7 @@ pub struct EnumLayout {
     pub words: &'static [&'static str],
 }
 
-/// Declares a `#[repr(C)]`, `Pod` structure that a shader has too, under the same names.
+/// Declares a `#[repr(C)]`, `Pod` structure that shaders declare under the same names.
 ///
 /// ```
 /// raybook::shader_struct! {
@@ -167,8 +165,8 @@ macro_rules! shader_struct {
         #[derive(Clone, Copy, Debug)]
         $access struct $name { $($(#[$field_attribute])* $field_access $field: $type),+ }
 
-        // What the derive macros of bytemuck would say. Those must be told this crate's name as text, and it has
-        // two names: its own, and `common` in the book.
+        // Expansion of bytemuck's derive macros. They need this crate's name as text, and it has two: its own, and
+        // `common` in the book.
         const _: () = {
             const fn are_plain<T: $crate::bytemuck::Pod>() -> usize {
                 ::std::mem::size_of::<T>()

@@ -1,10 +1,9 @@
-//! The shader binding table: which shaders a ray finds, and the data that each record carries.
+//! The shader binding table: it selects the shaders for a ray, and carries the data of each record.
 //!
-//! Four regions (raygen, miss, hit, callable), each a run of records of one stride. A record is a
-//! group's opaque handle and the bytes after it, which the shader reads as `shaderRecordEXT`. The
-//! device's limits decide where a region may begin and how long a record must be; getting that wrong
-//! works on some vendors' devices and loses the device on others, so the arithmetic stands alone here,
-//! tested on the limits of several.
+//! Four regions (raygen, miss, hit, callable), each an array of records with a fixed stride. A record is a group's
+//! opaque handle and the bytes after it, which the shader reads as `shaderRecordEXT`. The device's limits
+//! determine where a region may begin and how long a record must be; getting that wrong works on some vendors'
+//! devices and loses the device on others, so the arithmetic is separate and tested with the limits of several.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -13,7 +12,7 @@ use ash::vk;
 
 use crate::gpu::{Buffer, Gpu, Limits, RayTracingPipeline, barrier};
 
-/// Where a region lies in the table's buffer, in bytes.
+/// A region of the table's buffer, in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Region {
     /// From the start of the buffer.
@@ -61,7 +60,7 @@ pub fn layout(limits: &Limits, records: [usize; 4], data: [usize; 4]) -> Result<
     Ok(result)
 }
 
-/// The index of the hit record that a ray uses, by the formula of the specification.
+/// The index of the hit record a ray uses, by the formula of the specification.
 ///
 /// `instanceShaderBindingTableRecordOffset + geometryIndex × sbtRecordStride + sbtRecordOffset`
 /// (Vulkan specification, "Hit Shader Binding Table").
@@ -79,22 +78,22 @@ pub fn hit_record(
 pub struct Record {
     /// The group's position among the groups of its kind, in the pipeline's order.
     pub group: usize,
-    /// What the shader reads as `shaderRecordEXT`.
+    /// The data the shader reads as `shaderRecordEXT`.
     pub data: Vec<u8>,
 }
 
-/// A record for each of so many groups, without data.
+/// One record per group, without data.
 fn one_each(groups: usize) -> Vec<Record> {
     (0..groups).map(|group| Record { group, data: Vec::new() }).collect()
 }
 
 /// A table in device memory.
 pub struct ShaderBindingTable {
-    /// Where its regions lie.
+    /// The layout of its regions.
     pub layout: SbtLayout,
     /// The regions' addresses, as `vkCmdTraceRaysKHR` takes them: raygen, miss, hit, callable.
     pub regions: [vk::StridedDeviceAddressRegionKHR; 4],
-    /// The first pixel that the raygen shader's record has, once all that was recorded is done.
+    /// The first pixel in the raygen shader's record, once all recorded commands are done.
     first: Mutex<vk::Offset2D>,
     buffer: Buffer,
     gpu: Gpu,
@@ -110,7 +109,7 @@ impl ShaderBindingTable {
     ///     ShaderBindingTable::new(gpu, pipeline)
     /// }
     ///
-    /// /// Traces the part of the picture that a frame asks for, of a pipeline that is bound.
+    /// /// Traces the part of the picture in `frame.area` with the bound pipeline.
     /// fn trace(table: &ShaderBindingTable, frame: &Frame) {
     ///     table.trace(frame.cmd, frame.area);
     /// }
@@ -122,7 +121,7 @@ impl ShaderBindingTable {
         Self::with_hit_records(gpu, pipeline, &one_each(pipeline.groups[2]))
     }
 
-    /// A table whose hit region holds `hit` records, several of a group if need be.
+    /// A table whose hit region contains the records in `hit`, several per group if need be.
     ///
     /// # Errors
     /// If a record names a group that the pipeline does not have, is too long, or memory is short.
@@ -134,7 +133,7 @@ impl ShaderBindingTable {
         let longest = hit.iter().map(|record| record.data.len()).max().unwrap_or(0);
         let [raygen, miss, _, callable] = pipeline.groups.map(one_each);
         let records = [&raygen[..], &miss, hit, &callable];
-        // The raygen record has the first pixel of a launch.
+        // The raygen record contains the first pixel of a launch.
         let data = [size_of::<[u32; 2]>(), 0, longest, 0];
         let layout = layout(&gpu.limits, records.map(<[_]>::len), data)?;
         let handle_size = gpu.limits.shader_group_handle_size as usize;
@@ -171,8 +170,7 @@ impl ShaderBindingTable {
         Ok(Self { layout, regions, first: Mutex::default(), buffer, gpu: gpu.clone() })
     }
 
-    /// Replaces the data of one hit record for the traces recorded into `cmd` from here on; its group
-    /// stays.
+    /// Replaces the data of one hit record for the traces recorded into `cmd` from here on; its group stays the same.
     ///
     /// # Errors
     /// If there is no such record, or the data is longer than the record or not whole `u32`s.
@@ -206,13 +204,12 @@ impl ShaderBindingTable {
 
     /// Records one ray per pixel of `area`, from the raygen group.
     ///
-    /// A launch counts from 0: the raygen shader's record holds the area's first pixel, two `u32`, for it
-    /// to add.
+    /// A launch counts from 0: the raygen shader's record contains the area's first pixel, two `u32`, for it to add.
     pub fn trace(&self, cmd: vk::CommandBuffer, area: vk::Rect2D) {
         let [raygen, miss, hit, callable] = &self.regions;
         let vk::Rect2D { offset, extent: vk::Extent2D { width, height } } = area;
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        // A picture in one piece changes nothing, and waits for nothing.
+        // A picture in one piece changes nothing, so it needs no barrier.
         if *first != offset {
             *first = offset;
             let handle = u64::from(self.gpu.limits.shader_group_handle_size);

@@ -1,8 +1,8 @@
 //! GLSL to SPIR-V: includes spliced in, compiled by glslang, cached by content.
 //!
-//! Shaders are compiled when a sample starts, from the folder `shaders/`, so that an edit shows at
-//! once and an error names its file and line. The result is kept in the cache `spirv`, keyed by a
-//! hash of the whole text, includes and all.
+//! Shaders are compiled when a sample starts, from the folder `shaders/`, so that an edit takes effect at once and
+//! an error names its file and line. The result is stored in the cache `spirv`, under a hash of the whole text
+//! with all includes.
 
 mod not_included;
 mod source;
@@ -33,20 +33,20 @@ pub struct Shader {
     pub stage: vk::ShaderStageFlags,
     /// The module's words.
     pub spirv: Vec<u32>,
-    /// Its text, includes and all.
+    /// Its text with all includes.
     pub text: String,
 }
 
-/// What a shader's `PRINT` is unless somebody listens: nothing.
+/// The empty definition of a shader's `PRINT`, used unless output is collected.
 const SILENT_PRINT: &str = "PRINT(format, value)";
 
-/// Whether shaders are another's than the book's.
+/// True if shaders come from a folder other than the book's.
 pub fn are_others() -> bool {
     std::env::var_os("SHADERS").is_some() || paths::folder().is_some()
 }
 
-/// The folders in which shaders are looked for, in this order: the program's own, in whose place `SHADERS` in the
-/// environment names another, and the book's, if the program is of another crate.
+/// The folders searched for shaders, in this order: the program's own, or the one that `SHADERS` in the
+/// environment names in its place, and the book's, if the program is of another crate.
 pub fn folders() -> Vec<PathBuf> {
     let book = || paths::book().join("shaders");
     let own = paths::folder().map(|home| home.join("shaders"));
@@ -55,7 +55,7 @@ pub fn folders() -> Vec<PathBuf> {
     [named.or(own).unwrap_or_else(book)].into_iter().chain(others).collect()
 }
 
-/// The whole text of a stage, includes and all, and how it is to be compiled.
+/// The whole text of a stage with all includes, and the options for compiling it.
 #[derive(Clone, Debug, Default)]
 pub struct StageText<'a> {
     /// Its path below `shaders/`.
@@ -64,21 +64,21 @@ pub struct StageText<'a> {
     pub text: String,
     /// Macros, names and values.
     pub defines: &'a [(&'a str, String)],
-    /// Whether all arithmetic is to be done as it is written.
+    /// True if the compiler must not rearrange arithmetic.
     pub as_written: bool,
-    /// The pipeline that it is for, which may lack words.
+    /// The pipeline it is for, whose SPIR-V may be missing.
     pub pipeline: Option<&'a PipelineDesc>,
 }
 
 impl StageText<'_> {
-    /// Its words: SPIR-V 1.6 for Vulkan 1.3, of a compute shader 1.5; from the cache, if they are there.
+    /// Its SPIR-V: version 1.6 for Vulkan 1.3, 1.5 for a compute shader; from the cache if possible.
     ///
     /// # Errors
     /// If it does not compile: the first message, as `file:line: what`.
     pub fn words(&self) -> Result<Vec<u32>> {
         let Self { path, text, defines, as_written, .. } = self;
         let cached = cache_file(path, text, defines);
-        // Sealed, for a driver may crash on damaged words.
+        // Sealed with a hash, because a driver may crash on damaged SPIR-V.
         let words = match cached.as_deref().and_then(files::read_sealed) {
             Some(bytes) => bytemuck::pod_collect_to_vec(&bytes),
             None => {
@@ -92,17 +92,17 @@ impl StageText<'_> {
     }
 }
 
-/// What makes words of a stage's path, its whole text and its macros.
+/// Compiles a stage from its path, its whole text and its macros.
 pub type Compiler = fn(&str, &str, &[(&str, String)]) -> Result<Vec<u32>>;
 
 static COMPILER: OnceLock<Compiler> = OnceLock::new();
 
-/// From now on, has this compiler in the place of [`to_spirv`].
+/// Replaces [`to_spirv`] with this compiler from now on.
 pub fn compile_by(compiler: Compiler) {
     let _ = COMPILER.set(compiler);
 }
 
-/// Compiles `path` (below one of [`folders`]) as it stands.
+/// Compiles `path` (below one of [`folders`]) without macros.
 ///
 /// # Errors
 /// If a file is missing, or does not compile: the first message, as `file:line: what`.
@@ -111,10 +111,10 @@ pub fn compile(path: &str) -> Result<Shader> {
 }
 
 impl Shader {
-    /// Reads the stage at `path`, with these macros, and has its words made.
+    /// Reads the stage at `path` and compiles it with these macros.
     ///
     /// # Errors
-    /// If a file is missing, or it does not compile.
+    /// If a file is missing, or does not compile.
     pub fn of(
         path: &str,
         defines: &[(&str, String)],
@@ -125,7 +125,7 @@ impl Shader {
         Ok(Self { path: path.to_owned(), stage, spirv, text })
     }
 
-    /// Every file that it is made of: itself, then its includes, below `shaders/`.
+    /// Its source files: itself, then its includes, below `shaders/`.
     pub fn files(&self) -> Vec<String> {
         let begun =
             |line: &str| Some(line.strip_prefix("#line 1 \"")?.trim_end_matches('"').to_owned());
@@ -136,7 +136,7 @@ impl Shader {
 /// The stage that a file's extension names.
 ///
 /// # Errors
-/// If it names none.
+/// If it is not one of a stage.
 pub fn stage(path: &str) -> Result<vk::ShaderStageFlags> {
     use vk::ShaderStageFlags as Flags;
     let extension = Path::new(path).extension().and_then(|e| e.to_str()).unwrap_or_default();
@@ -157,7 +157,7 @@ pub fn stage(path: &str) -> Result<vk::ShaderStageFlags> {
     })
 }
 
-/// What glslang makes of a stage's path, its whole text and its macros.
+/// Compiles a stage with glslang, from its path, its whole text and its macros.
 ///
 /// # Errors
 /// As [`StageText::words`].
@@ -175,8 +175,8 @@ pub fn to_spirv(path: &str, text: &str, defines: &[(&str, String)]) -> Result<Ve
     };
     let compiler = glslang::Compiler::acquire().context("glslang does not start")?;
     let source = ShaderSource::from(text);
-    // In 1.6 a workgroup whose size is a specialization constant is `LocalSizeId`, for which a device would
-    // have to be asked (maintenance4).
+    // In 1.6, a workgroup size given by specialization constants becomes `LocalSizeId`, which needs the device
+    // feature maintenance4.
     let spirv_version = match stage {
         ShaderStage::Compute => SpirvVersion::SPIRV1_5,
         _ => SpirvVersion::SPIRV1_6,
@@ -212,7 +212,7 @@ fn first_message(path: &str, text: &str, error: &GlslangError) -> String {
         return format!("shader '{path}' does not compile: {}", log.trim().replace('\n', "; "));
     };
     let message = message.trim_end().replace("'' :  ", "");
-    // Before the first `#line`, glslang calls the file 0; some messages have no place at all.
+    // Before the first `#line`, glslang calls the file 0; some messages have no location at all.
     let placed = match message.strip_prefix("0:") {
         Some(rest) => format!("{path}:{rest}"),
         None if has_place(&message) => message,
@@ -223,14 +223,14 @@ fn first_message(path: &str, text: &str, error: &GlslangError) -> String {
     format!("shader does not compile: {placed}{hint}")
 }
 
-/// Whether a message begins with `file:line:`.
+/// True if a message begins with `file:line:`.
 fn has_place(message: &str) -> bool {
     let mut parts = message.splitn(3, ':').skip(1);
     parts.next().is_some_and(|line| line.parse::<u32>().is_ok()) && parts.next().is_some()
 }
 
-/// Where words are kept. Programs of other crates may share the user's folder, and be made with another state of
-/// this file.
+/// The cache file for SPIR-V. Programs of other crates may share the user's folder, and be built with another
+/// version of this file.
 fn cache_file(path: &str, text: &str, defines: &[(&str, String)]) -> Option<PathBuf> {
     let mut hasher = DefaultHasher::new();
     (env!("CARGO_PKG_VERSION"), include_str!("shader.rs"), path, text, defines).hash(&mut hasher);

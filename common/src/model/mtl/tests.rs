@@ -1,4 +1,4 @@
-//! What is read of an MTL file, and what is refused.
+//! MTL files: the statements read, and those refused.
 
 use super::super::obj::tests::{TRIANGLE, load_files, load_text};
 use super::*;
@@ -11,7 +11,7 @@ fn load_mtl(mtl: &str) -> Result<Material, String> {
     Ok(model.materials[model.meshes[0].material].clone())
 }
 
-/// After `newmtl a`, line 2 is wrong.
+/// Line 2, after `newmtl a`, is wrong.
 #[track_caller]
 fn line_refused(line: &str, message: &str) {
     let error = load_mtl(&format!("newmtl a\n{line}\nillum 1\n")).unwrap_err();

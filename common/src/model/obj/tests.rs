@@ -1,4 +1,4 @@
-//! Models that load, and files that are random.
+//! Models that load, and random files.
 
 use super::*;
 use crate::model::limits::Limits;
@@ -145,7 +145,7 @@ fn the_chess_set_loads() {
     assert!(low.y.abs() < 1e-3 && high.y > 1.0 && high.y < 3.0, "{low} {high}");
 }
 
-/// What a caller may rely on.
+/// Checks the guarantees that callers rely on.
 fn check_sound(model: &Model) -> Result<(), TestCaseError> {
     prop_assert!(!model.meshes.is_empty());
     for mesh in &model.meshes {

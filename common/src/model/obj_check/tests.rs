@@ -1,4 +1,4 @@
-//! What is refused of an OBJ file, and what is only warned of.
+//! OBJ files: faults that are refused, and those that cause only a warning.
 
 use super::super::obj::load;
 use super::super::obj::tests::{load_files, load_text};
@@ -83,7 +83,7 @@ fn faces_that_are_wrong() {
     );
 }
 
-/// After four positions, one normal and one texture coordinate, lines from 7 on are warned of.
+/// After four positions, one normal and one texture coordinate, lines from 7 on cause warnings.
 #[track_caller]
 fn lines_warned(lines: &str, warnings: &[&str]) {
     let good = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\n";
@@ -143,7 +143,7 @@ fn statements_of_other_formats_are_passed_over() {
 
 #[test]
 fn what_takes_too_much_memory_is_refused_with_all_that_it_would_take() {
-    // A triangle takes 620 bytes, and a corner is written in two.
+    // A triangle needs 620 bytes, and a corner is written in two.
     let limits = Limits { memory: 4_000_000, ..Limits::DEFAULT };
     let polygon = |corners: usize| format!("v 0 0 0\nf{}\n", " 1".repeat(corners));
     let load = |text: &str| load_files(&[("model.obj", text.as_bytes())], &limits);

@@ -1,4 +1,4 @@
-//! What reading takes, held against what was counted: each file by a process of its own.
+//! The memory that reading needs, compared with the estimate: each file in a process of its own.
 
 #![cfg(target_os = "linux")]
 
@@ -11,7 +11,7 @@ use super::super::obj::load;
 use super::super::obj_check::Check;
 use super::super::text::{Folder, Text};
 
-/// The path of the file that [`reads_a_model`] reads.
+/// The path of the file for [`reads_a_model`].
 const FILE: &str = "MODEL_TO_READ";
 
 /// The line of `/proc/self/status` with this name, in bytes.
@@ -34,7 +34,7 @@ fn reads_a_model() {
     println!("taken {taken} counted {}", check.counted());
 }
 
-/// The bytes that reading this model takes, and those that were counted.
+/// The bytes needed for reading this model, and the estimate.
 fn read(text: &str) -> [u64; 2] {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.obj");
@@ -77,7 +77,7 @@ fn no_model_takes_more_memory_than_was_counted() {
     for (what, text) in all {
         let [taken, counted] = read(&text);
         println!("{what}: {} bytes, {taken} taken, {counted} counted", text.len());
-        // The program's own pages are among what is taken.
+        // The program's own pages are included.
         assert!(taken < counted + (4 << 20), "{what}: {taken} taken, {counted} counted");
         assert!(taken > counted / 8, "{what}: {taken} taken, {counted} counted");
     }

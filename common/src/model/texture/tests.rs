@@ -1,4 +1,4 @@
-//! Textures that load, and those that are warned of.
+//! Textures that load, and those that cause warnings.
 
 use super::super::obj::tests::{TRIANGLE, load_files};
 use super::*;
@@ -30,7 +30,7 @@ fn load(mtl: &str, files: &[(&str, &[u8])]) -> Result<(Vec<Material>, Vec<Textur
     load_files(&all, &Limits::DEFAULT).map(|model| (model.materials, model.textures))
 }
 
-/// Line 2 of `m.mtl` is warned of by a line that starts so, and the colour is the plain one.
+/// Line 2 of `m.mtl` causes a warning that begins with this text, and the plain colour is used.
 #[track_caller]
 fn warned(line: &str, file: &[u8], start: &str) {
     let obj = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
@@ -162,7 +162,7 @@ fn textures_that_are_too_large() {
     let side = "the texture t.png: is 16385 x 1 texels, at most 16384 x 16384 are read";
     warned("map_Kd t.png", &wide, side);
 
-    // Two textures of 576 bytes; the second still takes as much beside it while it is read.
+    // Two textures of 576 bytes; the second needs as much again while it is read.
     let small = png(&[[0; 4]; 144], 12);
     let deep = encoded(DynamicImage::new_rgba16(12, 12));
     for (most, second, need) in [(1000, &small, 576), (2000, &deep, 1728)] {
@@ -183,7 +183,7 @@ fn textures_that_are_too_large() {
     }
 }
 
-/// A chunk of a PNG file, as PNG, third edition, 5.3 has it.
+/// A chunk of a PNG file, as in PNG, third edition, 5.3.
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let content = [kind, data].concat();
     let crc = crc32fast::hash(&content).to_be_bytes();
@@ -221,7 +221,7 @@ fn a_palette_of_half_a_colour_is_no_mistake_of_the_program() {
 #[test]
 fn a_profile_that_unpacks_to_gigabytes_is_passed_over_and_a_long_text_refused() {
     let plain = png(&[[1, 2, 3, 4]], 1);
-    // The header's chunk ends here.
+    // End of the header's chunk.
     let (start, end) = plain.split_at(33);
     let with = |chunk: Vec<u8>| [start, &chunk, end].concat();
     let mut packed =

@@ -1,4 +1,4 @@
-//! What materials are warned of, and what stands for what is not there.
+//! Warnings about materials, and the replacements for missing parts.
 
 use super::super::limits::Limits;
 use super::super::obj::tests::{TRIANGLE, load_files, load_text, warnings};
@@ -47,7 +47,7 @@ fn materials_that_are_not_there_are_grey() {
     );
     assert_eq!(all("mtllib gone a.mtl\nmtllib m.mtl\n"), [spaces]);
     assert_eq!(warned("mtllib m.mtl\nusemtl\n", "newmtl\nKd 1 0 0\nnewmtl a\n"), [""; 0]);
-    // A file that comes after the use defines as well.
+    // A file after the use also provides the definition.
     assert_eq!(all("usemtl a\nmtllib m.mtl\n"), [""; 0]);
     let model = load_text(&format!("usemtl a\n{TRIANGLE}usemtl b\nf 1 2 3\n")).unwrap();
     assert_eq!(model.materials, [Material::default()]);

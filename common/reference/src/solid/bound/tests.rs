@@ -1,4 +1,4 @@
-//! The bounds held to solids traced in f32.
+//! The bounds compared with solids traced in f32.
 
 use glam::Vec3;
 
@@ -33,7 +33,7 @@ fn ball_f32(f: Vec3, d: Vec3, r: f32) -> Option<[f32; 2]> {
     Some([both[0].min(both[1]), both[0].max(both[1])])
 }
 
-/// How much of its bound a change's error takes.
+/// The part of its bound that a change's error uses.
 fn used(change: &Change, t: f32) -> f64 {
     let middle = (change.low + change.high) / 2.0;
     (f64::from(t) - middle).abs() / (change.high - middle)

@@ -1,4 +1,4 @@
-//! The panel in the hands of a user that is played.
+//! The panel with simulated input.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, vec2};

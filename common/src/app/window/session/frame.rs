@@ -1,4 +1,4 @@
-//! One frame of a window: the panel is asked, the picture goes on, both are shown, and the next frame is planned.
+//! One frame of a window: the panel runs, the picture advances, both are shown, and the next frame is planned.
 
 use std::time::{Duration, Instant};
 
@@ -13,10 +13,10 @@ use crate::app::window::panel::Outcome;
 use crate::app::window::stepped::Stepped;
 use crate::app::window::window_on_gpu::Presented;
 
-/// How often the title is written anew while pictures come.
+/// Update interval of the title while pictures are rendered.
 const TITLE: Duration = Duration::from_millis(500);
 
-/// How often a frame is drawn for a window that changes all the while.
+/// Number of attempts to draw a frame while the window keeps changing.
 const TRIES: u32 = 3;
 
 impl Session {
@@ -33,11 +33,11 @@ impl Session {
         Ok(true)
     }
 
-    /// As [`Session::draw`]; nothing if the window changed meanwhile and shows no part of it.
+    /// As [`Session::draw`]; nothing if the window has changed meanwhile and cannot show it.
     fn try_to_draw(&mut self, hooks: &dyn RunHooks) -> Result<Option<bool>> {
         let extent = match self.on_gpu.fit()? {
             Some(extent) if !self.hidden => extent,
-            // An event tells when there is something to see again.
+            // An event reports when it is visible again.
             _ => return Ok(Some(true)),
         };
         let (outcome, drawing) = self.panel()?;
@@ -69,14 +69,14 @@ impl Session {
         Ok((presented != Presented::Lost).then_some(go_on))
     }
 
-    /// The part of a window that the picture has: all, or what lies to the right of the panel.
+    /// The part of a window for the picture: all of it, or the part to the right of the panel.
     fn area(&self, window: vk::Extent2D, scale: f32) -> vk::Extent2D {
         let strip = self.panel.strip(window.width as f32 / scale) * scale;
         let width = window.width.saturating_sub(strip.ceil() as u32).max(1);
         vk::Extent2D { width, ..window }
     }
 
-    /// Shows the panel, and answers the keys that ask something of the window.
+    /// Shows the panel, and executes the keys for the window.
     fn panel(&mut self) -> Result<(Outcome, FullOutput)> {
         let mut outcome = Outcome::default();
         let drawing = self.on_gpu.over(|ui| {
@@ -93,7 +93,7 @@ impl Session {
         Ok((outcome, drawing))
     }
 
-    /// Puts picture and panel on the window.
+    /// Draws picture and panel to the window.
     fn present(&mut self, extent: vk::Extent2D, drawing: FullOutput) -> Result<Presented> {
         let area = self.area(extent, drawing.pixels_per_point);
         let presented = self.on_gpu.present(extent, (&self.view.image, area), drawing)?;
@@ -108,7 +108,7 @@ impl Session {
         Ok(presented)
     }
 
-    /// Notes what came of the frame, and when the next is due.
+    /// Records the result of the frame, and when the next is due.
     fn plan(&mut self, stepped: &Stepped, panel_delay: Duration) {
         let now = Instant::now();
         self.view.facts(&mut self.facts);

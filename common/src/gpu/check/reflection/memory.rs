@@ -1,4 +1,4 @@
-//! How much memory a shader's variables take: for what no device has, drivers have no answer but a crash.
+//! The memory of a shader's variables: if no device has as much, drivers crash instead of reporting an error.
 
 use std::collections::HashMap;
 
@@ -8,16 +8,16 @@ use rspirv::spirv::{Op, StorageClass};
 
 use super::Reflection;
 
-/// Bytes of all variables of a shader at most: more than any device keeps for one invocation.
+/// The limit for all variables of a shader, in bytes: more than any device has for one invocation.
 const VARIABLES: u64 = 1 << 20;
-/// Bytes of a type at most, in a buffer too: drivers count them in 32 bits, some with a sign.
+/// The limit for a type, in bytes, also in a buffer: drivers use 32-bit sizes, some of them signed.
 const TYPE: u64 = 1 << 30;
 
 impl Reflection {
-    /// Holds what the variables of the module take, those in buffers aside, against what devices have.
+    /// Checks the size of the module's variables, except those in buffers, against these limits.
     ///
     /// # Errors
-    /// If it is more, with the bytes.
+    /// If they are larger; states the bytes.
     pub fn check_memory(&self, path: &str) -> Result<()> {
         let Some(sizes) = self.sizes() else {
             bail!(
@@ -50,12 +50,12 @@ impl Reflection {
         Ok(())
     }
 
-    /// The bytes of each type; `None` if they hang on what only the driver computes. An array at the end of a
+    /// The bytes of each type; `None` if they depend on a value only the driver computes. An array at the end of a
     /// buffer, without a length, has no elements.
     fn sizes(&self) -> Option<HashMap<u32, u64>> {
         let mut sizes: HashMap<u32, u64> = HashMap::new();
         let mut lengths: HashMap<u32, u64> = HashMap::new();
-        // What a type is made of stands before it.
+        // The parts of a type are declared before it.
         for i in &self.module.types_global_values {
             let Some(id) = i.result_id else { continue };
             let of = |operand: &Operand| match operand {
@@ -87,7 +87,7 @@ impl Reflection {
     }
 }
 
-/// Whether a variable is each invocation's own, or its workgroup's, and not in a buffer or a descriptor.
+/// True if a variable is private to an invocation or a workgroup, rather than in a buffer or a descriptor.
 fn is_own(variable: &Instruction) -> bool {
     let elsewhere = [
         StorageClass::Uniform,

@@ -1,5 +1,5 @@
-//! What a shader says of rays, where it goes wrong in silence: the launch that it counts in, the payloads that it
-//! passes and takes, the hit attribute, and traces that can find nothing.
+//! A shader's use of rays, as far as mistakes are silent: its launch index, its outgoing and incoming payloads,
+//! the hit attribute, and traces that cannot find anything.
 
 use anyhow::{Result, ensure};
 use rspirv::dr::{Function, Instruction, Operand};
@@ -7,16 +7,16 @@ use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
 
 use super::Reflection;
 
-/// `gl_RayFlagsOpaqueEXT`: no any-hit shader is asked.
+/// `gl_RayFlagsOpaqueEXT`: no any-hit shader is called.
 const OPAQUE: u32 = 1;
 
-// Where the operands of `OpTraceRayKHR` stand, and those of a trace to a hit object behind that object.
+// Operand positions of `OpTraceRayKHR`; for a trace to a hit object, they follow that object.
 const FLAGS: usize = 1;
 const CULL_MASK: usize = 2;
 const RECORD_OFFSET: usize = 3;
 const MISS_INDEX: usize = 5;
 
-/// A payload that a trace passes.
+/// The payload of a trace.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Passed {
     /// The trace's `missIndex`, if it is a constant.
@@ -25,18 +25,18 @@ pub struct Passed {
     pub shape: String,
 }
 
-/// What a shader passes and takes as payloads.
+/// The payloads a shader passes to its rays and receives.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Payloads {
-    /// Those that its traces pass.
+    /// The payloads of its traces.
     pub passed: Vec<Passed>,
-    /// The types of those that it takes from who called it.
+    /// The types of its incoming payloads.
     pub taken: Vec<String>,
 }
 
 impl Reflection {
-    /// Holds that a shader of a picture counts in pixels. A picture is traced in bands of rows, so a launch is
-    /// a band: its index counts from the band's first row, which a raygen shader's record holds.
+    /// Checks that a shader converts launch indices to pixels. A picture is traced in bands of rows, so a launch is
+    /// a band: its index counts from the band's first row, which is in the raygen shader's record.
     ///
     /// # Errors
     /// If it reads the size of the launch, or its index in a function that does not add the band's first pixel.
@@ -45,7 +45,7 @@ impl Reflection {
         let index = self.built_in(BuiltIn::LaunchIdKHR);
         let record = self.variables(StorageClass::ShaderRecordBufferKHR);
         for function in &self.module.functions {
-            // The log of `--pixel` asks whether a launch is that of the one pixel.
+            // The log of `--pixel` compares the launch with the selected pixel.
             let name = function.def.as_ref().and_then(|def| def.result_id);
             if name.is_some_and(|id| self.debug_name(id, None).starts_with("log_")) {
                 continue;
@@ -65,7 +65,7 @@ impl Reflection {
         Ok(())
     }
 
-    /// The payloads that the shader passes and takes.
+    /// The outgoing and incoming payloads of the shader.
     pub fn payloads(&self) -> Payloads {
         let traces = self.traces();
         let passed = traces.filter_map(|trace| {
@@ -77,17 +77,17 @@ impl Reflection {
         Payloads { passed: passed.collect(), taken }
     }
 
-    /// Whether the shader traces rays.
+    /// True if the shader traces rays.
     pub fn traces_rays(&self) -> bool {
         self.traces().next().is_some()
     }
 
-    /// Whether the shader uses a payload to pass, by `rayPayloadEXT`.
+    /// True if the shader has an outgoing payload, `rayPayloadEXT`.
     pub fn has_own_payload(&self) -> bool {
         !self.used(StorageClass::RayPayloadKHR).is_empty()
     }
 
-    /// Whether the shader reads push constants.
+    /// True if the shader reads push constants.
     pub fn has_push_constants(&self) -> bool {
         !self.variables(StorageClass::PushConstant).is_empty()
     }
@@ -97,11 +97,11 @@ impl Reflection {
         self.used(StorageClass::HitAttributeKHR).into_iter().next()
     }
 
-    /// Holds that each ray names a miss shader of the pipeline, which has so many; one beyond them is
-    /// undefined.
+    /// Checks that each ray names one of the pipeline's miss shaders, of which there are so many; any other index is
+    /// undefined behaviour.
     ///
     /// # Errors
-    /// If a `missIndex` that is a constant does not.
+    /// If a constant `missIndex` is too large.
     pub fn check_misses(&self, path: &str, count: usize) -> Result<()> {
         for index in self.operands(MISS_INDEX) {
             ensure!(
@@ -114,8 +114,8 @@ impl Reflection {
         Ok(())
     }
 
-    /// What is no error and yet seldom meant: a ray that no instance's mask lets through, and one whose record
-    /// lies beyond those of a table with one for each of the pipeline's hit groups.
+    /// Warnings: a ray whose mask excludes every instance, and one whose record index exceeds a table with one
+    /// record per hit group of the pipeline.
     pub fn warnings(&self, path: &str, hit_groups: usize) -> Vec<String> {
         let blind = self.operands(CULL_MASK).find(|mask| *mask == 0).map(|_| {
             format!("{path}: a ray has the cull mask 0, which every instance's mask hides from it")
@@ -131,13 +131,13 @@ impl Reflection {
         blind.into_iter().chain(beyond).collect()
     }
 
-    /// Whether no ray of the shader asks an any-hit shader: each one's flags say so, whatever else they are.
+    /// True if no ray of the shader can call an any-hit shader, according to its constant flags.
     pub fn traces_opaque_alone(&self) -> bool {
         self.traces()
             .all(|trace| self.constant(trace.get(FLAGS)).is_some_and(|flags| flags & OPAQUE != 0))
     }
 
-    /// An operand of each trace, where it is a constant.
+    /// An operand of each trace, if it is a constant.
     fn operands(&self, place: usize) -> impl Iterator<Item = u32> {
         self.traces().filter_map(move |trace| self.constant(trace.get(place)))
     }
@@ -152,7 +152,7 @@ impl Reflection {
         })
     }
 
-    /// The variables that are this built-in.
+    /// The variables with this built-in.
     fn built_in(&self, wanted: BuiltIn) -> Vec<u32> {
         let annotations = self.module.annotations.iter();
         let found = annotations.filter_map(|i| match i.operands.as_slice() {
@@ -176,7 +176,7 @@ impl Reflection {
         variables.filter_map(|i| i.result_id).collect()
     }
 
-    /// The types of the variables of a storage class that a function names.
+    /// The types of the variables of a storage class that a function uses.
     fn used(&self, class: StorageClass) -> Vec<String> {
         let used = |id: &u32| {
             self.module.functions.iter().flat_map(instructions).any(|i| names(i, &[*id]))
@@ -185,7 +185,7 @@ impl Reflection {
         variables.filter_map(|id| self.shape_of(id)).collect()
     }
 
-    /// The type of what a variable holds, as [`Self::shape`] says it.
+    /// A variable's type, as text from [`Self::shape`].
     fn shape_of(&self, variable: u32) -> Option<String> {
         self.shape(self.pointee(variable)?)
     }
@@ -194,7 +194,7 @@ impl Reflection {
         self.module.types_global_values.iter().find(|i| i.result_id == Some(id))
     }
 
-    /// The type of what a variable holds.
+    /// A variable's type.
     fn pointee(&self, variable: u32) -> Option<u32> {
         match self.global(self.global(variable)?.result_type?)?.operands.as_slice() {
             [_, Operand::IdRef(pointee)] => Some(*pointee),
@@ -202,7 +202,7 @@ impl Reflection {
         }
     }
 
-    /// A type in words that are the same in every module, whatever its name and its members' are.
+    /// A type as text that is the same in every module, independent of the names of it and its members.
     fn shape(&self, id: u32) -> Option<String> {
         let global = self.global(id)?;
         let part = |operand: &Operand| match operand {
@@ -211,7 +211,7 @@ impl Reflection {
             _ => Some(String::new()),
         };
         match global.class.opcode {
-            // What lies behind an address may lead back here.
+            // The structure at an address may refer back to this one.
             Op::TypePointer | Op::TypeForwardPointer => Some("address".to_owned()),
             Op::Constant => global.operands.first().and_then(part),
             opcode => {
@@ -236,7 +236,7 @@ fn instructions(function: &Function) -> impl Iterator<Item = &Instruction> {
     function.blocks.iter().flat_map(|block| &block.instructions)
 }
 
-/// Whether an instruction names one of these.
+/// True if an instruction uses one of these ids.
 fn names(i: &Instruction, ids: &[u32]) -> bool {
     i.operands.iter().any(|operand| matches!(operand, Operand::IdRef(id) if ids.contains(id)))
 }

@@ -5,7 +5,7 @@ use ash::vk::{self, ImageLayout as Layout};
 
 use super::{Gpu, Image, transition_level};
 
-/// How many levels a texture has, from its own size down to one texel.
+/// Number of mip levels, from the full size down to one texel.
 pub(super) fn levels(extent: vk::Extent2D) -> u32 {
     extent.width.max(extent.height).max(1).ilog2() + 1
 }
@@ -27,7 +27,7 @@ pub(super) fn make(gpu: &Gpu, textures: &[Image]) -> Result<()> {
     })
 }
 
-/// Makes a level from the one before. Both are ready to be sampled afterwards.
+/// Makes a level from the one before. Afterwards, both can be sampled.
 fn halve(gpu: &Gpu, cmd: vk::CommandBuffer, image: &Image, level: u32) {
     let (from, to) = (Layout::TRANSFER_SRC_OPTIMAL, Layout::TRANSFER_DST_OPTIMAL);
     let sampled = Layout::SHADER_READ_ONLY_OPTIMAL;
@@ -47,7 +47,7 @@ fn halve(gpu: &Gpu, cmd: vk::CommandBuffer, image: &Image, level: u32) {
 }
 // ANCHOR_END: make
 
-/// The whole of a level: half as large as the one before, rounded down, but never nothing.
+/// The whole of a level: half as large as the one before, rounded down, but at least 1.
 fn corners(extent: vk::Extent2D, level: u32) -> [vk::Offset3D; 2] {
     let side = |side: u32| (side >> level).max(1) as i32;
     let end = vk::Offset3D { x: side(extent.width), y: side(extent.height), z: 1 };

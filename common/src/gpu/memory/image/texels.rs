@@ -1,4 +1,4 @@
-//! Textures: images whose texels come from the host, many in one copy.
+//! Textures: images with texels from the host, many in one copy.
 
 use anyhow::{Result, ensure};
 use ash::vk;
@@ -6,25 +6,25 @@ use ash::vk;
 use super::{Gpu, Image, mipmaps};
 use crate::gpu::memory::staging::Staging;
 
-/// What a texture holds.
+/// The contents of a texture.
 #[derive(Clone, Copy)]
 pub struct Texels<'a> {
-    /// What messages call it.
+    /// A name for messages.
     pub name: &'a str,
     /// Texels in a row, and rows.
     pub extent: vk::Extent2D,
-    /// Four bytes a texel, rows from the top.
+    /// Four bytes per texel, rows from top to bottom.
     pub rgba: &'a [u8],
-    /// Whether RGB is sRGB encoded.
+    /// True if RGB is sRGB encoded.
     pub srgb: bool,
 }
 
 impl Image {
-    /// Textures, ready to be sampled: their texels go through one staging buffer, in bands of rows where they
-    /// are larger than that. With `mipmaps` each has all mip levels, which the device makes.
+    /// Textures, ready to be sampled: their texels go through one staging buffer, in bands of rows if they are
+    /// larger than that. With `mipmaps`, each has all mip levels, made on the device.
     ///
     /// # Errors
-    /// If texels are not four bytes a pixel, a side is out of range, or memory is short.
+    /// If texels are not four bytes each, a side is out of range, or memory is short.
     pub fn textures(gpu: &Gpu, all: &[Texels], mipmaps: bool) -> Result<Vec<Self>> {
         let blank = |one| blank(gpu, one, mipmaps);
         let images: Vec<_> = all.iter().map(blank).collect::<Result<_>>()?;

@@ -1,4 +1,4 @@
-//! What is kept of a device, and what a GPU's compiler gains by it.
+//! Contents of the pipeline cache file, and the compile time it saves.
 
 use std::process::Command;
 use std::time::Instant;
@@ -18,7 +18,7 @@ fn gpu() -> (Gpu, vk::PhysicalDeviceProperties) {
     (gpu, properties)
 }
 
-/// Opens the cache, closes it again, and tells how many bytes the driver was given.
+/// Opens the cache, closes it again, and returns the number of bytes passed to the driver.
 fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> usize {
     let mut cache = PipelineCache::open(Some(folder), &gpu.device, of);
     cache.most = most;
@@ -27,8 +27,8 @@ fn run(folder: &Path, most: usize, gpu: &Gpu, of: &vk::PhysicalDeviceProperties)
     cache.known.len()
 }
 
-/// Whether the driver's data begins with all of the header that Vulkan gives it. That of Mesa 26.2.6's llvmpipe ends
-/// after 20 of 32 bytes: it cannot be told whose it is, and the driver never sees it again.
+/// True if the driver's data begins with the whole header that Vulkan prescribes. That of Mesa 26.2.6's llvmpipe
+/// ends after 20 of 32 bytes, so its origin cannot be checked, and it is never passed to the driver.
 fn has_whole_header(gpu: &Gpu, of: &vk::PhysicalDeviceProperties) -> bool {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), MOST, gpu, of);
@@ -95,7 +95,7 @@ fn what_has_grown_too_large_is_begun_anew() {
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
 
-/// RADV compiles for a GPU that is not there: the second process finds what the first has made.
+/// RADV compiles for a GPU that is not installed: the second process finds what the first has compiled.
 #[test]
 fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
     let folder = tempfile::tempdir().unwrap();
@@ -108,7 +108,7 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
             .envs(way)
             .env("VK_DRIVER_FILES", &manifest)
             .env_remove("VK_ICD_FILENAMES")
-            // Mesa keeps what it has compiled, too: only what this project keeps shall count.
+            // Mesa has its own cache; only this project's may count.
             .env("MESA_SHADER_CACHE_DIR", folder.path().join("mesa"))
             .output()
             .unwrap();
@@ -173,7 +173,7 @@ fn make_a_pipeline_for_radv() {
     let start = Instant::now();
     desc.create(&gpu, layout, cache.handle).unwrap();
     println!("made in {} ms by {}, RDNA3", start.elapsed().as_secs_f64() * 1e3, gpu.driver);
-    // The rest goes with the process: nothing runs on a card that is not there.
+    // The process frees the rest: nothing runs on a GPU that is not installed.
     cache.close(&gpu.device);
     std::mem::forget(gpu);
 }

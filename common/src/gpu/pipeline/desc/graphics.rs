@@ -1,21 +1,21 @@
-//! What a graphics pipeline is besides its stages: the attachments that it draws to.
+//! The attachments and fixed-function state of a graphics pipeline.
 
 use anyhow::Result;
 use ash::{Device, vk};
 use serde::{Deserialize, Serialize};
 
-/// The attachments of a graphics pipeline, which draws triangles of both sides to the whole of them, one
-/// sample a pixel, and takes no vertex input: its vertex shader reads by address.
+/// The attachments of a graphics pipeline. It draws both sides of triangles to the whole area, with one sample per
+/// pixel and no vertex input: its vertex shader reads by address.
 #[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct Attachments {
     /// `VkFormat` of each colour attachment.
     pub colors: Vec<i32>,
-    /// `VkFormat` of the depth attachment, and the `VkCompareOp` that a fragment has to pass.
+    /// `VkFormat` of the depth attachment, and the `VkCompareOp` of the depth test.
     pub depth: Option<(i32, i32)>,
 }
 
 impl Attachments {
-    /// The pipeline of these stages, with viewport and scissor to be set when it is bound.
+    /// Creates the pipeline from these stages; viewport and scissor are set when it is bound.
     pub(super) fn pipeline(
         &self,
         device: &Device,

@@ -1,15 +1,15 @@
-//! A name that a shader does not know, and the file of `common/` that has it.
+//! A hint for an undeclared name: the file of `common/` that declares it.
 
 use std::fs;
 
 use super::folders;
 
-/// What lets a shader trace rays, and know what a ray has met.
+/// The extension for tracing rays and querying hits.
 const RAY_TRACING: &str = "GL_EXT_ray_tracing";
 
-/// Where a compiler's message is about a name that is not known, what the shader lacks: the extension, or a file
-/// beside it or in `common/` that declares the name and is not part of the shader's whole text. `message` begins
-/// with `file:line: `, and `path` is the shader's own.
+/// For a compiler's message about an unknown name, the missing part: the extension, or a file beside the shader or
+/// in `common/` that declares the name and is not part of the shader's whole text. `message` begins with
+/// `file:line: `, and `path` is the shader's own.
 pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     let (place, what) = message.split_once(": ")?;
     let named = what.split('\'').nth(1).filter(|name| !name.is_empty());
@@ -23,7 +23,7 @@ pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     }
     let own = path.rsplit_once('/').map_or("", |(folder, _)| folder);
     let files: Vec<_> = [own, "common"].into_iter().flat_map(files_in).collect();
-    // What the shader has declared before is not what it lacks.
+    // A name that the shader has declared before is not the missing one.
     let unknown = names.into_iter().filter(|name| !declares(text, name));
     let mut found = unknown.flat_map(|name| {
         let is_new = |file: &str| !text.contains(&format!("#line 1 \"{file}\""));
@@ -34,7 +34,7 @@ pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     Some(format!("{name} stands in {file}, which is not included before this line"))
 }
 
-/// The files of a folder below `shaders/` that others include, by path, and what they hold.
+/// The files of a folder below `shaders/` that are meant to be included, by path, with their text.
 fn files_in(folder: &str) -> Vec<(String, String)> {
     let entries = folders().into_iter().filter_map(|above| fs::read_dir(above.join(folder)).ok());
     let mut files: Vec<_> = entries
@@ -50,7 +50,7 @@ fn files_in(folder: &str) -> Vec<(String, String)> {
     files
 }
 
-/// The line of a shader's whole text that `file:line` names.
+/// The line of a shader's whole text at `file:line`.
 fn line<'a>(path: &str, place: &str, text: &'a str) -> Option<&'a str> {
     let (file, number) = place.rsplit_once(':')?;
     let number: usize = number.parse().ok()?;
@@ -74,7 +74,7 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
     code.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// Whether a file declares a structure, a buffer, a function, a macro or a constant of that name.
+/// True if a file declares a structure, a buffer, a function, a macro or a constant of that name.
 fn declares(text: &str, name: &str) -> bool {
     text.lines().any(|line| {
         let words: Vec<&str> = words(line).collect();

@@ -7,29 +7,29 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::folders;
 
-/// What lets a shader include files, and `#line` name them.
+/// The extension for including files and for file names in `#line`.
 const INCLUDE_EXTENSION: &str = "GL_GOOGLE_include_directive";
 
-/// How deep `#include` may nest; more is taken for a circle.
+/// The maximum depth of `#include`; more is taken for a cycle.
 const MAX_INCLUDE_DEPTH: usize = 16;
 
-/// Bytes of a shader with all its includes. Without a bound, a few files that include each other twice are more
-/// than any memory holds.
+/// The maximum size of a shader with all its includes, in bytes. Without a bound, a few files that include each
+/// other twice would fill any memory.
 const MOST_BYTES: usize = 4 << 20;
 
-/// The text of the shader at `path` with its includes in place, `#line` telling which is which.
+/// The text of the shader at `path` with its includes in place and `#line` marking their origin.
 ///
-/// Each file counts once: by a guard, since only the compiler knows which `#if` an include is in.
+/// Each file is included once, by a macro guard, because only the compiler knows which `#if` an include is in.
 ///
 /// # Errors
-/// If a file cannot be read, lies elsewhere, or there are too many.
+/// If a file cannot be read, is outside the folder, or there are too many.
 pub fn spliced(path: &str) -> Result<String> {
     let mut text = String::new();
     splice(path, &[], &mut text)?;
     Ok(text)
 }
 
-/// Adds a file and those that it includes to `text`; `includers` are those that it is included by.
+/// Adds a file and its includes to `text`; `includers` are the files it was reached through.
 fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
     if includers.contains(&path) {
         return Ok(());
@@ -39,7 +39,7 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
     ensure!(inside, "shader '{path}' is not below '{}'", listed(&folders()));
     let file = find(path)?;
     let failed = || format!("cannot read the shader '{}'", file.display());
-    // A pipe by that name would keep the reader waiting.
+    // Opening a pipe of that name would block.
     let metadata = fs::metadata(&file).with_context(failed)?;
     ensure!(metadata.is_file(), "{}: it is not a file", failed());
     ensure!(
@@ -75,7 +75,7 @@ fn splice(path: &str, includers: &[&str], text: &mut String) -> Result<()> {
     Ok(())
 }
 
-/// Where the shader at `path` lies: in the first of the folders that has it.
+/// Finds the shader at `path` in the first folder that has it.
 fn find(path: &str) -> Result<PathBuf> {
     let folders = folders();
     if let Some(named) = std::env::var_os("SHADERS") {
@@ -106,7 +106,7 @@ fn listed(folders: &[PathBuf]) -> String {
     names.join("' nor in '")
 }
 
-/// A macro's name for a path.
+/// The macro name for a path.
 fn guard(path: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
     format!("INCLUDED_{}", path.chars().map(letter).collect::<String>())
