@@ -115,14 +115,9 @@ pub enum Command {
         /// Find out besides what the device's own traversal computes: half a minute on a software driver
         #[arg(long)]
         atlas: bool,
-        /// With --atlas: in whose arithmetic; in another than the driver's the card has the atlas alone
-        #[arg(
-            long,
-            value_name = "WHOSE",
-            value_enum,
-            default_value = "driver",
-            requires = "atlas"
-        )]
+        /// With --atlas: the driver's own arithmetic, or the worst-case rounding allowed by Vulkan; then the card has
+        /// the atlas alone
+        #[arg(long, value_name = "MODE", value_enum, default_value = "driver", requires = "atlas")]
         arithmetic: Arithmetic,
         /// Only print what would be run
         #[arg(long)]

@@ -70,9 +70,10 @@ fn draw(project: &Project) -> String {
         let numeral = parts[part].0.split(' ').next().unwrap_or_default();
         s.note([x + width(row) - MARGIN, y + 15.0], End, numeral);
         let at = [x + MARGIN, y + 15.0];
-        match first(chapter) {
-            true => s.strong(at, Start, &chapter.heading()),
-            false => s.say(at, Start, &chapter.heading()),
+        if first(chapter) {
+            s.strong(at, Start, &chapter.heading())
+        } else {
+            s.say(at, Start, &chapter.heading())
         }
     }
 

@@ -166,9 +166,12 @@ pub fn chapters(
         }
     }
     if parts.page {
-        let page = |chapter: &Chapter| match project.has(&chapter.page()) {
-            true => Ok(names.side(&chapter.page(), &told(project, &chapter.page())?)),
-            false => anyhow::Ok(Side::default()),
+        let page = |chapter: &Chapter| {
+            if project.has(&chapter.page()) {
+                Ok(names.side(&chapter.page(), &told(project, &chapter.page())?))
+            } else {
+                anyhow::Ok(Side::default())
+            }
         };
         diffs.push(FileDiff::new("page", page(old)?, page(new)?));
     }

@@ -53,9 +53,10 @@ fn tag<'a>(mut rest: &'a str, tag: &str, found: &mut Vec<Attribute>) -> &'a str 
                 value.find(|c: char| c.is_whitespace() || c == '>').unwrap_or(value.len()),
             ),
         };
-        let value = match value.contains('&') {
-            true => value.replace("&quot;", "\"").replace("&#39;", "'").replace("&amp;", "&"),
-            false => value.to_owned(),
+        let value = if value.contains('&') {
+            value.replace("&quot;", "\"").replace("&#39;", "'").replace("&amp;", "&")
+        } else {
+            value.to_owned()
         };
         found.push(Attribute { tag: tag.to_owned(), name: name.to_owned(), value });
         rest = after;

@@ -190,9 +190,10 @@ fn around(project: &Project, entries: &[Entry], entry: &Entry, code: bool) -> St
     let [before, after] = neighbours(entries, entry);
     let mut html = String::from("\n\n<nav class=\"pages\" aria-label=\"Next pages\">\n");
     if code {
-        let title = match project.of_page(&entry.file).is_some() {
-            true => "The whole code, beside that of the chapter before",
-            false => "The files that this page shows",
+        let title = if project.of_page(&entry.file).is_some() {
+            "The whole code, beside that of the chapter before"
+        } else {
+            "The files that this page shows"
         };
         let name = link::code_name(entry);
         let _ = writeln!(html, "<a class=\"whole\" href=\"{name}.html\">{title}</a>");

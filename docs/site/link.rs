@@ -41,17 +41,19 @@ pub fn resolve(
 ) -> Result<Target, String> {
     let id = target.split_once('#').map_or(String::new(), |(_, id)| format!("#{id}"));
     let Some(file) = local(&from.file, target) else {
-        return Ok(match target.starts_with('#') {
-            true => Target::Site(target.to_owned()),
-            false => Target::Web,
+        return Ok(if target.starts_with('#') {
+            Target::Site(target.to_owned())
+        } else {
+            Target::Web
         });
     };
     if let Some(entry) = entries.iter().find(|entry| entry.file == file) {
         return Ok(Target::Site(entry.address() + &id));
     }
-    match project.has(&file) {
-        true => Ok(Target::File(file)),
-        false => Err(format!("the link leads to '{file}', which is no file")),
+    if project.has(&file) {
+        Ok(Target::File(file))
+    } else {
+        Err(format!("the link leads to '{file}', which is no file"))
     }
 }
 

@@ -274,9 +274,10 @@ impl Composer<'_> {
         let picture = Picture { from: file, part: Part::Whole };
         let first = self.done.pictures.is_empty();
         let image = picture.html(self.project, words, !first);
-        let html = match linked {
-            true => image,
-            false => format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address()),
+        let html = if linked {
+            image
+        } else {
+            format!("<a class=\"picture\" href=\"{}\">{image}</a>", picture.address())
         };
         let html = match above {
             Some(Above::Figure(mark)) => match figure::html(self.project, &mark, &html, words) {
@@ -296,11 +297,12 @@ impl Composer<'_> {
     fn code(&mut self, span: Range<usize>, language: &str, text: &str) {
         let lines = color::lines(language, text).join("&#10;");
         let code = format!("<pre><code class=\"nohighlight {language}\">{lines}&#10;</code></pre>");
-        let html = match std::mem::take(&mut self.folded) {
-            true => format!(
+        let html = if std::mem::take(&mut self.folded) {
+            format!(
                 "<details class=\"command\"><summary>How this picture is made</summary>{code}</details>"
-            ),
-            false => code,
+            )
+        } else {
+            code
         };
         // The fence's last line may be the text's last, without an end of its own.
         let ended = self.text[span.clone()].ends_with('\n');

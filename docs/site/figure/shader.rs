@@ -66,9 +66,10 @@ pub fn translated(read: &dyn Fn(&str) -> Option<String>, file: &str) -> Result<S
     let mut translator = Translator { source: Source::of(read, file), made: HEAD.to_owned() };
     let tokens = translator.keep();
     translator.write(&tokens);
-    match translator.source.faults.is_empty() {
-        true => Ok(translator.made),
-        false => Err(translator.source.faults),
+    if translator.source.faults.is_empty() {
+        Ok(translator.made)
+    } else {
+        Err(translator.source.faults)
     }
 }
 
