@@ -98,11 +98,17 @@ impl DriverShim for Stages {
 fn logging(kind: Kind, text: &str, number: usize, address: u64) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let is = |line: &&str, word: &str| line.trim_start().starts_with(word);
-    // An include may have extension lines under a condition: those stay in place.
-    let begins = |line: &&&str| {
-        line.is_empty()
-            || ["#version", "#extension", "#line", "//"].iter().any(|word| is(line, word))
-    };
+    // The first include may ask for extensions within its guard. One that a condition may leave out stays where it is.
+    let words = [
+        "#version",
+        "#extension",
+        "#line",
+        "#ifndef INCLUDED_",
+        "#define INCLUDED_",
+        "#endif",
+        "//",
+    ];
+    let begins = |line: &&&str| line.is_empty() || words.iter().any(|word| is(line, word));
     let begun = &lines[..lines.iter().take_while(begins).count()];
     let version = begun.iter().position(|line| is(line, "#version")).unwrap_or_default();
     let extension = begun.iter().rposition(|line| is(line, "#extension"));

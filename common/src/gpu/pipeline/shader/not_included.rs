@@ -8,25 +8,27 @@ use super::folders;
 const RAY_TRACING: &str = "GL_EXT_ray_tracing";
 
 /// For a compiler's message about an unknown name, the missing part: the extension, or a file beside the shader or
-/// in `common/` that declares the name and is not part of the shader's whole text. `message` begins with
+/// in `common/` that declares the name and is not included before that line. `message` begins with
 /// `file:line: `, and `path` is the shader's own.
 pub fn hint(path: &str, message: &str, text: &str) -> Option<String> {
     let (place, what) = message.split_once(": ")?;
     let named = what.split('\'').nth(1).filter(|name| !name.is_empty());
+    let found = line(path, place, text);
     let names: Vec<&str> = match named {
         Some(name) => vec![name],
         // "syntax error, unexpected IDENTIFIER" does not say which.
-        None => words(line(path, place, text)?).collect(),
+        None => words(found?.1).collect(),
     };
+    let before = found.map_or(text, |(before, _)| before);
     if !text.contains(RAY_TRACING) && names.iter().any(|name| name.ends_with("EXT")) {
         return Some(format!("the shader lacks the line `#extension {RAY_TRACING} : require`"));
     }
     let own = path.rsplit_once('/').map_or("", |(folder, _)| folder);
     let files: Vec<_> = [own, "common"].into_iter().flat_map(files_in).collect();
     // A name that the shader has declared before is not the missing one.
-    let unknown = names.into_iter().filter(|name| !declares(text, name));
+    let unknown = names.into_iter().filter(|name| !declares(before, name));
     let mut found = unknown.flat_map(|name| {
-        let is_new = |file: &str| !text.contains(&format!("#line 1 \"{file}\""));
+        let is_new = |file: &str| !before.contains(&format!("#line 1 \"{file}\""));
         let declares = |(file, text): &&(String, String)| is_new(file) && declares(text, name);
         files.iter().find(declares).map(|(file, _)| (name, file))
     });
@@ -50,19 +52,22 @@ fn files_in(folder: &str) -> Vec<(String, String)> {
     files
 }
 
-/// The line of a shader's whole text at `file:line`.
-fn line<'a>(path: &str, place: &str, text: &'a str) -> Option<&'a str> {
+/// The line of a shader's whole text at `file:line`, and the text before it.
+fn line<'a>(path: &str, place: &str, text: &'a str) -> Option<(&'a str, &'a str)> {
     let (file, number) = place.rsplit_once(':')?;
     let number: usize = number.parse().ok()?;
     let (mut at, mut is_here) = (1, file == path);
-    for line in text.lines() {
+    let mut begin = 0;
+    for whole in text.split_inclusive('\n') {
+        let (before, line) = (&text[..begin], whole.trim_end());
+        begin += whole.len();
         if let Some(rest) = line.strip_prefix("#line ") {
             let (next, name) = rest.split_once(' ')?;
             (at, is_here) = (next.parse().ok()?, name.trim_matches('"') == file);
             continue;
         }
         if is_here && at == number {
-            return Some(line);
+            return Some((before, line));
         }
         at += 1;
     }
@@ -99,9 +104,11 @@ mod tests {
     #[test]
     fn a_line_is_found_behind_includes() {
         let text = "#version 460\n#line 2 \"a.rgen\"\nb\n#line 1 \"c.glsl\"\nd\n#line 3 \"a.rgen\"\ne\nf\n";
-        assert_eq!(line("a.rgen", "a.rgen:4", text), Some("f"));
-        assert_eq!(line("a.rgen", "c.glsl:1", text), Some("d"));
-        assert_eq!(line("a.rgen", "c.glsl:9", text), None);
+        let found = |place| line("a.rgen", place, text).map(|(_, line)| line);
+        assert_eq!(found("a.rgen:4"), Some("f"));
+        assert_eq!(found("c.glsl:1"), Some("d"));
+        assert_eq!(found("c.glsl:9"), None);
+        assert!(line("a.rgen", "a.rgen:4", text).unwrap().0.ends_with("e\n"));
     }
 
     #[test]
