@@ -58,6 +58,8 @@ impl Instruments {
             || matches!(pixel.pixel, Some(Which::At(_)));
         args.headless |= no_window;
         if args.headless || args.list_controls {
+            // One file that two options name is the first to be told of.
+            app::files::check(args)?;
             report.check()?;
             self.resumed = resumed(sums)?;
             self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
