@@ -163,7 +163,7 @@ fn no_aim_at_a_sphere_has_an_angle_beyond_pi() {
                 Emitter ball;\n\
                 ball.corner = vec3(0.0, 0.0, at.x < 32 ? 5.0 : 0.5);\n\
                 ball.radius = 1.0;\n\
-                ball.height = ball.slack = 0.0;\n\
+                ball.offset = ball.slack = 0.0;\n\
                 Aim aim = aim_at_sphere(ball, vec3(0.0), vec2(float(at.x % 32) / 32.0, u));\n\
                 answer = vec4(widest, aim.to);";
     let picture = run::evaluate(&noting, body, "64x128");

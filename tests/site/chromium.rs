@@ -126,7 +126,7 @@ impl Engine for Chromium {
     fn size(&mut self, width: u32, height: u32, phone: bool) {
         let size =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone });
-        self.call("DriverShim.setDeviceMetricsOverride", size);
+        self.call("Emulation.setDeviceMetricsOverride", size);
     }
 
     fn press(&mut self, key: &str, code: u32) {
@@ -139,7 +139,7 @@ impl Engine for Chromium {
 
     fn drag(&mut self, way: &[[f64; 2]], by: Pointer) {
         let touch = json!({ "enabled": by == Pointer::Finger });
-        self.call("DriverShim.setTouchEmulationEnabled", touch);
+        self.call("Emulation.setTouchEmulationEnabled", touch);
         let [.., [x, y]] = *way else { panic!("no way") };
         let kinds = std::iter::once(("mousePressed", "touchStart"))
             .chain(std::iter::repeat(("mouseMoved", "touchMove")));

@@ -14,7 +14,7 @@ pub const SCHEMES: [&str; 2] = ["light", "dark"];
 
 pub fn prefers(browser: &mut Browser, scheme: &str) {
     let features = json!([{ "name": "prefers-color-scheme", "value": scheme }]);
-    browser.call("DriverShim.setEmulatedMedia", &json!({ "features": features }));
+    browser.call("Emulation.setEmulatedMedia", &json!({ "features": features }));
 }
 
 /// A colour as the browser tells it.

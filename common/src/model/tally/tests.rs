@@ -40,7 +40,7 @@ fn read(text: &str) -> [u64; 2] {
     let path = folder.path().join("model.obj");
     std::fs::write(&path, text).unwrap();
     let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["--exact", "scene::tally::tests::reads_a_model", "--ignored", "--nocapture"]);
+    command.args(["--exact", "model::tally::tests::reads_a_model", "--ignored", "--nocapture"]);
     let output = command.env(FILE, &path).output().unwrap();
     let output = String::from_utf8(output.stdout).unwrap();
     let number = |name: &str| {

@@ -102,7 +102,7 @@ fn a_gpu_s_compiler_does_not_do_again_what_an_earlier_run_has_done() {
     let manifest = manifest().unwrap_or_else(|error| panic!("{error}: run ./setup"));
     let by = |way: Vec<_>| -> Option<(f64, String)> {
         let output = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "gpu::pipeline_cache::tests::make_a_pipeline_for_radv"])
+            .args(["--exact", "gpu::pipeline::cache::tests::make_a_pipeline_for_radv"])
             .args(["--ignored", "--nocapture"])
             .env("KEPT_IN", folder.path())
             .envs(way)
