@@ -38,6 +38,15 @@ fn folders_that_take_no_files_and_devices() {
 }
 
 #[test]
+fn a_window_reports_nothing() {
+    for report in ["-", "a.json"] {
+        let mut window = run::command(super::SAMPLE);
+        window.args(["--report", report]);
+        super::refused_by(window, 2, &["--report", "with --headless"]);
+    }
+}
+
+#[test]
 fn formats_that_are_unknown() {
     for name in ["a.jpg", "a", ".png", "a.png.txt", "-", "a.png/.."] {
         refused(&["--out", name], 2, &["cannot write '", "': a picture is .png or .exr"]);

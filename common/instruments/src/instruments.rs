@@ -63,6 +63,9 @@ impl Instruments {
             report.check()?;
             self.resumed = resumed(sums)?;
             self.compared = compare.compare.as_deref().map(compare::parse).transpose()?;
+        } else if report.report.is_some() {
+            // One that goes to standard output is no file, which a window refuses itself.
+            return Err(UsageError("--report goes with --headless".to_owned()).into());
         }
         Ok(true)
     }

@@ -52,7 +52,7 @@ impl Options {
 
     /// Reads the options from a command line, and names the files they read and write.
     ///
-    /// Reads the options from a command line, and names the files they read and write.
+    /// # Errors
     /// If options contradict each other.
     pub fn read(matches: &ArgMatches, args: &mut Args) -> Result<Self, UsageError> {
         let options = Self::from_arg_matches(matches).map_err(|error| usage_error(&error))?;
@@ -84,7 +84,7 @@ pub fn command() -> clap::Command {
 }
 
 /// The process's arguments: the sample's and the instruments'.
-/// The process's arguments: the sample's and the instruments'.
+///
 /// # Errors
 /// One line with the mistake and where to look.
 pub fn parse(name: &'static str) -> Result<(Args, Options), UsageError> {

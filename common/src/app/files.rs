@@ -24,8 +24,8 @@ pub struct Files {
 
 /// Refuses early, before the work, any output file that cannot be written or that is named twice.
 ///
+/// # Errors
 /// Names the file and the reason.
-/// With the file, and why.
 pub fn check(args: &Args) -> Result<()> {
     args.out.as_deref().map(Format::of).transpose()?;
     let Files { inputs, outputs, updated } = all(args);
