@@ -120,5 +120,5 @@ fn no_compiler_for_another_gpu() {
     let mut command = sample();
     command.args(["--compile-for", "navi31"]).env("XDG_DATA_DIRS", "/nonexistent");
     command.env("VK_DRIVER_FILES", std::env::join_paths(drivers).expect("plain names"));
-    refused_by(command, 1, &["(RADV), which is not installed", "mesa-vulkan-drivers"]);
+    refused_by(command, 1, &["(RADV), which is not installed", SETUP]);
 }

@@ -31,7 +31,9 @@ impl Card {
         let manifest = match manifest() {
             Ok(manifest) if linker.stderr.is_empty() => manifest,
             _ => {
-                println!("not tried: no card can be had without mesa-drm-shim and RADV");
+                println!(
+                    "not tried: no card can be had without mesa-drm-shim and RADV: run ./setup"
+                );
                 return None;
             }
         };

@@ -205,7 +205,7 @@ fn a_task_that_runs_twice_counts_once() {
 fn sixty_four_tasks_through_gnu_parallel_give_the_same_bytes_though_some_are_killed() {
     let version = Command::new("parallel").arg("--version").output();
     if !version.is_ok_and(|output| output.stdout.starts_with(b"GNU parallel")) {
-        println!("not tried: there is no GNU parallel");
+        println!("not tried: there is no GNU parallel: run ./setup --tests");
         return;
     }
     let parts = Parts::new();

@@ -189,7 +189,7 @@ fn validate(name: &str, words: &[u32]) {
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .unwrap_or_else(|error| panic!("cannot run spirv-val ({error}): run ./setup"));
+        .unwrap_or_else(|error| panic!("cannot run spirv-val ({error}): run ./setup --tests"));
     child.stdin.take().expect("piped").write_all(&bytes).expect("it reads the module");
     let output = child.wait_with_output().expect("it ends");
     let said = [output.stdout, output.stderr].concat();

@@ -50,8 +50,8 @@ impl Wire for Pipes {
 impl Chromium {
     /// Starts it.
     pub fn start(graphics: &[&str]) -> Self {
-        let name =
-            found(&NAMES).expect("no Chromium on the PATH: run ./setup, or install Google Chrome");
+        let name = found(&NAMES)
+            .expect("no Chromium on the PATH: run ./setup --tests, or install Google Chrome");
         let profile = tempfile::tempdir().expect("a temporary folder");
         // It reads from 3 and writes to 4.
         let mut child = Command::new("sh")

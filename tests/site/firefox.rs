@@ -54,7 +54,7 @@ impl Firefox {
     }
 
     fn with(server: Option<Child>, graphics: impl Fn(&mut Command)) -> Self {
-        let name = found(&NAMES).expect("no Firefox on the PATH: run ./setup");
+        let name = found(&NAMES).expect("no Firefox on the PATH: run ./setup --tests");
         let profile = tempfile::tempdir().expect("a temporary folder");
         fs::write(profile.path().join("user.js"), PREFERENCES).expect("it can be written");
         let mut command = Command::new(name);

@@ -23,8 +23,9 @@ impl Compositor {
         command.args(["--backend=headless-backend.so", "--no-config", "--idle-time=0"]);
         command.arg(format!("--socket={}", Self::SOCKET)).env("XDG_RUNTIME_DIR", folder.path());
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-        let server =
-            command.spawn().unwrap_or_else(|error| panic!("no weston ({error}): run ./setup"));
+        let server = command
+            .spawn()
+            .unwrap_or_else(|error| panic!("no weston ({error}): run ./setup --tests"));
         let socket = folder.path().join(Self::SOCKET);
         wait("the compositor", || socket.exists().then_some(()));
         Self { folder, server }

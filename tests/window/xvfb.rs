@@ -9,7 +9,7 @@ pub fn start(more: &[&str]) -> (Child, String) {
     command.args(["-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"]);
     command.args(more);
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
-    let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup"));
+    let mut child = child.unwrap_or_else(|error| panic!("no Xvfb ({error}): run ./setup --tests"));
     let mut number = String::new();
     let output = child.stdout.take().expect("piped");
     BufReader::new(output).read_line(&mut number).expect("Xvfb tells its display");

@@ -193,8 +193,8 @@ fn ask(family: &str, manifest: &Path, question: &[u8]) -> Result<Answer> {
     }
     let since = if family == "gfx1201" { "26.2.6" } else { "25.0.7" };
     bail!(
-        "Mesa here stands in for no such card: install drm-shim of Mesa {since} or newer, on Debian the package mesa-drm-shim in \
-         the version of mesa-vulkan-drivers"
+        "Mesa here stands in for no such card: run ./setup, or install drm-shim of Mesa {since} or newer, \
+         on Debian the package mesa-drm-shim in the version of mesa-vulkan-drivers"
     )
 }
 
@@ -226,7 +226,7 @@ fn manifest_in<'a>(folders: impl Iterator<Item = &'a str>) -> Result<PathBuf> {
     named(&fit).or_else(|| named("radeon_icd.json")).ok_or_else(|| {
         anyhow!(
             "figures of a GPU's compiler need Mesa's Vulkan driver for AMD (RADV), which is not installed: \
-             install mesa-vulkan-drivers on Debian, Ubuntu or Fedora, vulkan-radeon on Arch"
+             run ./setup, or install mesa-vulkan-drivers on Debian, Ubuntu or Fedora, vulkan-radeon on Arch"
         )
     })
 }
