@@ -68,12 +68,20 @@ mod tests {
             ("cargo test", Some((None, None))),
             ("cargo test --test a b::c -- --ignored d", Some((some("a"), some("b::c")))),
             ("UPDATE=1 cargo test --release --test a", Some((some("a"), None))),
-            ("./setup && cargo test", Some((None, None))),
+            ("./setup --tests && cargo test", Some((None, None))),
             ("cargo test -p raybook x", None),
             ("cargo run --bin a", None),
         ];
         for (command, expected) in cases {
             assert_eq!(of(command), expected, "{command}");
+        }
+    }
+
+    #[test]
+    fn ci_runs_the_test_command_of_the_readme() {
+        let command = "\n./setup --tests && cargo test\n";
+        for text in [include_str!("../../../README.md"), include_str!("../../../.ci/run")] {
+            assert_eq!(text.matches(command).count(), 1, "{text}");
         }
     }
 }
