@@ -52,7 +52,7 @@ fn refuse_to_lose(out: &Path, files: &[PathBuf]) -> Result<()> {
     if Format::of(out).is_err() && out.exists() && !files.iter().any(same) {
         let name = out.display();
         bail!(UsageError(format!(
-            "'{name}' is there already: name it among the files, too, or give the output another name"
+            "'{name}' exists: name it among the files, too, or give the output another name"
         )));
     }
     Ok(())

@@ -250,7 +250,7 @@ impl Verdict {
                 a.pixels().zip(b.pixels()).filter(is_far).count()
             };
             match pairs.map(apart).sum() {
-                0usize => self.notes.push(format!("{file}: equal but for rounding")),
+                0usize => self.notes.push(format!("{file}: differs by at most 1 of 255")),
                 pixels => {
                     self.differences.push(format!("{file}: {pixels} pixels differ; {remedy}"))
                 }

@@ -57,6 +57,10 @@ fn run() -> Result<()> {
             options.compile_for.compile_for.is_some(),
             "makes its pipeline by itself: --compile-for is for 02 and on",
         ),
+        (
+            options.sums.samples.is_some(),
+            "renders one frame: --samples is for chapters whose frames are samples of one picture, such as 04_jitter_camera",
+        ),
         (args.scene.is_some(), "brings its own triangle and takes no --scene"),
         (args.unordered, "has one triangle: there is nothing to order"),
     ];

@@ -44,7 +44,7 @@ common::shader_enum! {
         RayOrigin,
     }
     /// The rule for a ray's start.
-    enum Origin: ORIGIN { Nothing, Tmin, Normal, Integers, Reprojected, Bound, Height, Magnitudes }
+    enum Origin: ORIGIN { Nothing, Tmin, Normal, Integers, Reprojected, Bound, Offset, Magnitudes }
 }
 
 /// Specialization constants of a pipeline's shaders.

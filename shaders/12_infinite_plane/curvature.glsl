@@ -1,4 +1,4 @@
-// How a surface bends that a ray met.
+// The curvature of the surface that a ray met.
 
 // By how much the normal turns in a unit of length: from the triangle's corners, along its edges.
 float curvature(InstanceRecord instance, uint triangle) {

@@ -5,7 +5,7 @@ struct Hit {
     vec3 position;    // on the surface, in the world
     float t;          // the distance along the ray; -1 if the ray met nothing
     vec3 normal;      // the normal to shade with: unit, on the side that the ray came from
-    uint material;    // which material: push.scene.materials.at[material]; or one of the two below
+    uint material;    // which material: push.scene.materials.at[material], or MATERIAL_PLANE or MATERIAL_GROUND
     vec3 color;       // the material's colour, its texture already read; of a material with a pattern, the
                       // place in the mesh's own space, by which raygen finds it; for a miss, the sky's
 #ifdef DEPARTURES

@@ -130,7 +130,7 @@ RayOrigin start_bound(Departure from, vec3 direction) {
 }
 
 // Chapter 05's: one step for every direction above the surface, so it knows no direction.
-RayOrigin start_height(Departure from) {
+RayOrigin start_offset(Departure from) {
     return RayOrigin(from.position + from.offset * from.normal, 0.0);
 }
 
@@ -162,7 +162,7 @@ RayOrigin start_of_ray(Departure from, vec3 direction) {
         case ORIGIN_NORMAL: return start_normal(from);
         case ORIGIN_INTEGERS: return start_integers(from);
         case ORIGIN_REPROJECTED: return start_reprojected(from);
-        case ORIGIN_HEIGHT: return start_height(from);
+        case ORIGIN_OFFSET: return start_offset(from);
         case ORIGIN_MAGNITUDES: return start_magnitudes(from);
         default: return start_bound(from, direction);
     }

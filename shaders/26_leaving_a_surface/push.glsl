@@ -24,5 +24,5 @@ const uint ORIGIN_NORMAL = 2;
 const uint ORIGIN_INTEGERS = 3;
 const uint ORIGIN_REPROJECTED = 4;
 const uint ORIGIN_BOUND = 5;
-const uint ORIGIN_HEIGHT = 6;
+const uint ORIGIN_OFFSET = 6;
 const uint ORIGIN_MAGNITUDES = 7;

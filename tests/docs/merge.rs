@@ -47,8 +47,8 @@ fn what_cannot_be_merged_is_refused_by_name_and_nothing_is_written() {
     for (arguments, code, words) in [
         (&[&out, &a, &b][..], 1, "samples 3..4 are in "),
         (&[&out, &a, &a], 1, "a.sums, too"),
-        (&[&a, &b], 2, "a.sums' is there already: name it among the files, too"),
-        (&[&out, &a, &text], 1, "text: is no file of sums that --save has written"),
+        (&[&a, &b], 2, "a.sums' exists: name it among the files, too"),
+        (&[&out, &a, &text], 1, "text: was not written by --save"),
         (&[&out, &gone], 1, "gone.sums: there is no such file"),
         (&[&out], 2, "<FILE>..."),
         (&[&jpeg, &a], 2, "out.jpg': a picture is .png or .exr, and sums are .sums"),

@@ -54,7 +54,7 @@ fn a_shadow_ray_changes_nothing_of_what_a_hit_is() {
 const HIGH: [&str; 3] =
     ["camera eye=-5.6,4.8,9.2", "camera target=0.35,0.3,-0.2", "field of view=37"];
 
-/// Rules for the start of a ray, from the least to the best. `height` is chapter 05's.
+/// Rules for the start of a ray, from the least to the best. `offset` is chapter 05's.
 const RULES: [&str; 6] = ["nothing", "tmin", "normal", "integers", "reprojected", "bound"];
 
 /// The chess set in four sizes and places: the controls, and the same for the reference.
@@ -203,7 +203,7 @@ fn the_bounds_hold_in_the_worst_arithmetic_that_conforms() {
     }
     // Far away the point's own rounding is the largest part.
     let setting = Setting::computed("worst", 3, SIZE, HIGH);
-    for rule in ["bound", "height"] {
+    for rule in ["bound", "offset"] {
         for tally in [setting.reflected(rule, 1), setting.shadow(rule)] {
             println!("{rule}: {tally}");
             assert_eq!((tally.self_hits, tally.lost), (0, 0), "{rule}: {:?}", tally.first);
@@ -246,7 +246,7 @@ fn a_million_rays_leave_no_acne_and_no_leak() {
 /// The lines in which `origin.glsl` goes up by the step of a rule.
 const STEPS: [(&str, &str); 3] = [
     ("bound", "return RayOrigin(from.position + step * from.normal, 0.0);"),
-    ("height", "return RayOrigin(from.position + from.offset * from.normal, 0.0);"),
+    ("offset", "return RayOrigin(from.position + from.offset * from.normal, 0.0);"),
     ("magnitudes", "return RayOrigin(from.position + offset * from.normal, 0.0);"),
 ];
 

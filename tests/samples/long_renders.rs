@@ -381,12 +381,12 @@ fn what_does_not_fit_is_refused_by_name() {
     refused(&lost, 2, &["--samples keeps nothing: name a file for the picture, --out, or for the"]);
     // Not even a file of the same command is written over.
     let again = ["--size", "24x16", "--samples", "0..2", "--save", name];
-    refused(&again, 1, &["is there already: --resume '", "part' goes on with it"]);
+    refused(&again, 1, &["exists: --resume '", "part' continues it"]);
     fs::write(parts.path("text"), "Once upon a time").unwrap();
     let text = parts.path("text");
     let kept = ["--samples", "0..4", "--out", "never.exr"];
     let resume = [&kept[..], &["--resume", text.to_str().unwrap()]].concat();
-    refused(&resume, 1, &["text: is no file of sums that --save has written"]);
+    refused(&resume, 1, &["text: was not written by --save"]);
     let gone = parts.path("gone");
     let resume = [&kept[..], &["--resume", gone.to_str().unwrap()]].concat();
     refused(&resume, 1, &["gone: there is no such file"]);
@@ -404,7 +404,7 @@ fn what_does_not_fit_is_refused_by_name() {
         &["--save -: sums of samples are no picture"],
     );
     let picture = ["--size", "24x16", "--samples", "0..2", "--save", text.to_str().unwrap()];
-    refused(&picture, 1, &["text' is there already, and is no file of sums: choose another name"]);
+    refused(&picture, 1, &["text' exists and was not written by --save: choose another name"]);
     let out = ["--samples", "0..4", "--resume", name, "--save", name, "--report", name];
     refused(&out, 2, &["--resume and --report both name '"]);
     let picture = ["--samples", "0..4", "--save", "part.PNG"];

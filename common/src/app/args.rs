@@ -50,7 +50,7 @@ pub struct Args {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub sets: Vec<(String, String)>,
 
-    /// Print the controls: name, kind, possible values, value
+    /// Print the controls: name, kind, possible values, value; other options are checked, and nothing is rendered
     #[arg(long, conflicts_with = "list_devices")]
     pub list_controls: bool,
 
@@ -58,7 +58,7 @@ pub struct Args {
     #[arg(long, value_name = "N|NAME", value_parser = NonEmptyStringValueParser::new(), allow_negative_numbers = true)]
     pub device: Option<String>,
 
-    /// Print the devices and the features each one lacks
+    /// Print the devices and the features each one lacks, and nothing else
     #[arg(long)]
     pub list_devices: bool,
 

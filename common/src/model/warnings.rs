@@ -33,10 +33,10 @@ impl Kind {
             Self::Definition => "the first definition stands",
             Self::Material => "a grey stands for it",
             Self::Texture => "the plain colour stands for it",
-            Self::Option => "it is passed over",
+            Self::Option => "it is ignored",
             Self::Coordinate => "the corner has none",
             Self::Normal => "the triangle's own stands for it",
-            Self::Keyword => "the line is passed over",
+            Self::Keyword => "the line is ignored",
         }
     }
 }

@@ -43,8 +43,17 @@ pub fn value(stored: &Records, name: &str, key: &str) -> Result<f64, (String, St
         return Err((format!("there is no measurement {name}"), record::renew(name)));
     };
     record.value(key).ok_or_else(|| {
-        let there: Vec<&str> = record.values.keys().map(String::as_str).collect();
-        (format!("{name} has no value '{key}'"), format!("name one of {}", there.join(", ")))
+        let mut there: Vec<&str> = record.values.keys().map(String::as_str).collect();
+        // A table has hundreds: those are shown that begin most like the one that was asked for.
+        let shared = |name: &str| name.bytes().zip(key.bytes()).take_while(|(a, b)| a == b).count();
+        there.sort_by_key(|name| std::cmp::Reverse(shared(name)));
+        let (count, shown) = (there.len(), there[..there.len().min(8)].join(", "));
+        let such = if count > 8 {
+            format!("one of its {count}, such as {shown}")
+        } else {
+            format!("one of {shown}")
+        };
+        (format!("{name} has no value '{key}'"), format!("name {such}"))
     })
 }
 

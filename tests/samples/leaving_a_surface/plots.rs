@@ -44,10 +44,10 @@ fn leaks() {
 #[test]
 #[ignore = "by hand: prints what becomes of rays that start by each rule"]
 fn table_of_origins() {
-    let (mut table, mut height) = (Map::new(), Map::new());
+    let (mut table, mut offset) = (Map::new(), Map::new());
     for (number, (place, _)) in SETTINGS.iter().enumerate() {
         let setting = Setting::new(number, "240x150", HIGH);
-        for rule in RULES.into_iter().chain(["height", "magnitudes"]) {
+        for rule in RULES.into_iter().chain(["offset", "magnitudes"]) {
             let tallies = [setting.reflected(rule, 1), setting.shadow(rule)];
             let percent = |count: fn(&Tally) -> usize| {
                 tallies.each_ref().map(|tally| 100.0 * count(tally) as f64 / tally.rays as f64)
@@ -60,11 +60,11 @@ fn table_of_origins() {
             );
             let row = [("acne", acne), ("lost", lost), ("dark", dark), ("lit", lit)];
             table.extend(row.map(|(key, part)| (format!("{number}.{rule}.{key}"), part.into())));
-            if rule == "height" {
-                height.insert(number.to_string(), (lost / 100.0).into());
+            if rule == "offset" {
+                offset.insert(number.to_string(), (lost / 100.0).into());
             }
         }
     }
     expected::hold("26_leaving_a_surface/origins", table.into());
-    expected::hold("26_leaving_a_surface/height", height.into());
+    expected::hold("26_leaving_a_surface/offset", offset.into());
 }

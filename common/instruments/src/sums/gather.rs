@@ -36,7 +36,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
 
-    /// With --samples, start from the sums in this file and render the missing samples; with --save of the same name, it need not exist yet
+    /// With --samples, start from the sums in this file and render the missing samples; the output is the mean of both. With --save of the same name, it need not exist yet
     #[arg(long, value_name = "FILE", requires = "samples")]
     pub resume: Option<PathBuf>,
 
@@ -122,12 +122,13 @@ pub fn resumed(options: &Options) -> Result<Option<Sums>> {
     {
         let name = shown(save);
         if Sums::begins(save) {
-            bail!("'{name}' is there already: --resume '{name}' goes on with it");
+            bail!("'{name}' exists: --resume '{name}' continues it");
         }
-        bail!("'{name}' is there already, and is no file of sums: choose another name");
+        bail!("'{name}' exists and was not written by --save: choose another name");
     }
     // The same command starts and continues a render: a batch system repeats it unchanged.
-    let resume = resume.filter(|resume| save != Some(resume) || is_there(resume));
+    let resume = resume
+        .filter(|resume| !save.is_some_and(|save| files::same(save, resume)) || is_there(resume));
     resume.map(Sums::open).transpose()
 }
 

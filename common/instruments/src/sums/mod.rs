@@ -103,7 +103,7 @@ impl Header {
     fn read(file: &mut impl Read, name: &str) -> Result<Self> {
         let mut beginning = [0; BEGINNING];
         let is_ours = file.read_exact(&mut beginning).is_ok() && beginning.starts_with(MAGIC);
-        ensure!(is_ours, "{name}: is no file of sums that --save has written");
+        ensure!(is_ours, "{name}: was not written by --save");
         let form = u16::from_le_bytes([beginning[6], beginning[7]]);
         ensure!(form == FORM, "{name}: has form {form}; this program reads form {FORM}");
         let length = u32::from_le_bytes([beginning[8], beginning[9], beginning[10], beginning[11]]);

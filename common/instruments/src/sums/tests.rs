@@ -58,7 +58,10 @@ fn whatever_bit_is_wrong_the_file_is_refused() {
     }
     for length in 0..whole.len() {
         let line = refused(&whole[..length]);
-        assert!(line.contains("is damaged") || line.contains("is no file of sums"), "{line}");
+        assert!(
+            line.contains("is damaged") || line.contains("was not written by --save"),
+            "{line}"
+        );
     }
     assert!(refused(&[&whole[..], b"more"].concat()).contains("is damaged: it is cut off, or"));
 }
@@ -67,7 +70,7 @@ fn whatever_bit_is_wrong_the_file_is_refused() {
 fn what_is_no_file_of_sums_is_named_so() {
     for bytes in [&b""[..], b"RTSU", b"\x89PNG\r\n\x1a\n and so on and on", b"RTSUMZ\x01\0\0\0\0\0"]
     {
-        assert_eq!(refused(bytes), "a.sums: is no file of sums that --save has written");
+        assert_eq!(refused(bytes), "a.sums: was not written by --save");
     }
     let mut bytes = some(0..4).bytes().unwrap();
     bytes[6] = 2;

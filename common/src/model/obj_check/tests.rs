@@ -133,7 +133,7 @@ fn indices_that_a_model_can_do_without() {
 #[test]
 fn statements_of_other_formats_are_passed_over() {
     let hint = "is not a keyword of an OBJ file, as v, vt, vn, f, o, g, s, usemtl and mtllib are";
-    let warning = format!("model.obj:7: \"group\" {hint}; the line is passed over (2 in all)");
+    let warning = format!("model.obj:7: \"group\" {hint}; the line is ignored (2 in all)");
     lines_warned("group a b\ncurve 1 2\nF 1 2", &[&warning.replace("2 in", "3 in")]);
     lines_warned("group\nxyz", &[&warning]);
     let known = "l 1 2\np 1\ns off\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\nlod 2\n\

@@ -63,7 +63,7 @@ fn statements_that_are_not_supported_are_passed_over() {
     assert_eq!(
         model.warnings,
         [
-            "m.mtl:3: Ks has the form spectral, which is not supported; it is passed over (4 in all)",
+            "m.mtl:3: Ks has the form spectral, which is not supported; it is ignored (4 in all)",
             "m.mtl:6: map_Kd names \"gone.png\", which is not there; the plain colour stands for \
              it (1 in all)",
         ]
