@@ -316,15 +316,15 @@ impl Verdict {
         stored: &Records,
     ) {
         for Measurement { name, .. } in group {
-            let (Some(old), Some(new)) = (stored.get(name), given.get(name).or(given.get("")))
-            else {
+            let old = stored.get(name);
+            if old.is_some_and(|old| old.timed) {
+                continue;
+            }
+            let (Some(old), Some(new)) = (old, given.get(name).or(given.get(""))) else {
                 self.differences
                     .push(format!("{name}: nothing is stored, or given; {}", renew(name)));
                 continue;
             };
-            if old.timed {
-                continue;
-            }
             if !old.is_of_device_of(new) {
                 let values = serde_json::Value::from(new.values.clone());
                 let (device, driver) = (&old.device, &old.driver);
