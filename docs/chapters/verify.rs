@@ -333,10 +333,18 @@ impl Verdict {
                 let differ = |(key, value): (&String, &serde_json::Value)| {
                     let new = new.values.get(key);
                     let is = new.map_or("missing".to_owned(), ToString::to_string);
-                    (new != Some(value)).then(|| format!("{key} was {value}, is {is}"))
+                    (!new.is_some_and(|new| is_near(value, new)))
+                        .then(|| format!("{key} was {value}, is {is}"))
                 };
                 let all: Vec<String> = old.values.iter().filter_map(differ).collect();
-                let first = all.first().map_or("more values are given", String::as_str);
+                let first = match all.first() {
+                    Some(first) => first,
+                    None if old.values.len() == new.values.len() => {
+                        self.notes.push(format!("{name}: differs by at most 1 of 10,000"));
+                        continue;
+                    }
+                    None => "more values are given",
+                };
                 let more = match all.len() {
                     0 | 1 => String::new(),
                     count => format!(" (and {} more)", count - 1),
@@ -345,6 +353,14 @@ impl Verdict {
             }
         }
     }
+}
+
+/// True if two values are equal, or are means that differ by no more than another processor's rounding: a software
+/// driver compiles for the one that it finds. Counts must be equal.
+fn is_near(old: &serde_json::Value, new: &serde_json::Value) -> bool {
+    let (Some(a), Some(b)) = (old.as_f64(), new.as_f64()) else { return old == new };
+    let is_count = old.is_u64() || old.is_i64();
+    a == b || !is_count && (a - b).abs() <= 1e-4 * a.abs()
 }
 
 /// The items that have passed since the code last changed, in `target/verify`: a run that was interrupted goes on.
@@ -382,4 +398,26 @@ fn state(root: &Path) -> String {
     change::text(root, &["rev-parse", "HEAD"]).hash(&mut hasher);
     change::text(root, &["diff", "HEAD"]).hash(&mut hasher);
     format!("{:016x}", hasher.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::is_near;
+
+    #[test]
+    fn counts_are_equal_and_means_are_near() {
+        for (old, new, near) in [
+            (json!(723), json!(723), true),
+            (json!(100_000), json!(100_001), false),
+            (json!(0.09921577), json!(0.09921809), true),
+            (json!(0.0992), json!(0.0994), false),
+            (json!(0.0), json!(1e-9), false),
+            (json!("a"), json!("a"), true),
+            (json!(null), json!(0.5), false),
+        ] {
+            assert_eq!(is_near(&old, &new), near, "{old} {new}");
+        }
+    }
 }
