@@ -84,6 +84,7 @@ fn whole_cells_keep_the_digits_that_a_sum_of_floats_loses() {
 }
 
 #[test]
+#[ignore = "nightly: compiles for a GPU; quick: gpus budgets::no_chapter_costs_a_gpu_more_than_is_recorded"]
 fn a_pipeline_with_callables_is_many_programs_and_one_without_is_one() {
     for (choose, several) in [("callable", true), ("switch", false), ("hit group", false)] {
         let choose = format!("choose by={choose}");

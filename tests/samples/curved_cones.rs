@@ -36,14 +36,24 @@ fn the_picture_is_the_golden_one_and_repeats() {
 /// A field of a type that does not exist stops the pipelines that carry it, and no others.
 #[test]
 fn a_payload_carries_the_cone_or_the_neighbours_and_never_both() {
+    a_payload_carries_what_its_footprint_reads(&FOOTPRINTS[2..]);
+}
+
+#[test]
+#[ignore = "nightly: the other footprints; quick: curved_cones::a_payload_carries_the_cone_or_the_neighbours_and_never_both"]
+fn so_it_is_with_every_footprint() {
+    a_payload_carries_what_its_footprint_reads(&FOOTPRINTS);
+}
+
+fn a_payload_carries_what_its_footprint_reads(footprints: &[&str]) {
     for (field, carried_by) in [("Beam beam;", &FOOTPRINTS[3..]), ("Cone cone;", &FOOTPRINTS[..3])]
     {
         let shaders = shaders_with(&format!("{NAME}/seen.glsl"), field, "NoSuchType field;");
-        for footprint in FOOTPRINTS {
+        for footprint in footprints {
             let mut sample = command(NAME);
             sample.env("SHADERS", shaders.path());
             let arguments = ["--set", &format!("footprint={footprint}")];
-            if carried_by.contains(&footprint) {
+            if carried_by.contains(footprint) {
                 sample.args(["--headless", "--size", "8x8"]).args(arguments);
                 let (code, line) = refusal(sample.output().expect("the sample starts"));
                 assert!(code == 1 && line.contains("seen.glsl"), "{footprint}, {field} {line}");

@@ -37,7 +37,7 @@ const EQUALITIES: [Equality; 11] = [
         one: ("10_position_fetch", &[]),
         other: ("02_basic", &[]),
         shows_answers: false,
-        is_quick: true,
+        is_quick: false,
     },
     Equality {
         what: "10 by positions of the structure = of a buffer",
@@ -88,7 +88,7 @@ const EQUALITIES: [Equality; 11] = [
         one: ("06_reflection", &["method=iterative"]),
         other: ("06_reflection", &["method=recursive"]),
         shows_answers: false,
-        is_quick: true,
+        is_quick: false,
     },
     Equality {
         what: "12 that tests the plane before = after",
@@ -150,7 +150,7 @@ fn differs(equality: &Equality, seed: u32) -> bool {
 /// come in none (Ray Intersection Candidate Determination).
 #[test]
 fn at_a_shared_edge_either_triangle_answers() {
-    for height in 1..=8 {
+    for height in [1, 3, 8] {
         let eye = format!("camera eye=0,{height},8");
         let hits = |order: &[&str]| {
             let sets = ["--set", &eye, "--set", "camera target=0,0,0", "--set", "show=hit"];

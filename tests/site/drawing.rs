@@ -52,6 +52,7 @@ fn drawings() -> Vec<PathBuf> {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn every_drawing_stands_out_by_light_and_by_dark() {
     let mut browser = Browser::start();
     let (mut faults, mut seen) = (Vec::new(), 0);
@@ -68,6 +69,7 @@ fn every_drawing_stands_out_by_light_and_by_dark() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn dark_ink_that_stays_on_dark_paper_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("a.svg");
@@ -109,6 +111,7 @@ fn lightness(browser: &mut Browser) -> f64 {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_drawing_of_the_book_follows_its_switch_whatever_the_system_prefers() {
     let mut browser = Browser::start();
     browser.size(1280, 900, false);

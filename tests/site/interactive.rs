@@ -102,6 +102,7 @@ pub fn found(browser: &mut Browser, controls: &[(&str, &str)], what: &str) -> Va
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
     let mut browser = Browser::with_webgl();
     let mut answered = 0;
@@ -148,6 +149,7 @@ fn every_figure_starts_can_be_read_and_answers_the_keyboard_alone() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn who_is_on_the_still_picture_by_the_keyboard_goes_on_with_the_figure() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, DESK);
@@ -161,6 +163,7 @@ fn who_is_on_the_still_picture_by_the_keyboard_goes_on_with_the_figure() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn points_can_be_dragged() {
     let grips =
         "[...figure.stage.querySelectorAll('.grip')].map(grip => grip.getBoundingClientRect())
@@ -206,6 +209,7 @@ fn points_can_be_dragged() {
 
 // Without it the test above would say nothing of fingers. Firefox's do not move a page.
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn beside_a_point_a_finger_moves_the_page() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, PHONE);
@@ -242,6 +246,7 @@ fn other(from: &str, to: &str) -> (tempfile::TempDir, Result<String, String>) {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_changed_line_of_a_shader_changes_its_figure() {
     let mut browser = Browser::with_webgl();
     let mut medians = Vec::new();
@@ -256,6 +261,7 @@ fn a_changed_line_of_a_shader_changes_its_figure() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_line_that_fits_no_more_is_named() {
     let text = fs::read_to_string(root().join("shaders/common/sphere.glsl")).unwrap();
     let old = "precise float root = sqrt(discriminant);";
@@ -274,6 +280,7 @@ fn a_line_that_fits_no_more_is_named() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_figure_out_of_view_costs_nothing() {
     let mut browser = Browser::with_webgl();
     sized(&mut browser, DESK);
@@ -296,6 +303,7 @@ fn a_figure_out_of_view_costs_nothing() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
     let still = "[figure.box.querySelector('.still').checkVisibility(), \
                  figure.controls.checkVisibility(), figure.said.textContent]";
@@ -323,8 +331,10 @@ fn a_figure_outlives_a_lost_context_and_does_without_webgl() {
 
 // Each figure is drawn and answers; one runs its shader, and points follow mouse and finger.
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn figures_start_compute_and_are_dragged_in_firefox_too() {
     in_firefox(&[
+        "--ignored",
         "every_figure_starts_can_be_read_and_answers_the_keyboard_alone",
         "sphere::",
         "points_can_be_dragged",
@@ -333,11 +343,13 @@ fn figures_start_compute_and_are_dragged_in_firefox_too() {
 }
 
 #[test]
-#[ignore = "nightly: a minute; quick: interactive::figures_start_compute_and_are_dragged_in_firefox_too"]
+#[ignore = "nightly only: a minute"]
 fn what_these_tests_find_in_chromium_holds_in_firefox() {
-    // Those which ask no browser, which ask what the book's build has made, and for a finger that moves the page.
-    let skipped = ["firefox", "a_line_that", "the_scripts", "a_changed_line", "beside_a_point"];
-    let mut arguments = vec!["interactive::", "a_page_with_faults_is_not_called_quiet"];
+    // Those which ask what the book's build has made, for a finger that moves the page, or are run by hand.
+    let skipped =
+        ["firefox", "a_line_that", "a_changed_line", "beside_a_point", "stills", "pictures"];
+    let mut arguments =
+        vec!["--ignored", "interactive::", "a_page_with_faults_is_not_called_quiet"];
     arguments.extend(skipped.iter().flat_map(|name| ["--skip", name]));
     in_firefox(&arguments);
 }

@@ -85,6 +85,7 @@ pub fn checked(browser: &mut Browser) -> Checked {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn every_page_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     let (Checked { kinds, scrolling, .. }, asked) =
         read(addresses().filter(|page| !page.ends_with(CODE)));
@@ -94,7 +95,7 @@ fn every_page_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
 }
 
 #[test]
-#[ignore = "nightly: a minute; quick: reading::pages_of_code_are_quiet_and_can_be_read_on_a_desk_and_on_a_phone"]
+#[ignore = "nightly only: a minute"]
 fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     let (Checked { kinds, .. }, asked) = read(addresses().filter(|page| page.ends_with(CODE)));
     assert!(kinds > 1600 && asked > 300, "{kinds} kinds of text, {asked} requests");
@@ -102,6 +103,7 @@ fn every_page_of_code_is_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
 
 // All of them are made by the same words: one without a parent, one beside it, and that of the first page.
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn pages_of_code_are_quiet_and_can_be_read_on_a_desk_and_on_a_phone() {
     let chosen = ["01_foundation", "02_basic", "index"].map(|name| format!("{name}{CODE}"));
     let (Checked { kinds, .. }, _) = read(chosen.iter());
@@ -152,6 +154,7 @@ fn lost_pictures(browser: &mut Browser) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_page_with_faults_is_not_called_quiet() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("page.html");
@@ -185,6 +188,7 @@ fn a_page_with_faults_is_not_called_quiet() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_slider_moves_by_the_arrow_keys() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);
@@ -218,6 +222,7 @@ fn a_slider_moves_by_the_arrow_keys() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_tab_key_reaches_everything_and_shows_where_it_is() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);
@@ -262,6 +267,7 @@ fn the_tab_key_reaches_everything_and_shows_where_it_is() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn what_scrolls_sideways_shows_it_and_is_moved_by_the_arrow_keys() {
     let mut browser = Browser::start();
     sized(&mut browser, PHONE);
@@ -289,6 +295,7 @@ fn what_scrolls_sideways_shows_it_and_is_moved_by_the_arrow_keys() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_search_answers_from_a_file() {
     let mut browser = Browser::start();
     sized(&mut browser, PHONE);
@@ -317,6 +324,7 @@ fn the_search_answers_from_a_file() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_arrow_keys_turn_the_pages() {
     let mut browser = Browser::start();
     sized(&mut browser, DESK);

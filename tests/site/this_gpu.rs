@@ -95,6 +95,7 @@ fn part(errors: &[f64], part: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_stored_answers_are_exact() {
     let all = exact(swiftshader()).concat();
     // From a half on a step is a 256th of a ULP.
@@ -158,11 +159,13 @@ fn hold(told: &Value) {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn two_floats_are_right_and_the_counts_are_those_of_the_raw_bits() {
     hold(swiftshader());
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_textbook_errs_as_much_as_the_chapter_says() {
     let chapter = stored("24_accuracy/sphere_errors");
     let [exact, _] = exact(swiftshader());
@@ -182,6 +185,7 @@ fn the_textbook_errs_as_much_as_the_chapter_says() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn operations_are_judged_as_the_processor_judges_them() {
     let told = swiftshader();
     let operands: Vec<[f64; 3]> = serde_json::from_value(told["operands"].clone()).unwrap();
@@ -236,6 +240,7 @@ fn operations_are_judged_as_the_processor_judges_them() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn without_keep_nothing_is_left_of_it_but_its_name() {
     let mut browser = Browser::with_webgl();
     shown(&mut browser, &address(PAGE), "device");
@@ -290,6 +295,7 @@ fn planted(file: &str, from: &str, to: &str) -> Value {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_planted_error_of_2_ulp_is_seen_and_of_its_rung_alone() {
     let told = planted(
         "shaders/24_accuracy/sphere_two_float.glsl",
@@ -309,6 +315,7 @@ fn a_planted_error_of_2_ulp_is_seen_and_of_its_rung_alone() {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn a_sum_s_error_that_is_lost_is_seen() {
     let told = planted(
         "shaders/common/error_free.glsl",
@@ -358,6 +365,7 @@ fn recorded(name: &str, device: &str, browser: &mut Browser, told: &Value) {
 }
 
 #[test]
+#[ignore = "nightly only: in a browser"]
 fn the_page_has_the_numbers_of_swiftshader() {
     let told = swiftshader();
     // It rearranges nothing.

@@ -84,7 +84,7 @@ fn tables(count: usize, truth: &[&str]) -> Vec<(&'static str, usize, [[f64; 2]; 
 
 #[test]
 fn curvature_brings_the_picture_nearer_and_calms_it() {
-    tables(2, &["footprint=point", "rays=8"]);
+    tables(2, &["footprint=point", "rays=4"]);
 }
 
 #[test]

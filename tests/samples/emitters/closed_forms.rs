@@ -150,11 +150,21 @@ fn squares_light_each_other_as_their_form_factors_say() {
     for (scene, square) in &SQUARES {
         let expected = form_factors(64, square);
         let set = format!("scene={scene}");
+        for points in ["triangles=area", "triangles=solid angle"] {
+            is_lit_as(&expected, &[&set, "estimator=light", points, "depth=1"], 64);
+        }
+    }
+}
+
+#[test]
+#[ignore = "nightly: the other estimators; quick: emitters::closed_forms::squares_light_each_other_as_their_form_factors_say"]
+fn so_they_do_when_paths_meet_them() {
+    for (scene, square) in &SQUARES {
+        let expected = form_factors(64, square);
+        let set = format!("scene={scene}");
         is_lit_as(&expected, &[&set, "estimator=BSDF", "depth=1"], 64);
-        for name in ["light", "MIS"] {
-            for points in ["triangles=area", "triangles=solid angle"] {
-                is_lit_as(&expected, &[&set, &estimator(name), points, "depth=1"], 64);
-            }
+        for points in ["triangles=area", "triangles=solid angle"] {
+            is_lit_as(&expected, &[&set, "estimator=MIS", points, "depth=1"], 64);
         }
     }
 }
@@ -340,8 +350,18 @@ fn a_furnace_is_white_whoever_finds_its_light() {
 
 #[test]
 fn a_room_that_shines_is_as_bright_as_its_series() {
-    for name in ESTIMATORS {
-        for depth in [0, 1, 2, 256] {
+    the_room_is_as_bright_as_its_series(&["MIS"], &[0, 1, 256]);
+}
+
+#[test]
+#[ignore = "nightly: every estimator; quick: emitters::closed_forms::a_room_that_shines_is_as_bright_as_its_series"]
+fn so_it_is_by_every_estimator_to_every_depth() {
+    the_room_is_as_bright_as_its_series(&ESTIMATORS, &[0, 1, 2, 256]);
+}
+
+fn the_room_is_as_bright_as_its_series(estimators: &[&str], depths: &[i32]) {
+    for name in estimators {
+        for &depth in depths {
             let set = format!("depth={depth}");
             let sets = ["scene=closed room", &set, &estimator(name)];
             let estimate = Estimate::of(&brightness(&picture("96x60", 16, &sets)));

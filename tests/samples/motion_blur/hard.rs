@@ -36,7 +36,8 @@ fn a_pawn_is_a_pawn_until_the_shutter_opens_upon_a_queen() {
         let [pawn, queen] = ["", "queen"].map(|becomes| promoted(folder.path(), lift, becomes));
         for method in METHODS {
             let both = |frame: &str, show: &str| {
-                [&pawn, &queen].map(|file| seen(file, &[frame, "shutter=2", method, show]))
+                [&pawn, &queen]
+                    .map(|file| seen(file, &[frame, "shutter=2", "samples=8", method, show]))
             };
             for show in ["show=picture", "show=normal", "show=smear"] {
                 let [pawn, queen] = both("frame=33", show);
@@ -52,7 +53,7 @@ fn a_pawn_is_a_pawn_until_the_shutter_opens_upon_a_queen() {
     std::fs::write(&stands, "last 60\npiece white queen 1 0 0.5\npiece black rook 3 0 0.5\n")
         .unwrap();
     for method in METHODS {
-        let sets = ["frame=34", "shutter=2", method];
+        let sets = ["frame=34", "shutter=2", "samples=8", method];
         let [arrived, stands] = [&queen, stands.to_str().unwrap()].map(|file| seen(file, &sets));
         assert!(arrived == stands, "{method}: a queen that was a pawn is another queen");
     }

@@ -104,6 +104,7 @@ fn mixed(half: f64, time: f64) -> f64 {
 
 /// A knight that flies and turns, against its triangles in 64 bits at 1,024 times, moved by a formula of its own.
 #[test]
+#[ignore = "nightly: 1,024 samples a pixel; quick: motion_blur::smear::the_smear_of_a_ball_is_its_closed_form"]
 fn the_smear_of_a_knight_is_that_of_1024_times() {
     const TIMES: u32 = 1024;
     let folder = tempfile::tempdir().unwrap();

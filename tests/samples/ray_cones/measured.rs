@@ -48,7 +48,7 @@ fn place(distance: f64, angle: f64) -> String {
 
 #[test]
 fn an_ellipse_is_nearest_and_a_point_flickers() {
-    let truth = frames(80.0, 10.0, &TRUTH);
+    let truth = frames(80.0, 10.0, &["footprint=point", "rays=16"]);
     let found = FOOTPRINTS.map(|footprint| judged(80.0, 10.0, footprint, &truth));
     println!("{found:.4?}");
     let [point, cone, ellipse, differentials] = found;
