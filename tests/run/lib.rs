@@ -2,6 +2,7 @@
 
 #[cfg(target_os = "linux")]
 pub mod cards;
+mod chapter;
 pub mod equality;
 pub mod expected;
 pub mod failures;
@@ -21,6 +22,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, Requirements};
+pub use chapter::Chapter;
 pub use device;
 pub use equality::{Near, same_answers, same_colors, same_hits};
 pub use flip::near::pictures as flip;

@@ -1,0 +1,96 @@
+//! A run of a chapter, told as a sentence: `Chapter::new("22_solids").set("view", "inside").picture()`.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::app::Picture;
+
+use crate::{Run, command, golden, render_by};
+
+/// A headless run under validation, of 96x60 pixels unless said.
+#[derive(Clone, Debug)]
+#[must_use = "it runs at `picture` or `run`"]
+pub struct Chapter {
+    name: &'static str,
+    size: String,
+    arguments: Vec<String>,
+    shaders: Option<PathBuf>,
+}
+
+impl Chapter {
+    /// The chapter of this name, as it starts.
+    pub fn new(name: &'static str) -> Self {
+        Self { name, size: "96x60".to_owned(), arguments: Vec::new(), shaders: None }
+    }
+
+    /// Width and height in pixels, such as `240x150`.
+    pub fn size(mut self, size: impl Into<String>) -> Self {
+        self.size = size.into();
+        self
+    }
+
+    /// Sets a control.
+    pub fn set(self, control: &str, value: impl ToString) -> Self {
+        self.sets(&[format!("{control}={}", value.to_string())])
+    }
+
+    /// Sets controls, each as `name=value`.
+    pub fn sets(mut self, settings: &[impl AsRef<str>]) -> Self {
+        let settings = settings.iter().map(|set| set.as_ref().to_owned());
+        self.arguments.extend(settings.flat_map(|set| ["--set".to_owned(), set]));
+        self
+    }
+
+    /// Number of frames; the last one is the picture.
+    pub fn frames(self, frames: u32) -> Self {
+        self.with(&["--frames", &frames.to_string()])
+    }
+
+    /// A file in the place of the chapter's own scene.
+    pub fn scene(self, file: impl AsRef<Path>) -> Self {
+        let file = file.as_ref().to_str().expect("a path of plain letters");
+        self.with(&["--scene", file])
+    }
+
+    /// Other shaders than the book's.
+    pub fn shaders(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.shaders = Some(folder.into());
+        self
+    }
+
+    /// Adds arguments.
+    pub fn with(mut self, arguments: &[&str]) -> Self {
+        self.arguments.extend(arguments.iter().map(|&argument| argument.to_owned()));
+        self
+    }
+
+    /// The command, without size and output.
+    fn command(&self) -> Command {
+        let mut command = command(self.name);
+        if let Some(shaders) = &self.shaders {
+            command.env("SHADERS", shaders);
+        }
+        command
+    }
+
+    /// Runs it; a failure or a message is a failed test.
+    #[track_caller]
+    pub fn run(&self) -> Run {
+        let arguments: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
+        render_by(&mut self.command(), &self.size, &arguments)
+    }
+
+    /// The picture of a run.
+    #[track_caller]
+    pub fn picture(&self) -> Picture {
+        self.run().picture
+    }
+
+    /// Runs it and holds its picture against the golden one, `tests/golden/NAME.png`.
+    ///
+    /// `tolerance` is the largest mean FLIP error on the device that set it.
+    #[track_caller]
+    pub fn is_golden(&self, tolerance: f32) {
+        golden(self.name, &self.picture(), tolerance);
+    }
+}
