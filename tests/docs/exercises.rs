@@ -35,7 +35,10 @@ fn prove(names: &[&str]) {
     assert_eq!(outcome.out.lines().count(), names.len());
 }
 
-/// The first shader exercise of each chapter, and what has been edited since the last commit.
+/// The chapters whose first shader exercise is proved by day. `chapters check` holds that every patch fits.
+const BY_DAY: [&str; 3] = ["02", "08", "22"];
+
+/// A few exercises, and what has been edited since the last commit.
 #[test]
 fn exercises_are_unsolved_before_their_solution_and_solved_after() {
     let all = exercises();
@@ -50,9 +53,11 @@ fn exercises_are_unsolved_before_their_solution_and_solved_after() {
         let mut of_chapter = all.iter().filter(|(other, _)| chapter(other) == chapter(name));
         of_chapter.find(|(_, takes)| takes == "shader").is_some_and(|(first, _)| first == name)
     };
+    let by_day = |name: &str| BY_DAY.contains(&&*chapter(name)) && first(name);
     let chosen =
-        all.iter().filter(|(name, takes)| is_quick(takes) && (first(name) || edited(name)));
+        all.iter().filter(|(name, takes)| is_quick(takes) && (by_day(name) || edited(name)));
     let names: Vec<&str> = chosen.map(|(name, _)| &**name).collect();
+    assert!(names.len() >= BY_DAY.len(), "{names:?}");
     prove(&names);
 }
 
@@ -66,10 +71,8 @@ fn two_ways_to_the_same_picture_may_round_as_they_like() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_chapters"));
         run(command.args(["exercise", "16.1", "--prove"]).env("ARITHMETIC_SEED", seed))
     };
-    for seed in ["1", "2"] {
-        let outcome = proved(seed);
-        assert_eq!(outcome.out, "16.1: its answer holds\n", "{}", outcome.err);
-    }
+    let outcome = proved("1");
+    assert_eq!(outcome.out, "16.1: its answer holds\n", "{}", outcome.err);
 }
 
 #[test]

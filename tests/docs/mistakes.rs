@@ -32,7 +32,10 @@ fn tool(arguments: &[&str]) -> (i32, String, String) {
     (outcome.code, outcome.out, outcome.err)
 }
 
-/// The first mistake of each chapter, and what has been edited since the last commit.
+/// The chapters whose first mistake is tried by day. `chapters check` holds that every patch fits.
+const BY_DAY: [&str; 3] = ["02_basic", "05_shadow_miss", "22_solids"];
+
+/// A few mistakes, and what has been edited since the last commit.
 #[test]
 fn mistakes_in_shaders_do_what_their_files_claim() {
     let (in_rust, changed) = (in_rust(), ::run::changed());
@@ -44,7 +47,8 @@ fn mistakes_in_shaders_do_what_their_files_claim() {
         let (name, chapter) = (words.next().expect("a name"), words.next().expect("a chapter"));
         let own = [format!("docs/mistakes/{name}.diff"), format!("shaders/{chapter}/")];
         let edited = changed.iter().any(|file| own.iter().any(|own| file.starts_with(own)));
-        if in_rust.iter().any(|other| other == name) || seen.contains(&chapter) && !edited {
+        let is_first_by_day = BY_DAY.contains(&chapter) && !seen.contains(&chapter);
+        if in_rust.iter().any(|other| other == name) || !is_first_by_day && !edited {
             continue;
         }
         seen.push(chapter);
@@ -52,7 +56,7 @@ fn mistakes_in_shaders_do_what_their_files_claim() {
         let (code, out, err) = tool(&[name, "--check"]);
         assert_eq!(code, 0, "\n{out}{err}");
     }
-    assert!(PROGRAMS.iter().all(|program| seen.contains(program)), "{seen:?}");
+    assert!(BY_DAY.iter().all(|program| seen.contains(program)), "{seen:?}");
 }
 
 #[test]

@@ -156,6 +156,7 @@ fn a_window_that_is_played_with_for_long_holds_no_more_than_before() {
 }
 
 #[test]
+#[ignore = "nightly: many pipelines; quick: a_pipeline_that_is_made_in_the_background_changes_the_picture_when_it_is_there"]
 fn controls_may_change_faster_than_pipelines_are_made() {
     let _alone = alone();
     let arguments = ["--validate", "--size", "800x700", "--set", "scene=opening"];

@@ -135,6 +135,7 @@ fn an_animation_is_stepped_played_and_paused_by_keys() {
 }
 
 #[test]
+#[ignore = "nightly: a large window; quick: a_window_shows_the_picture_and_answers_mouse_and_keys"]
 fn a_wide_window_has_the_panel_beside_the_picture() {
     let _alone = alone();
     let desk = Desk::open("02_basic", &["--validate", "--size", "960x420"], &[]);
@@ -174,6 +175,7 @@ fn a_window_can_be_resized_minimised_and_closed() {
 }
 
 #[test]
+#[ignore = "nightly: another window; quick: a_window_shows_the_picture_and_answers_mouse_and_keys"]
 fn home_brings_the_camera_back() {
     let _alone = alone();
     let desk = Desk::open("02_basic", &["--size", "480x300"], &[]);
@@ -289,6 +291,7 @@ fn edited_shaders_are_reloaded_and_broken_ones_are_told_of() {
 
 /// A file that changes between the look of the check and that of the compiler is of no consequence.
 #[test]
+#[ignore = "nightly: many compilations; quick: edited_shaders_are_reloaded_and_broken_ones_are_told_of"]
 fn a_shader_may_change_while_it_is_compiled() {
     let _alone = alone();
     let copy = tempfile::tempdir().expect("a temporary folder");
@@ -330,6 +333,7 @@ fn a_server_without_an_extension_is_said_in_one_line() {
 }
 
 #[test]
+#[ignore = "nightly: another X server; quick: a_window_that_another_client_destroys_ends_in_one_line"]
 fn a_server_that_dies_ends_the_window_in_one_line() {
     let _alone = alone();
     let mut desk = Desk::open("02_basic", &["--size", "320x200"], &[]);
@@ -393,6 +397,7 @@ fn what_a_window_system_takes_away_is_made_again_and_a_lost_device_is_said() {
 }
 
 #[test]
+#[ignore = "nightly: a large window; quick: a_window_can_be_resized_minimised_and_closed"]
 fn a_window_may_be_larger_than_a_picture() {
     let _alone = alone();
     let (_narrow, environment) = narrow("rays=40000");

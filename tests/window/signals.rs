@@ -11,6 +11,8 @@ use reference::random::Random;
 use crate::alone;
 use crate::desk::{self, Desk, KEY_F2};
 
+/// Windows that get a signal, each at another moment.
+const TRIES: u32 = 3;
 const SIGNALS: [(&str, i32); 3] = [("INT", 2), ("TERM", 15), ("HUP", 1)];
 
 /// Sends a signal that is drawn, and returns its number.
@@ -32,7 +34,7 @@ fn ended_by(number: i32, output: &Output) {
 fn a_signal_may_come_while_a_window_opens() {
     let _alone = alone();
     let mut random = Random(1);
-    for _ in 0..10 {
+    for _ in 0..TRIES {
         let mut sent = 0;
         let output = desk::outcome_with("02_basic", &["--size", "320x200"], &[], |id| {
             sleep(Duration::from_secs_f64(random.between(0.0, 1.2)));
@@ -46,7 +48,7 @@ fn a_signal_may_come_while_a_window_opens() {
 fn a_signal_may_come_while_a_window_writes_a_picture() {
     let _alone = alone();
     let mut random = Random(2);
-    for _ in 0..6 {
+    for _ in 0..TRIES {
         let desk = Desk::open("02_basic", &["--size", "640x420"], &[]);
         let folder = desk.folder.path().to_owned();
         desk.key(KEY_F2);
