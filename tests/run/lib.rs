@@ -20,9 +20,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
+pub use chapter::{Chapter, set_arguments};
 use common::app::Picture;
 use common::gpu::{Gpu, GpuOptions, Requirements};
-pub use chapter::Chapter;
 pub use device;
 pub use equality::{Near, same_answers, same_colors, same_hits};
 pub use flip::near::pictures as flip;
